@@ -1,0 +1,24 @@
+"""Designs: model, pattern language, documents, errors. Readable without numpy."""
+
+from .errors import DesignError, FacadeError, Fault, NoLayout, PatternError
+from .model import Canvas, Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol
+from .pattern import Glyph, Pattern, parse
+
+__all__ = [
+    "Canvas",
+    "Counter",
+    "Design",
+    "DesignError",
+    "FacadeError",
+    "Fault",
+    "Glyph",
+    "Layer",
+    "LayerAxis",
+    "NoLayout",
+    "Pattern",
+    "PatternDef",
+    "PatternError",
+    "Shape",
+    "Symbol",
+    "parse",
+]

@@ -1,0 +1,101 @@
+"""What can be wrong with a design, and how it is told.
+
+A fault names its place, says what was expected and what was found. Errors carry all faults found, not the first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+__all__ = ["DesignError", "FacadeError", "Fault", "NoLayout", "PatternError", "nearest"]
+
+
+class FacadeError(Exception):
+    """Base of the errors that are the user's to mend. Their text is meant to be read, without a traceback."""
+
+    def _render_traceback_(self) -> list[str]:
+        """IPython asks for this: in a notebook a mistake in a design shows its message and nothing else."""
+        return [f"{type(self).__name__}: {self}"]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One thing that is wrong.
+
+    Attributes
+    ----------
+    place
+        Where, as a path in the document: ``patterns.Bx``, ``layers[1].x.mask``; empty for a bare pattern text.
+    message
+        What was expected and what was found, in one sentence, with the nearest valid name where there is one.
+    line, column
+        Position inside a pattern text, from 1; None for faults outside texts.
+    excerpt
+        The line of the text and a caret under the place, two lines; empty for faults outside texts.
+    """
+
+    place: str
+    message: str
+    line: int | None = None
+    column: int | None = None
+    excerpt: str = ""
+
+    def __str__(self) -> str:
+        where = self.place
+        if self.line is not None:
+            where = f"{where}, " if where else ""
+            where += f"line {self.line}, column {self.column}"
+        head = f"{where}: {self.message}" if where else self.message
+        return f"{head}\n{self.excerpt}" if self.excerpt else head
+
+
+class DesignError(FacadeError, ValueError):
+    """A design, or a text in it, that cannot be read. `faults` has every fault found."""
+
+    def __init__(self, faults: Iterable[Fault] | Fault | str) -> None:
+        if isinstance(faults, str):
+            faults = Fault("", faults)
+        self.faults: tuple[Fault, ...] = (faults,) if isinstance(faults, Fault) else tuple(faults)
+        super().__init__("\n".join(map(str, self.faults)))
+
+
+class PatternError(DesignError):
+    """A pattern text that cannot be read: one fault, with line, column and caret."""
+
+    @property
+    def fault(self) -> Fault:
+        """The one fault."""
+        return self.faults[0]
+
+
+@dataclass(eq=False)
+class NoLayout(FacadeError):
+    """A valid design that has no layout.
+
+    Attributes
+    ----------
+    message
+        In a designer's words: what is to blame, and the smallest change that would work where one is known.
+    axis
+        ``"x"`` or ``"y"``, or empty where both take part.
+    patterns, symbols, counters
+        Names of what is to blame, for a view to point at.
+    """
+
+    message: str
+    axis: str = ""
+    patterns: tuple[str, ...] = field(default=())
+    symbols: tuple[str, ...] = field(default=())
+    counters: tuple[str, ...] = field(default=())
+
+    def __str__(self) -> str:
+        return self.message
+
+
+def nearest(name: str, valid: Iterable[str]) -> str:
+    """Return ``"; did you mean 'x'?"`` for the valid name nearest to `name`, or an empty text."""
+    names = [str(v) for v in valid]
+    found = get_close_matches(name, names, n=1, cutoff=0.5) or [v for v in names if v.lower() == name.lower()]
+    return f"; did you mean {found[0]!r}?" if found else ""

@@ -1,0 +1,108 @@
+"""Aligning one candidate of one group: the call that checks and lessons use (SPEC 6)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import isfinite
+
+from .columns import Group, make_group
+from .ida import search_ida
+from .letters import Letter
+from .objective import Objective
+from .pricing import Priced
+from .search import search as search_best
+
+__all__ = ["SEARCHES", "Alignment", "Element", "align", "alignment_of"]
+
+Element = tuple[Letter, ...]
+SEARCHES = ("best", "ida")
+
+
+@dataclass(frozen=True, slots=True)
+class Alignment:
+    """Words cut into columns (the matrix of the paper's Eq. 8).
+
+    Attributes
+    ----------
+    columns
+        Per column, per row (topmost first): the letters in it; a piece of a cut letter, and an unsized letter, has
+        the size that makes the objective least. An empty tuple is ε.
+    error
+        Ω = Σ ω_j, metres (Eq. 9, or its variant for non-opaque rows under the default objective).
+    cost
+        J under the objective; Ω under the paper's.
+    width
+        W = Σ_j of the largest row size.
+    """
+
+    columns: tuple[tuple[Element, ...], ...]
+    error: float
+    cost: float
+    width: float
+
+    def __str__(self) -> str:
+        return " | ".join("/".join(" ".join(map(str, e)) or "ε" for e in column) for column in self.columns)
+
+
+def align(
+    rows: Sequence[Sequence[Letter]],
+    canvas: float = 12.0,
+    tolerance: float = 0.0,
+    objective: Objective | None = None,
+    search: str = "ida",
+    cuts: bool = True,
+) -> Alignment | None:
+    """Best alignment of the given words, topmost first.
+
+    Parameters
+    ----------
+    rows
+        Words, topmost row first. A letter without a size gets the size that makes the objective least; all letters of
+        its symbol the same.
+    canvas, tolerance
+        Metres: ω_j ≤ tolerance and |W − canvas| ≤ tolerance.
+    objective
+        Default `Objective.paper()`.
+    search
+        ``"ida"``, the paper's, or ``"best"``. Both return the same cost and number of columns.
+    cuts
+        Whether transparent letters may be cut.
+
+    Returns
+    -------
+    The alignment, or None where the constraints and the tolerance leave none.
+
+    Raises
+    ------
+    ValueError
+        For an unknown search, sizes that are not finite and positive, or a solid letter without a size.
+    """
+    if search not in SEARCHES:
+        raise ValueError(f"search: expected one of {', '.join(SEARCHES)}; found {search!r}")
+    for i, row in enumerate(rows):
+        for k, letter in enumerate(row):
+            if letter.size is None and not letter.transparent:
+                raise ValueError(f"rows[{i}][{k}]: {letter} is solid and needs a size")
+            if letter.size is not None and not (isfinite(letter.size) and letter.size > 0):
+                raise ValueError(f"rows[{i}][{k}]: expected a positive size, found {letter.size!r}")
+    if not isfinite(canvas) or canvas < 0 or not tolerance >= 0:
+        raise ValueError(f"expected canvas ≥ 0 and tolerance ≥ 0, found {canvas!r} and {tolerance!r}")
+    if not any(rows):
+        return Alignment((), 0.0, 0.0, 0.0) if canvas <= tolerance else None
+    group = make_group(rows, canvas, tolerance, Objective.paper() if objective is None else objective, cuts=cuts)
+    found = (search_ida if search == "ida" else search_best)([group])
+    return None if found.best is None else alignment_of(group, found.best, 0)
+
+
+def alignment_of(group: Group, priced: Priced, index: int) -> Alignment:
+    """The matrix of one group of a priced structure, with every row of equal words written out."""
+    columns: list[tuple[Element, ...]] = []
+    for column, sizes in zip(priced.structure[index], priced.pieces[index], strict=True):
+        elements = [
+            tuple(replace(band.letters[i], size=size) for i, size in zip(option.letters, own, strict=True))
+            for band, option, own in zip(group.bands, column, sizes, strict=True)
+        ]
+        columns.append(tuple(elements[b] for b in group.band_of))
+    cost = priced.cost if len(priced.structure) == 1 else priced.omegas[index]
+    return Alignment(tuple(columns), priced.omegas[index], cost, priced.widths[index])

@@ -1,0 +1,335 @@
+"""The columns of an alignment: what may stand in one, and what it costs (SPEC 3, *Columns*; the paper's 5.2).
+
+A group of an axis has rows; equal words are one `Band`, because they are cut alike. A column takes from each band an
+*element*: nothing, a run of solid letters, or a run of transparent letters whose first and last may be pieces of cut
+ones. An `Option` is such an element as seen from the band's position, with everything the constraints and the cost
+ask about it computed once; a column is a tuple of options, one a band.
+
+Constraints, by the numbers of SPEC 3:
+
+- C1  an empty row, or a letter that is neither transparent nor opaque, needs a row all opaque in the column;
+- C2  a row of a column is all transparent or all not (options are made that way);
+- C3  above a solid unoccludable letter only ε, transparent or opaque letters;
+- C4  no ε next to a solid attached letter that ends or begins an element.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import inf
+
+from .letters import Letter
+from .objective import Objective
+
+__all__ = ["EPS", "Band", "Group", "Option", "Position", "column_terms", "make_group"]
+
+EPS = 1e-9
+"""Costs and sizes closer than this are equal."""
+
+Position = int
+"""Where a band stands: ``8·i + 4·mid + 2·gap + held``: the next letter i; `mid`: letter i is cut and its rest is still
+to come; `gap`: the column before was empty here and letter i is attached, so it may not begin the next (C4); `held`:
+the last element ended with an attached letter, so the next column may not be empty here (C4)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Option:
+    """One element a band may put into a column.
+
+    Attributes
+    ----------
+    target
+        The band's position after the column.
+    empty, transparent
+        Kind of the element; neither: solid.
+    size
+        Its size in metres; None: elastic (it holds a piece of a cut letter, or an unsized letter).
+    loose
+        Σ over neighbouring solid letters of the smaller size, metres.
+    soft
+        Solid, with a letter that is not opaque.
+    opaque
+        Solid, with every letter opaque.
+    guarded
+        Holds a solid unoccludable letter.
+    begins, ends
+        A letter starts at its left edge; a letter ends at its right edge.
+    letters
+        Indices into the band's word of the letters, or pieces, in it.
+    tied
+        Elastic, and some piece in it answers to an equation (a fixed size, or a size shared with other letters).
+    """
+
+    target: Position
+    empty: bool = False
+    transparent: bool = False
+    size: float | None = 0.0
+    loose: float = 0.0
+    soft: bool = False
+    opaque: bool = False
+    guarded: bool = False
+    begins: bool = False
+    ends: bool = False
+    letters: tuple[int, ...] = ()
+    tied: bool = False
+
+
+class Band:
+    """The rows of a group that have one word.
+
+    `rest_min` and `rest_max` bound the total size still to come at each letter index, from sized letters alone and
+    with unsized ones counted as unbounded.
+    """
+
+    def __init__(self, letters: Sequence[Letter], rows: Sequence[int], *, cuts: bool, free: frozenset[str]) -> None:
+        self.letters = tuple(letters)
+        self.rows = tuple(rows)
+        self.top, self.bottom = min(rows), max(rows)
+        self.cuts = cuts
+        self.free = free
+        self.end: Position = 8 * len(self.letters)
+        self.soft = any(not a.opaque and not a.transparent for a in self.letters)
+        self.elastic = any(a.transparent and (cuts or a.size is None) for a in self.letters)
+        self.rest_min = [0.0] * (len(self.letters) + 1)
+        self.rest_max = [0.0] * (len(self.letters) + 1)
+        for i in range(len(self.letters) - 1, -1, -1):
+            size = self.letters[i].size
+            self.rest_min[i] = self.rest_min[i + 1] + (0.0 if size is None else size)
+            self.rest_max[i] = self.rest_max[i + 1] + (inf if size is None else size)
+        self._options: dict[Position, tuple[Option, ...]] = {}
+
+    def at_least(self, position: Position) -> float:
+        """Least total size of what is still to come."""
+        i = position >> 3
+        return self.rest_min[i + 1] if position & 4 else self.rest_min[i]
+
+    def at_most(self, position: Position) -> float:
+        """Greatest total size of what is still to come."""
+        return self.rest_max[position >> 3]
+
+    def options(self, position: Position) -> tuple[Option, ...]:
+        """Every element the band may put into the next column: ε first, then runs by length."""
+        found = self._options.get(position)
+        if found is None:
+            found = self._options[position] = tuple(self._make(position))
+        return found
+
+    def _make(self, position: Position) -> Iterator[Option]:
+        i, mid, gap, held = position >> 3, position & 4, position & 2, position & 1
+        word, n = self.letters, len(self.letters)
+        if not held:  # C4, behind
+            ahead = i < n and not mid and word[i].attached and not word[i].transparent
+            yield Option(8 * i + mid + (2 if ahead else 0), empty=True)
+        if i == n:
+            return
+        if word[i].transparent:
+            yield from self._transparent(i, bool(mid))
+        elif not gap:  # C4, before
+            yield from self._solid(i)
+
+    def _solid(self, i: int) -> Iterator[Option]:
+        word = self.letters
+        size = loose = 0.0
+        soft = guarded = False
+        for j in range(i, len(word)):
+            letter = word[j]
+            if letter.transparent:
+                return
+            own = letter.size or 0.0
+            if j > i:
+                loose += min(own, word[j - 1].size or 0.0)
+            size += own
+            soft = soft or not letter.opaque
+            guarded = guarded or letter.unoccludable
+            yield Option(
+                8 * (j + 1) + (1 if letter.attached else 0),
+                size=size,
+                loose=loose,
+                soft=soft,
+                opaque=not soft,
+                guarded=guarded,
+                begins=True,
+                ends=True,
+                letters=tuple(range(i, j + 1)),
+            )
+
+    def _transparent(self, i: int, mid: bool) -> Iterator[Option]:
+        word = self.letters
+        fixed: float | None = None if mid else 0.0
+        tied = False
+        for j in range(i, len(word)):
+            letter = word[j]
+            if not letter.transparent:
+                return
+            letters = tuple(range(i, j + 1))
+            bound = letter.symbol not in self.free
+            if self.cuts:  # ends within letter j
+                yield Option(
+                    8 * j + 4, transparent=True, size=None, begins=not mid, letters=letters, tied=tied or bound
+                )
+            whole = letter.size if (j > i or not mid) else None
+            fixed = None if fixed is None or whole is None else fixed + whole
+            tied = tied or bound
+            yield Option(
+                8 * (j + 1),
+                transparent=True,
+                size=fixed,
+                begins=not mid,
+                ends=True,
+                letters=letters,
+                tied=tied and fixed is None,
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """An alignment group of an axis, ready to be aligned.
+
+    Attributes
+    ----------
+    bands
+        Distinct words, topmost first.
+    rows
+        Number of rows; `band_of[i]` is the band of row i.
+    share
+        A band's share in E and Λ: one over the number of distinct words.
+    waived
+        No letter of the group is opaque, so C1 does not apply.
+    stiff
+        No band is elastic: every column's cost is a number.
+    """
+
+    bands: tuple[Band, ...]
+    band_of: tuple[int, ...]
+    canvas: float
+    tolerance: float
+    objective: Objective
+    share: float
+    waived: bool
+    stiff: bool
+    guards: tuple[tuple[int, ...], ...]
+    """Per band: the bands with a row above one of its rows (C3), itself among them where it has several rows."""
+    weights: tuple[float, ...]
+    """Per band: what a metre that it falls short of W costs at least (see `search.shortfall`)."""
+
+    @property
+    def start(self) -> tuple[Position, ...]:
+        """Positions before the first column."""
+        return (0,) * len(self.bands)
+
+    @property
+    def goal(self) -> tuple[Position, ...]:
+        """Positions after the last column, without the marks of C4."""
+        return tuple(band.end for band in self.bands)
+
+
+def make_group(
+    rows: Sequence[Sequence[Letter]],
+    canvas: float,
+    tolerance: float,
+    objective: Objective,
+    *,
+    cuts: bool = True,
+    free: frozenset[str] | None = None,
+) -> Group:
+    """Gather equal words and prepare the bands.
+
+    Parameters
+    ----------
+    rows
+        Words, topmost first.
+    free
+        Unsized symbols that stand once in all that is aligned together: nothing ties their size. None: counted here.
+    """
+    words: dict[tuple[Letter, ...], list[int]] = {}
+    for index, row in enumerate(rows):
+        words.setdefault(tuple(row), []).append(index)
+    if free is None:
+        free = lone_unsized(words)
+    bands = tuple(Band(word, indices, cuts=cuts, free=free) for word, indices in words.items())
+    band_of = [0] * len(rows)
+    for b, band in enumerate(bands):
+        for row in band.rows:
+            band_of[row] = b
+    share = 1.0 / max(1, len(bands))
+    weights = [
+        (min(objective.empty, objective.loose) if band.soft and not objective.plain else objective.empty) * share
+        for band in bands
+    ]
+    total = sum(weights)
+    if total > 1.0:
+        weights = [w / total for w in weights]
+    return Group(
+        bands=bands,
+        band_of=tuple(band_of),
+        canvas=canvas,
+        tolerance=tolerance,
+        objective=objective,
+        share=share,
+        waived=not any(letter.opaque for band in bands for letter in band.letters),
+        stiff=not any(band.elastic for band in bands),
+        guards=tuple(
+            tuple(o for o, other in enumerate(bands) if other.top < band.bottom) for band in bands
+        ),
+        weights=tuple(weights),
+    )
+
+
+def lone_unsized(*words: Sequence[tuple[Letter, ...]] | dict[tuple[Letter, ...], list[int]]) -> frozenset[str]:
+    """Unsized symbols with a single letter in the given distinct words."""
+    count: dict[str, int] = {}
+    for batch in words:
+        for word in batch:
+            for letter in word:
+                if letter.size is None:
+                    count[letter.symbol] = count.get(letter.symbol, 0) + 1
+    return frozenset(symbol for symbol, n in count.items() if n == 1)
+
+
+def column_terms(group: Group, column: Sequence[Option]) -> tuple[float, float, float, bool]:
+    """Cost of a column whose elastic elements are free, that is, a lower bound; exact where none is elastic.
+
+    Returns
+    -------
+    cost
+        ω + empty·E + loose·Λ of the column, metres.
+    omega
+        ω alone.
+    width
+        The largest size in it.
+    firm
+        False where an elastic element could widen the column without widening ω.
+    """
+    objective = group.objective
+    largest = lowest_all = inf
+    largest = 0.0
+    lowest = inf
+    elastic = False
+    empties = 0
+    loose = 0.0
+    softs = 0
+    soft_sizes = 0.0
+    for option in column:
+        if option.empty:
+            empties += 1
+            continue
+        size = option.size
+        if size is None:
+            elastic = True
+            continue
+        largest = max(largest, size)
+        lowest_all = min(lowest_all, size)
+        loose += option.loose
+        if option.soft:
+            softs += 1
+            soft_sizes += size
+        if not option.soft or objective.plain:
+            lowest = min(lowest, size)
+    rested = lowest < inf
+    if not rested:
+        lowest = largest if elastic else lowest_all
+    omega = largest - lowest
+    cost = omega + objective.empty * group.share * empties * largest
+    cost += objective.loose * group.share * (loose + softs * largest - soft_sizes)
+    return cost, omega, largest, rested or not elastic

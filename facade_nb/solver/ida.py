@@ -1,0 +1,83 @@
+"""The paper's search: informed iterative deepening with a transposition table (5.2; Reinefeld and Marsland 1994).
+
+Depth first, so that no global ranking of edges is needed: each node ranks the edges that leave it, by their lower
+bound and then by the fewer symbols, which favours more columns. What exceeds the threshold is not made; if nothing was
+found, the distance of the threshold from the lower bound doubles and the search begins again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import inf
+
+from .columns import EPS, Group
+from .network import Network, Path, Seen
+from .pricing import price
+from .search import Found
+
+__all__ = ["search_ida"]
+
+
+def search_ida(
+    groups: Sequence[Group],
+    *,
+    cap: float = inf,
+    keep: int = 8,
+    nodes: int = 1_000_000,
+    check: Callable[[], None] | None = None,
+) -> Found:
+    """Like `search.search`, and with the same result."""
+    network = Network(groups)
+    found = Found(bound=network.later[0])
+    if found.bound > cap + EPS or found.bound == inf:
+        return found
+    step = 0.01 * max(group.canvas for group in groups)
+    limit = min(cap, network.ceiling())
+    while True:
+        threshold = min(limit, network.later[0] + step)
+        dive = _Dive(network, threshold, found, keep, nodes, check)
+        dive.visit(network.root())
+        if found.nodes >= nodes:
+            return found
+        found.bound = max(found.bound, found.ties[0].cost if found.ties else threshold)
+        if found.ties or threshold >= limit:
+            return found
+        step *= 2.0
+
+
+class _Dive:
+    """One depth-first pass under a threshold."""
+
+    def __init__(
+        self,
+        network: Network,
+        threshold: float,
+        found: Found,
+        keep: int,
+        nodes: int,
+        check: Callable[[], None] | None,
+    ) -> None:
+        self.network, self.threshold, self.found = network, threshold, found
+        self.keep, self.nodes, self.check = keep, nodes, check
+        self.seen = Seen(network, keep)
+
+    def visit(self, path: Path) -> None:
+        found, network = self.found, self.network
+        found.nodes += 1
+        if self.check is not None and not found.nodes & 63:
+            self.check()
+        if found.nodes >= self.nodes:
+            return
+        if network.complete(path):
+            priced = price(network.groups, network.structure(path))
+            if priced is not None and priced.cost <= self.threshold + EPS:
+                found.offer(priced, self.keep)
+                self.threshold = min(self.threshold, priced.cost)
+            return
+        children = network.children(path, self.threshold)
+        children.sort(key=lambda item: (item[0], sum(len(option.letters) for option in item[1].column)))
+        for bound, child in children:
+            if bound > self.threshold + EPS:
+                return
+            if not self.seen.drops(child, self.threshold):
+                self.visit(child)
