@@ -5,9 +5,9 @@
 """
 
 from .design import Design, DesignError, NoLayout
-from .solver import Layout
+from .solver import Layout, solve
 
-__all__ = ["Design", "DesignError", "Layout", "NoLayout", "__version__", "gallery"]
+__all__ = ["Design", "DesignError", "Layout", "NoLayout", "__version__", "gallery", "solve"]
 __version__ = "0.1.0"
 
 

@@ -12,7 +12,7 @@ from math import inf
 
 from .columns import EPS, Group
 from .network import Network, Path, Seen
-from .pricing import price
+from .pricing import Priced, price
 from .search import Found
 
 __all__ = ["search_ida"]
@@ -25,6 +25,7 @@ def search_ida(
     keep: int = 8,
     nodes: int = 1_000_000,
     check: Callable[[], None] | None = None,
+    accept: Callable[[Priced], bool] | None = None,
 ) -> Found:
     """Like `search.search`, and with the same result."""
     network = Network(groups)
@@ -35,11 +36,13 @@ def search_ida(
     limit = min(cap, network.ceiling())
     while True:
         threshold = min(limit, network.later[0] + step)
-        dive = _Dive(network, threshold, found, keep, nodes, check)
+        dive = _Dive(network, threshold, found, keep, nodes, check, accept)
         dive.visit(network.root())
         if found.nodes >= nodes:
+            found.cut = True
             return found
-        found.bound = max(found.bound, found.ties[0].cost if found.ties else threshold)
+        all_seen = threshold >= network.ceiling()
+        found.bound = found.ties[0].cost if found.ties else (inf if all_seen else max(found.bound, threshold))
         if found.ties or threshold >= limit:
             return found
         step *= 2.0
@@ -56,9 +59,10 @@ class _Dive:
         keep: int,
         nodes: int,
         check: Callable[[], None] | None,
+        accept: Callable[[Priced], bool] | None,
     ) -> None:
         self.network, self.threshold, self.found = network, threshold, found
-        self.keep, self.nodes, self.check = keep, nodes, check
+        self.keep, self.nodes, self.check, self.accept = keep, nodes, check, accept
         self.seen = Seen(network, keep)
 
     def visit(self, path: Path) -> None:
@@ -70,7 +74,9 @@ class _Dive:
             return
         if network.complete(path):
             priced = price(network.groups, network.structure(path))
-            if priced is not None and priced.cost <= self.threshold + EPS:
+            if priced is None or priced.cost > self.threshold + EPS:
+                return
+            if self.accept is None or self.accept(priced):
                 found.offer(priced, self.keep)
                 self.threshold = min(self.threshold, priced.cost)
             return
@@ -79,5 +85,5 @@ class _Dive:
         for bound, child in children:
             if bound > self.threshold + EPS:
                 return
-            if not self.seen.drops(child, self.threshold):
+            if self.accept is not None or not self.seen.drops(child, self.threshold):
                 self.visit(child)

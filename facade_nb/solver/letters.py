@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import fsum
 
 __all__ = ["Letter", "Word", "spell"]
 
@@ -62,7 +63,7 @@ class Word:
     @property
     def size(self) -> float:
         """Sum of the sizes of the sized letters, in metres."""
-        return sum(letter.size or 0.0 for letter in self.letters)
+        return fsum(letter.size or 0.0 for letter in self.letters)
 
     def __str__(self) -> str:
         return " ".join(map(str, self.letters)) or "ε"

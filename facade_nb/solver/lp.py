@@ -38,7 +38,7 @@ def solve_lp(cost: _Array, rows: _Array, upper: _Array, lower: _Array, rho: floa
     """
     n = cost.size
     sense = np.zeros(upper.size, dtype=np.int32)
-    sense[n:][upper[n:] == lower[n:]] = 5
+    sense[upper == lower] = 5
     hessian = np.eye(n) * rho
     x = np.zeros(n)
     best = np.inf

@@ -37,11 +37,14 @@ class Found:
         Proven lower bound of the cost.
     nodes
         How many partial paths were taken up.
+    cut
+        The search ended before it knew everything below its cap.
     """
 
     ties: list[Priced] = field(default_factory=list)
     bound: float = 0.0
     nodes: int = 0
+    cut: bool = False
 
     @property
     def best(self) -> Priced | None:
@@ -68,6 +71,7 @@ def search(
     keep: int = 8,
     nodes: int = 1_000_000,
     check: Callable[[], None] | None = None,
+    accept: Callable[[Priced], bool] | None = None,
 ) -> Found:
     """Align groups that share unsized symbols (or one group alone), with the least J summed over them.
 
@@ -81,6 +85,9 @@ def search(
         After so many partial paths the best so far is returned, with the bound proven until then.
     check
         Called now and then; may raise `Stopped`.
+    accept
+        Says whether a structure will do; those that will not are passed over. As it may look at anything, no path is
+        dropped for another then.
     """
     network = Network(groups)
     found = Found(bound=network.later[0])
@@ -89,15 +96,23 @@ def search(
     step = 0.02 * max(group.canvas for group in groups)
     while True:
         budget = min(cap, network.later[0] + step)
-        all_seen = _sweep(network, budget, found, keep, nodes, check)
-        if found.ties or all_seen or budget >= cap or found.nodes >= nodes:
+        all_seen = _sweep(network, budget, found, keep, nodes, check, accept)
+        if found.ties or found.cut:
             return found
-        found.bound = max(found.bound, budget)
+        found.bound = inf if all_seen else max(found.bound, budget)
+        if all_seen or budget >= cap:
+            return found
         step *= 2.0
 
 
 def _sweep(
-    network: Network, budget: float, found: Found, keep: int, nodes: int, check: Callable[[], None] | None
+    network: Network,
+    budget: float,
+    found: Found,
+    keep: int,
+    nodes: int,
+    check: Callable[[], None] | None,
+    accept: Callable[[Priced], bool] | None,
 ) -> bool:
     """One best-first pass within the budget. Returns whether the budget can no longer be what stopped it."""
     limit = network.ceiling()
@@ -110,8 +125,10 @@ def _sweep(
         if found.ties and bound > found.ties[0].cost + EPS:
             break
         if isinstance(item, Priced):
-            found.bound = max(found.bound, item.cost)
-            found.offer(item, keep)
+            if accept is None or accept(item):
+                budget = min(budget, item.cost)
+                found.bound = max(found.bound, item.cost)
+                found.offer(item, keep)
             continue
         if item.dropped:
             continue
@@ -121,14 +138,16 @@ def _sweep(
         if check is not None and not found.nodes & 63:
             check()
         if found.nodes >= nodes:
+            found.cut = True
             return False
         if network.complete(item):
             priced = price(network.groups, network.structure(item))
             if priced is not None and priced.cost <= budget + EPS:
-                budget = min(budget, priced.cost)
+                if accept is None:
+                    budget = min(budget, priced.cost)
                 heappush(queue, (priced.cost, -priced.columns, next(serial), priced))
             continue
         for child_bound, child in network.children(item, budget):
-            if not seen.drops(child, budget):
+            if accept is not None or not seen.drops(child, budget):
                 heappush(queue, (child_bound, -child.columns, next(serial), child))
     return whole

@@ -1,0 +1,141 @@
+"""Candidates: one word for each pattern under one value of each counter (the paper's 5.1, Eq. 7, supplement 3.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import inf
+
+from .columns import EPS
+from .letters import Letter, Word
+from .objective import Objective
+from .problem import AxisProblem
+
+__all__ = ["Candidate", "candidates", "lower_bound", "rows_of"]
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """Words by pattern name, and the counters' values they share.
+
+    `bound` is a lower bound of J over all groups, from the sizes of the words alone.
+    """
+
+    words: Mapping[str, Word]
+    counters: Mapping[str, int]
+    bound: float = 0.0
+
+
+def candidates(
+    problem: AxisProblem,
+    words: Mapping[str, Sequence[Word]],
+    tolerance: float,
+    objective: Objective,
+    check: Callable[[], None] | None = None,
+) -> Iterator[Candidate]:
+    """Every candidate whose words keep Eq. 7, in lexicographic order.
+
+    The lower bound of Eq. 7 is canvas − μ − Σ of the opaque letters of the patterns above in the same group, because opaque
+    letters above may push the words below aside; unsized letters take whatever is left.
+    """
+    names = [name for name, _ in problem.patterns]
+    above = _above(problem)
+
+    def descend(k: int, chosen: dict[str, Word], values: dict[str, int]) -> Iterator[Candidate]:
+        if check is not None:
+            check()
+        if k == len(names):
+            bound = sum(lower_bound(rows, problem.canvas, tolerance, objective) for rows in rows_of(problem, chosen))
+            if bound < inf:
+                yield Candidate(dict(chosen), dict(values), bound)
+            return
+        name = names[k]
+        for word in words[name]:
+            if any(values.get(counter, value) != value for counter, value in word.counters.items()):
+                continue
+            chosen[name] = word
+            if not _long_enough(problem, name, chosen, above[name], tolerance):
+                continue
+            yield from descend(k + 1, chosen, {**values, **word.counters})
+        chosen.pop(name, None)
+
+    yield from descend(0, {}, {})
+
+
+def _above(problem: AxisProblem) -> dict[str, list[list[str]]]:
+    """Per pattern, per group that uses it: the patterns whose topmost row is above its own topmost row."""
+    above: dict[str, list[list[str]]] = {name: [] for name, _ in problem.patterns}
+    for _, rows in problem.groups:
+        order = list(dict.fromkeys(rows))
+        for i, name in enumerate(order):
+            above[name].append(order[:i])
+    return above
+
+
+def _long_enough(
+    problem: AxisProblem, name: str, chosen: Mapping[str, Word], above: Sequence[Sequence[str]], tolerance: float
+) -> bool:
+    word = chosen[name]
+    if any(letter.size is None for letter in word.letters):
+        return True
+    for patterns in above:
+        if any(p not in chosen for p in patterns):
+            continue  # not decided yet: patterns are chosen in order of first use, which another group may differ from
+        room = sum(a.size or 0.0 for p in patterns for a in chosen[p].letters if a.opaque)
+        if word.size < problem.canvas - tolerance - room - EPS:
+            return False
+    return True
+
+
+def rows_of(problem: AxisProblem, words: Mapping[str, Word]) -> list[list[tuple[Letter, ...]]]:
+    """The rows of every group, topmost first.
+
+    An unsized symbol that is substituted in one pattern and left standing in another gets the size of its content, so
+    that both fill the same part of the canvas (supplement 2.2).
+    """
+    extent: dict[str, float] = {}
+    for name, _ in problem.patterns:
+        total: dict[tuple[str, int], float] = {}
+        for letter in words[name].letters:
+            if letter.origin is not None:
+                total[letter.origin] = total.get(letter.origin, 0.0) + (letter.size or 0.0)
+        for (symbol, _), size in total.items():
+            extent.setdefault(symbol, size)
+    made: dict[str, tuple[Letter, ...]] = {}
+    for name, _ in problem.patterns:
+        letters = words[name].letters
+        if extent and any(a.size is None and a.symbol in extent for a in letters):
+            letters = tuple(replace(a, size=extent[a.symbol]) if a.size is None and a.symbol in extent else a for a in letters)
+        made[name] = letters
+    return [[made[name] for name in rows] for _, rows in problem.groups]
+
+
+def lower_bound(
+    rows: Sequence[Sequence[Letter]], canvas: float, tolerance: float, objective: Objective
+) -> float:
+    """J of a group is at least this, whatever the alignment; see `network.shortfall`. Infinity: the words do not fit."""
+    distinct = list(dict.fromkeys(tuple(row) for row in rows))
+    totals: list[tuple[float, float]] = []
+    longest = 0.0
+    elastic = False
+    for word in distinct:
+        size = sum(a.size or 0.0 for a in word)
+        longest = max(longest, size)
+        open_ended = any(a.size is None for a in word)
+        elastic = elastic or open_ended or any(a.transparent for a in word)
+        soft = not objective.plain and any(not a.opaque and not a.transparent for a in word)
+        weight = (min(objective.empty, objective.loose) if soft else objective.empty) / len(distinct)
+        totals.append((inf if open_ended else size, weight))
+    if longest > canvas + tolerance + EPS:
+        return inf
+    scale = max(1.0, sum(weight for _, weight in totals))
+
+    def cost(width: float) -> float:
+        over = width - canvas
+        fit = objective.fit * (abs(over) if over > 0 or not elastic else 0.0)
+        return fit + sum(weight * max(0.0, width - size) for size, weight in totals) / scale
+
+    breaks = [longest]
+    if longest < canvas and not elastic:
+        breaks += [canvas, *(size for size, _ in totals if longest < size < canvas)]
+    return min(cost(width) for width in breaks)

@@ -1,0 +1,172 @@
+"""Why a design has no layout, in a designer's words, with the smallest change that would work where one is found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import inf
+
+from ..design.errors import NoLayout
+from ..design.model import Axis, Design, Symbol
+from .axis import AxisSearch, Best
+from .problem import AxisProblem
+
+__all__ = ["explain"]
+
+_EXTENT: dict[Axis, str] = {"x": "wide", "y": "high"}
+_SIZE: dict[Axis, str] = {"x": "width", "y": "height"}
+
+
+def explain(
+    design: Design,
+    walk: AxisSearch,
+    best: Best,
+    *,
+    other: AxisSearch | None = None,
+    shared: Sequence[str] = (),
+) -> NoLayout:
+    """The reason why `walk` found nothing. `other` is the other axis, where counters tie the two."""
+    problem = walk.problem
+    if not best.complete:
+        return NoLayout("The search was stopped before any layout was found.", problem.axis)
+    for side in (walk, *([other] if other else [])):
+        reason = _too_long(side) or _no_words(side) or _no_candidate(side)
+        if reason is not None:
+            return reason
+    if other is not None:
+        names = ", ".join(repr(c) for c in shared)
+        return NoLayout(
+            f"Counter {names} is used both across and up, and no value of it fits both: across it can be "
+            f"{_values(walk, shared)}, up {_values(other, shared)}. Use another name on one axis, or change the canvas.",
+            counters=tuple(shared),
+        )
+    return _constraint(design, walk, best)
+
+
+def _values(walk: AxisSearch, names: Sequence[str]) -> str:
+    found = sorted({tuple(c.counters[n] for n in names) for c in walk.candidates})
+    shown = ", ".join("/".join(map(str, v)) for v in found[:8])
+    return (shown + (", …" if len(found) > 8 else "")) or "nothing"
+
+
+def _too_long(walk: AxisSearch) -> NoLayout | None:
+    problem = walk.problem
+    for name, found in walk.found.items():
+        if found.shortest.size > problem.canvas + walk.tolerance + 1e-9:
+            return NoLayout(
+                f"Pattern {name!r}: its shortest word, {_short(found.shortest)}, measures {found.shortest.size:.4g} m, and the canvas "
+                f"is {problem.canvas:.4g} m {_EXTENT[problem.axis]}. A canvas {_SIZE[problem.axis]} of "
+                f"{found.shortest.size:.4g} m would hold it.",
+                problem.axis,
+                patterns=(name,),
+            )
+    return None
+
+
+def _short(word: object) -> str:
+    text = str(word)
+    return text if len(text) <= 60 else text[:57] + "…"
+
+
+def _no_words(walk: AxisSearch) -> NoLayout | None:
+    """A pattern whose longest word cannot fill the canvas, whatever the others add."""
+    problem = walk.problem
+    if walk.candidates:
+        return None
+    for name, found in walk.found.items():
+        if any(letter.size is None for word in found.words for letter in word.letters):
+            continue
+        longest = max(found.words, key=lambda word: word.size)
+        if longest.size < problem.canvas - walk.tolerance - 1e-9 and not _pushed(walk, name):
+            bounded = [c for c in longest.counters if _bounded(problem, c)]
+            hint = f" Counter {bounded[0]!r} would have to go further." if bounded else ""
+            return NoLayout(
+                f"Pattern {name!r}: its longest word, {_short(longest)}, measures {longest.size:.4g} m and cannot fill the canvas, which is "
+                f"{problem.canvas:.4g} m {_EXTENT[problem.axis]}.{hint} A canvas {_SIZE[problem.axis]} of "
+                f"{longest.size:.4g} m would be filled.",
+                problem.axis,
+                patterns=(name,),
+                counters=tuple(bounded),
+            )
+    return None
+
+
+def _bounded(problem: AxisProblem, counter: str) -> bool:
+    own = dict(problem.counters).get(counter)
+    return own is not None and (own.max is not None or own.value is not None)
+
+
+def _pushed(walk: AxisSearch, name: str) -> bool:
+    """Whether some pattern stands above this one in a group."""
+    return any(name in rows[1:] for _, rows in walk.problem.groups)
+
+
+def _no_candidate(walk: AxisSearch) -> NoLayout | None:
+    problem = walk.problem
+    if walk.candidates:
+        return None
+    shared = [c for c, _ in problem.counters if sum(c in p.counters for _, p in problem.patterns) > 1]
+    patterns = tuple(n for n, p in problem.patterns if any(c in p.counters for c in shared)) or tuple(walk.found)
+    blame = f" They share counter {', '.join(map(repr, shared))}." if shared else ""
+    return NoLayout(
+        f"Patterns {', '.join(map(repr, patterns))} have no words that fit the canvas of {problem.canvas:.4g} m together.{blame} "
+        f"Change the canvas {_SIZE[problem.axis]}, the sizes, or the bounds of the counters.",
+        problem.axis,
+        patterns=patterns,
+        counters=tuple(shared),
+    )
+
+
+def _constraint(design: Design, walk: AxisSearch, best: Best) -> NoLayout:
+    """Try again without one qualifier at a time; the first that helps is to blame."""
+    problem = walk.problem
+    for name, symbol in problem.symbols:
+        for quality, relaxed, meaning in _relaxed(symbol):
+            if _solvable(walk, problem, name, relaxed):
+                return NoLayout(
+                    f"{name!r} is {quality}, and {meaning}: every alignment {_along(problem.axis)} breaks that. It would work if "
+                    f"{name!r} were not {quality}.",
+                    problem.axis,
+                    symbols=(name,),
+                )
+    if best.unsizable:
+        return NoLayout(
+            f"The words can be aligned {_along(problem.axis)}, but no sizes satisfy all of the alignment at once: symbols that must have one "
+            "size everywhere, or their min and max, contradict each other.",
+            problem.axis,
+            patterns=tuple(walk.found),
+            symbols=tuple(n for n, s in problem.symbols if s.min is not None or s.max is not None),
+        )
+    shortest = min((c for c in walk.candidates), key=lambda c: c.bound, default=None)
+    words = "" if shortest is None else " Nearest: " + ", ".join(f"{n} = {_short(w)}" for n, w in shortest.words.items()) + "."
+    return NoLayout(
+        f"No alignment of {', '.join(map(repr, walk.found))} {_along(problem.axis)} keeps within the canvas of {problem.canvas:.4g} m "
+        f"with something opaque behind every gap.{words}",
+        problem.axis,
+        patterns=tuple(walk.found),
+    )
+
+
+def _along(axis: Axis) -> str:
+    return "across" if axis == "x" else "up"
+
+
+def _relaxed(symbol: Symbol) -> list[tuple[str, Symbol, str]]:
+    out: list[tuple[str, Symbol, str]] = []
+    if symbol.unoccludable:
+        out.append(("unoccludable", replace(symbol, unoccludable=False), "nothing that is not opaque may stand before it"))
+    if symbol.attached:
+        out.append(("attached", replace(symbol, attached=False), "no gap may open beside it"))
+    if not symbol.opaque and not symbol.transparent:
+        out.append(("not opaque", replace(symbol, opaque=True), "something opaque must stand behind it"))
+    return out
+
+
+def _solvable(walk: AxisSearch, problem: AxisProblem, name: str, symbol: Symbol) -> bool:
+    changed = replace(problem, symbols=tuple((n, symbol if n == name else s) for n, s in problem.symbols))
+    trial = AxisSearch(changed, walk.objective, walk.tolerance, walk.method, walk.check)
+    trial.enumerate()
+    for candidate in sorted(trial.candidates, key=lambda c: c.bound)[:8]:
+        if trial.solve(candidate, inf)[0] is not None:
+            return True
+    return False

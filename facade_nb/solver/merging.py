@@ -1,0 +1,183 @@
+"""From two solved axes to shapes: the outer product of each layer, what hides what, and holes (SPEC 3, *Result*)."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, replace
+
+from ..design.model import AXES, Axis, Canvas, Design, Layer, Shape
+from .layout import AxisLayout, PlacedLetter, PlacedShape, Rect
+
+__all__ = ["DEFAULT_SHAPE", "find_holes", "hole_warnings", "merge", "shape_of"]
+
+DEFAULT_SHAPE = Shape("wall", "box", "plaster", 0.0, 0.2, True)
+"""What a shape is where nothing is said: a plain box, as in the paper."""
+
+_NEAR = 1e-6
+
+
+def shape_of(design: Design, layer: Layer, x: str, y: str) -> Shape:
+    """What the pair of symbols looks like in a layer, every field filled in.
+
+    A layer's shapes override its patterns', which override the design's; within each, ``"X Y"`` beats ``"X *"``, which beats
+    ``"* Y"``, which beats ``"* *"``.
+    """
+    shape = DEFAULT_SHAPE
+    sources = (design.shapes, design.patterns[layer.x.pattern].shapes, design.patterns[layer.y.pattern].shapes, layer.shapes)
+    for source in sources:
+        if source:
+            for key in ("* *", f"* {y}", f"{x} *", f"{x} {y}"):
+                given = source.get(key)
+                if given is not None:
+                    told = {f.name: v for f in fields(given) if (v := getattr(given, f.name)) is not None}
+                    shape = replace(shape, **told)
+    return shape
+
+
+def merge(design: Design, x: AxisLayout, y: AxisLayout) -> tuple[PlacedShape, ...]:
+    """Visible shapes, bottom layer first.
+
+    Letters that are transparent, masked out by the layer or hidden by their pattern make no shape; nor do shapes that are
+    not `visible`, nor those wholly behind a visible shape both of whose symbols are opaque.
+    """
+    shapes: list[PlacedShape] = []
+    covers: list[Rect] = []
+    for layer in design.stack:  # topmost first, so that what covers is known before what is covered
+        own: list[PlacedShape] = []
+        looks: dict[tuple[str, str], Shape] = {}
+        columns = list(_shown(design, layer, "x", x))
+        for v in _shown(design, layer, "y", y):
+            for h in columns:
+                key = (h.symbol, v.symbol)
+                look = looks.get(key)
+                if look is None:
+                    look = looks[key] = shape_of(design, layer, *key)
+                rect = (h.start, v.start, h.end, v.end)
+                if look.visible and not any(_covers(cover, rect) for cover in covers):
+                    own.append(_placed(layer, h, v, rect, look))
+        covers += [
+            s.rect for s in own if design.symbol(s.x).opaque and design.symbol(s.y).opaque
+        ]
+        shapes[:0] = own
+    return tuple(shapes)
+
+
+def _placed(layer: Layer, h: PlacedLetter, v: PlacedLetter, rect: Rect, look: Shape) -> PlacedShape:
+    return PlacedShape(
+        layer.name,
+        h.symbol,
+        v.symbol,
+        rect,
+        (h.mirrored, v.mirrored),
+        look.kind or "wall",
+        look.geometry or "box",
+        look.material or "plaster",
+        look.offset or 0.0,
+        0.0 if look.thickness is None else look.thickness,
+    )
+
+
+def _shown(design: Design, layer: Layer, axis: Axis, solved: AxisLayout) -> Iterator[PlacedLetter]:
+    own = layer.along(axis)
+    hidden = design.patterns[own.pattern].hidden
+    for letter in solved.row(layer.name).letters:
+        if letter.transparent or letter.symbol in hidden or (own.mask is not None and letter.symbol not in own.mask):
+            continue
+        yield letter
+
+
+def _covers(cover: Rect, rect: Rect) -> bool:
+    return (
+        cover[0] <= rect[0] + _NEAR
+        and cover[1] <= rect[1] + _NEAR
+        and cover[2] >= rect[2] - _NEAR
+        and cover[3] >= rect[3] - _NEAR
+    )
+
+
+def find_holes(canvas: Canvas, shapes: Sequence[PlacedShape]) -> tuple[Rect, ...]:
+    """Rectangles of the canvas that no shape covers: a partition into as tall, then as wide, pieces as come."""
+    xs = _cuts([0.0, canvas.width, *(v for s in shapes for v in (s.rect[0], s.rect[2]))], canvas.width)
+    ys = _cuts([0.0, canvas.height, *(v for s in shapes for v in (s.rect[1], s.rect[3]))], canvas.height)
+    nx, ny = len(xs) - 1, len(ys) - 1
+    bare = [[True] * ny for _ in range(nx)]
+    for shape in shapes:
+        left, bottom, right, top = shape.rect
+        rows = range(_index(ys, bottom), _index(ys, top))
+        for i in range(_index(xs, left), _index(xs, right)):
+            column = bare[i]
+            for j in rows:
+                column[j] = False
+    holes: list[Rect] = []
+    open_runs: dict[tuple[int, int], int] = {}
+    for i in range(nx + 1):
+        runs = set(_runs(bare[i])) if i < nx else set()
+        for run in [r for r in open_runs if r not in runs]:
+            holes.append((xs[open_runs.pop(run)], ys[run[0]], xs[i], ys[run[1]]))
+        for run in runs:
+            open_runs.setdefault(run, i)
+    return tuple(sorted(holes))
+
+
+def _cuts(values: Sequence[float], size: float) -> list[float]:
+    out: list[float] = []
+    for value in sorted(values):
+        if -_NEAR <= value <= size + _NEAR and (not out or value > out[-1] + _NEAR):
+            out.append(value)
+    return out
+
+
+def _index(values: Sequence[float], value: float) -> int:
+    return min(bisect_left(values, value - _NEAR), len(values) - 1)
+
+
+def _runs(column: Sequence[bool]) -> Iterator[tuple[int, int]]:
+    start: int | None = None
+    for j, bare in enumerate([*column, False]):
+        if bare and start is None:
+            start = j
+        elif not bare and start is not None:
+            yield (start, j)
+            start = None
+
+
+def hole_warnings(design: Design, x: AxisLayout, y: AxisLayout, holes: Sequence[Rect]) -> list[str]:
+    """A sentence for each letter that pushed the others aside and is itself not to be seen in the hole."""
+    told: dict[str, None] = {}
+    axes: Mapping[Axis, AxisLayout] = {"x": x, "y": y}
+    for hole in holes:
+        where = f"{hole[0]:.2f} to {hole[2]:.2f} m across, {hole[1]:.2f} to {hole[3]:.2f} m up"
+        culprit = next(_pushers(design, axes, hole), None)
+        if culprit is None:
+            told[f"Nothing covers the canvas at {where}."] = None
+        else:
+            told[f"A hole at {where}: {culprit}."] = None
+    return list(told)
+
+
+def _pushers(design: Design, axes: Mapping[Axis, AxisLayout], hole: Rect) -> Iterator[str]:
+    for layer in design.stack:
+        here: dict[Axis, PlacedLetter | None] = {}
+        for axis in AXES:
+            low, high = (hole[0], hole[2]) if axis == "x" else (hole[1], hole[3])
+            here[axis] = next(
+                (
+                    a
+                    for a in axes[axis].row(layer.name).letters
+                    if not a.transparent and a.start < (low + high) / 2 < a.end
+                ),
+                None,
+            )
+        h, v = here["x"], here["y"]
+        if h is None or v is None:
+            continue
+        pair = f"{h.symbol} {v.symbol}"
+        for axis, letter in (("x", h), ("y", v)):
+            own = layer.along("x" if axis == "x" else "y")
+            if own.mask is not None and letter.symbol not in own.mask:
+                yield f"{pair} of layer {layer.name!r} stands there and pushed the others aside, but its {axis} mask hides {letter.symbol}"
+            elif letter.symbol in design.patterns[own.pattern].hidden:
+                yield f"{pair} of layer {layer.name!r} stands there and pushed the others aside, but pattern {own.pattern!r} hides {letter.symbol}"
+        if not shape_of(design, layer, h.symbol, v.symbol).visible:
+            yield f"{pair} of layer {layer.name!r} stands there and pushed the others aside, but is not visible"
