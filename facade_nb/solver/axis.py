@@ -16,13 +16,17 @@ from .letters import Word
 from .objective import Objective
 from .pricing import Priced
 from .problem import AxisProblem
-from .search import Found, Stopped, search
+from .search import BestFirst, Stopped
 from .sizing import Sized, size_axis
 from .words import Instances, instances
 
 __all__ = ["AxisSearch", "Solved"]
 
 _TIES = 4
+_NODES = 1_000_000
+_STEP = 0.01
+"""First limit above the least lower bound, as a fraction of the canvas; each round adds `_GROWTH` times more."""
+_GROWTH = 1.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +69,69 @@ class Best:
     unsizable: bool = False
 
 
+class _Run:
+    """The search of one cluster of groups, by either method, shared by all candidates that give it the same words."""
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        method: str,
+        nodes: int,
+        check: Callable[[], None] | None,
+        accept: Callable[[Priced], bool] | None,
+    ) -> None:
+        self.groups = groups
+        self._ida = (lambda limit: search_ida(groups, cap=limit, keep=_TIES, nodes=nodes, check=check, accept=accept)) if (
+            method == "ida"
+        ) else None
+        self._first = BestFirst(groups, keep=_TIES, nodes=nodes, check=check, accept=accept)
+        self._found = self._first.found
+        self.done = self._first.done
+
+    def advance(self, limit: float) -> None:
+        """Find the optimum, if it costs no more than `limit`."""
+        if self.done or limit < self._found.bound - EPS:
+            return
+        if self._ida is None:
+            self._first.advance(limit)
+            self.done = self._first.done
+        else:
+            self._found = self._ida(limit)
+            self.done = bool(self._found.ties) or self._found.bound == inf or self._found.cut
+
+    @property
+    def ties(self) -> list[Priced]:
+        """The optimal structures; empty where they are not known, or there are none."""
+        return self._found.ties if self.done else []
+
+    @property
+    def floor(self) -> float:
+        """Proven lower bound."""
+        return self._found.bound
+
+    @property
+    def cut(self) -> bool:
+        """It gave up."""
+        return self._found.cut
+
+
+@dataclass(slots=True)
+class _Case:
+    """A candidate being solved."""
+
+    groups: list[Group]
+    clusters: list[list[int]]
+    runs: list[_Run]
+    least: float
+    solved: Solved | None = None
+    unsizable: bool = False
+
+    @property
+    def floor(self) -> float:
+        """Lower bound of its J."""
+        return max(self.least, sum(run.floor for run in self.runs))
+
+
 @dataclass(slots=True)
 class AxisSearch:
     """The search on one axis at one tolerance, with what it has learnt so far."""
@@ -77,6 +144,8 @@ class AxisSearch:
     trace: Trace | None = None
     found: dict[str, Instances] = field(default_factory=dict)
     candidates: list[Candidate] = field(default_factory=list)
+    cases: dict[int, _Case] = field(default_factory=dict)
+    runs: dict[object, _Run] = field(default_factory=dict)
 
     def enumerate(self) -> None:
         """List words and candidates."""
@@ -102,36 +171,66 @@ class AxisSearch:
             )
 
     def best(self, among: Iterable[Candidate] | None = None, cap: float = inf) -> Best:
-        """The best candidate: lower bounds first, and no candidate whose bound is worse than what is known."""
-        order = sorted(self.candidates if among is None else among, key=lambda c: c.bound)
+        """The best candidate, by rounds of growing budget.
+
+        In a round every candidate whose lower bound is within the budget is aligned within it; a candidate that has
+        nothing there has the budget as its new lower bound. So no time is spent on the dear alignments of a candidate
+        while another may have a cheap one. An answer lowers the budget for those that follow; when a round has one,
+        what is left over is no better.
+        """
+        queue = sorted(self.candidates if among is None else among, key=lambda c: c.bound)
         best = Best()
-        for n, candidate in enumerate(order):
-            known = min(cap, best.solved.cost if best.solved else inf)
-            if candidate.bound > known + EPS:
-                best.bound = min(best.bound, candidate.bound)
-                self._tell(candidate, "bound", None)
-                continue
-            try:
-                solved, bound, whole, unsizable = self.solve(candidate, known)
-            except Stopped:
-                best.complete = False
-                best.bound = min(best.bound, *(c.bound for c in order[n:]))
-                break
-            best.bound = min(best.bound, bound)
-            best.complete = best.complete and whole
-            best.unsizable = best.unsizable or unsizable
-            if solved is not None and solved.beats(best.solved):
-                best.solved = solved
-                self._tell(candidate, "best", solved)
-            else:
-                fate = "dearer" if solved or bound > known else ("no sizes" if unsizable else "no alignment")
-                self._tell(candidate, fate, solved)
+        step = _STEP * self.problem.canvas
+        limit = min(cap, queue[0].bound + step) if queue else cap
+        floors = {id(c): c.bound for c in queue}
+        try:
+            while queue:
+                later: list[Candidate] = []
+                for candidate in queue:
+                    if floors[id(candidate)] > limit + EPS:
+                        later.append(candidate)
+                        continue
+                    solved = self.solve(candidate, limit)
+                    case = self.cases[id(candidate)]
+                    best.unsizable = best.unsizable or case.unsizable
+                    best.complete = best.complete and not any(run.cut for run in case.runs)
+                    if solved is not None:
+                        best.bound = min(best.bound, case.floor)
+                        limit = min(limit, solved.cost)
+                        if solved.beats(best.solved):
+                            best.solved = solved
+                    elif not all(run.done for run in case.runs):
+                        floors[id(candidate)] = case.floor
+                        later.append(candidate)
+                queue = later
+                if best.solved is not None or limit >= cap or not queue:
+                    break
+                limit = min(cap, max(limit, min(floors[id(c)] for c in queue)) + step)
+                step *= _GROWTH
+        except Stopped:
+            best.complete = False
+        best.bound = min([best.bound, *(floors[id(c)] for c in queue)])
+        self._tell_fates(best)
         return best
 
-    def _tell(self, candidate: Candidate, fate: str, solved: Solved | None) -> None:
+    def _tell_fates(self, best: Best) -> None:
         if self.trace is None:
             return
-        self.trace.events.append(
+        for candidate in self.candidates:
+            case = self.cases.get(id(candidate))
+            solved = case.solved if case else None
+            if solved is not None and best.solved is not None:
+                fate = "best" if solved is best.solved else "tied" if solved.cost <= best.solved.cost + EPS else "dearer"
+            elif case is not None and case.unsizable:
+                fate = "no sizes"
+            elif case is not None and all(run.done for run in case.runs):
+                fate = "no alignment"
+            else:
+                fate = "bound"
+            self._tell(self.trace, candidate, fate, solved)
+
+    def _tell(self, trace: Trace, candidate: Candidate, fate: str, solved: Solved | None) -> None:
+        trace.events.append(
             CandidateJudged(
                 self.problem.axis,
                 {name: str(word) for name, word in candidate.words.items()},
@@ -144,36 +243,45 @@ class AxisSearch:
             )
         )
 
-    def solve(self, candidate: Candidate, cap: float = inf) -> tuple[Solved | None, float, bool, bool]:
-        """Align a candidate in all groups and size it.
+    def solve(self, candidate: Candidate, limit: float = inf) -> Solved | None:
+        """Align a candidate in all groups, each within what the others leave of the limit, and size it.
 
-        Returns (the answer or None, lower bound of the candidate's J, whether that is all there is to know, whether
-        alignments were found that no sizes fit).
+        None: there is nothing within the limit; `floor` says how much more is known.
         """
-        groups, clusters = self._groups(candidate)
-        founds: list[Found] = []
-        bounds = [0.0] * len(clusters)
-        total = 0.0
-        for c, cluster in enumerate(clusters):
-            found = self._search([groups[g] for g in cluster], cap - total, None)
-            bounds[c] = found.bound
-            if not found.ties:
-                return None, max(candidate.bound, total + found.bound), not found.cut, False
-            founds.append(found)
-            total += found.ties[0].cost
-        solved = self._size(candidate, groups, clusters, [found.ties for found in founds])
-        if solved is None and len(clusters) == 1:
-            again = self._search(
-                groups, cap, lambda p: self._size(candidate, groups, clusters, [[p]]) is not None
-            )
-            solved = self._size(candidate, groups, clusters, [again.ties]) if again.ties else None
-            return solved, again.bound, not again.cut, True
-        whole = not any(found.cut for found in founds)
-        return solved, sum(bounds), whole and solved is not None, solved is None
+        case = self._case(candidate)
+        for run in case.runs:
+            run.advance(limit - case.floor + run.floor)
+            if not run.ties:
+                return None
+        if case.solved is None:
+            case.solved = self._size(candidate, case.groups, case.clusters, [run.ties for run in case.runs])
+        if case.solved is None:
+            case.unsizable = True
+            if len(case.runs) == 1:
+                again = self._run(case.groups, lambda p: self._size(candidate, case.groups, case.clusters, [[p]]) is not None)
+                case.runs = [again]
+                return self.solve(candidate, limit)
+        return case.solved
 
-    def _search(self, groups: Sequence[Group], cap: float, accept: Callable[[Priced], bool] | None) -> Found:
-        run = search_ida if self.method == "ida" else search
-        return run(groups, cap=cap, keep=_TIES, check=self.check, accept=accept)
+    def _case(self, candidate: Candidate) -> _Case:
+        case = self.cases.get(id(candidate))
+        if case is None:
+            groups, clusters = self._groups(candidate)
+            runs: list[_Run] = []
+            for cluster in clusters:
+                key = tuple(tuple(b.letters for b in groups[g].bands) + groups[g].band_of for g in cluster)
+                run = self.runs.get(key)
+                if run is None:
+                    run = self.runs[key] = self._run([groups[g] for g in cluster], None)
+                runs.append(run)
+                for g, group in zip(cluster, run.groups, strict=True):
+                    groups[g] = group
+            case = self.cases[id(candidate)] = _Case(groups, clusters, runs, candidate.bound)
+        return case
+
+    def _run(self, groups: Sequence[Group], accept: Callable[[Priced], bool] | None) -> _Run:
+        nodes = _NODES if accept is None else _NODES // 50
+        return _Run(groups, self.method, nodes, self.check, accept)
 
     def _groups(self, candidate: Candidate) -> tuple[list[Group], list[list[int]]]:
         """The groups of a candidate, and which of them share an unsized symbol and so are aligned together."""

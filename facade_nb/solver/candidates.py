@@ -117,12 +117,10 @@ def lower_bound(
     distinct = list(dict.fromkeys(tuple(row) for row in rows))
     totals: list[tuple[float, float]] = []
     longest = 0.0
-    elastic = False
     for word in distinct:
         size = sum(a.size or 0.0 for a in word)
         longest = max(longest, size)
         open_ended = any(a.size is None for a in word)
-        elastic = elastic or open_ended or any(a.transparent for a in word)
         soft = not objective.plain and any(not a.opaque and not a.transparent for a in word)
         weight = (min(objective.empty, objective.loose) if soft else objective.empty) / len(distinct)
         totals.append((inf if open_ended else size, weight))
@@ -132,10 +130,9 @@ def lower_bound(
 
     def cost(width: float) -> float:
         over = width - canvas
-        fit = objective.fit * (abs(over) if over > 0 or not elastic else 0.0)
-        return fit + sum(weight * max(0.0, width - size) for size, weight in totals) / scale
+        return objective.fit * abs(over) + sum(weight * max(0.0, width - size) for size, weight in totals) / scale
 
     breaks = [longest]
-    if longest < canvas and not elastic:
+    if longest < canvas:
         breaks += [canvas, *(size for size, _ in totals if longest < size < canvas)]
     return min(cost(width) for width in breaks)

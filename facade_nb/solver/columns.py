@@ -16,13 +16,14 @@ Constraints, by the numbers of SPEC 3:
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf
+from typing import Any
 
 from .letters import Letter
 from .objective import Objective
 
-__all__ = ["EPS", "Band", "Group", "Option", "Position", "column_terms", "make_group"]
+__all__ = ["EPS", "Band", "Group", "Option", "Position", "lone_unsized", "make_group"]
 
 EPS = 1e-9
 """Costs and sizes closer than this are equal."""
@@ -91,13 +92,49 @@ class Band:
         self.end: Position = 8 * len(self.letters)
         self.soft = any(not a.opaque and not a.transparent for a in self.letters)
         self.elastic = any(a.transparent and (cuts or a.size is None) for a in self.letters)
+        self.tied = any(
+            a.transparent and a.symbol not in free and (cuts or a.size is None) for a in self.letters
+        )
         self.rest_min = [0.0] * (len(self.letters) + 1)
         self.rest_max = [0.0] * (len(self.letters) + 1)
         for i in range(len(self.letters) - 1, -1, -1):
             size = self.letters[i].size
             self.rest_min[i] = self.rest_min[i + 1] + (0.0 if size is None else size)
             self.rest_max[i] = self.rest_max[i + 1] + (inf if size is None else size)
+        self.soft_rest = [0.0] * (len(self.letters) + 1)
+        self._unsized: dict[int, tuple[tuple[str, int], ...]] = {}
         self._options: dict[Position, tuple[Option, ...]] = {}
+
+    def back(self, thinnest: float) -> None:
+        """Fill `soft_rest`: least Σ (column − element) over the runs with non-opaque letters still to come.
+
+        Behind a non-opaque letter stands something opaque (C1), which is no narrower than the thinnest opaque letter;
+        however a run of solid letters is split into elements, the one with the letter falls short of that by at least
+        what the whole rest of the run does.
+        """
+        run = 0.0
+        after = 0.0  # what the runs behind this one cost
+        soft = False
+        for i in range(len(self.letters) - 1, -1, -1):
+            letter = self.letters[i]
+            if letter.transparent:
+                after, run, soft = self.soft_rest[i + 1], 0.0, False
+                self.soft_rest[i] = after
+                continue
+            run += letter.size or 0.0
+            soft = soft or not letter.opaque
+            self.soft_rest[i] = after + (max(0.0, thinnest - run) if soft else 0.0)
+
+    def unsized_from(self, i: int) -> tuple[tuple[str, int], ...]:
+        """Unsized symbols from letter i on, with how often they stand there."""
+        found = self._unsized.get(i)
+        if found is None:
+            count: dict[str, int] = {}
+            for letter in self.letters[i:]:
+                if letter.size is None:
+                    count[letter.symbol] = count.get(letter.symbol, 0) + 1
+            found = self._unsized[i] = tuple(count.items())
+        return found
 
     def at_least(self, position: Position) -> float:
         """Least total size of what is still to come."""
@@ -198,6 +235,8 @@ class Group:
         No letter of the group is opaque, so C1 does not apply.
     stiff
         No band is elastic: every column's cost is a number.
+    tied
+        Some band has pieces that answer to an equation.
     """
 
     bands: tuple[Band, ...]
@@ -208,10 +247,15 @@ class Group:
     share: float
     waived: bool
     stiff: bool
+    tied: bool
+    under: float
+    """What a metre of W below the canvas costs at least, where columns can be widened that hold no rigid band."""
     guards: tuple[tuple[int, ...], ...]
     """Per band: the bands with a row above one of its rows (C3), itself among them where it has several rows."""
     weights: tuple[float, ...]
-    """Per band: what a metre that it falls short of W costs at least (see `search.shortfall`)."""
+    """Per band: what a metre that it falls short of W costs at least (see `network.shortfall`)."""
+    edges: dict[Any, Any] = field(default_factory=dict)
+    """Edges of the network already made, by node (see `network.edges`)."""
 
     @property
     def start(self) -> tuple[Position, ...]:
@@ -253,6 +297,10 @@ def make_group(
         for row in band.rows:
             band_of[row] = b
     share = 1.0 / max(1, len(bands))
+    solids = [a.size or 0.0 for band in bands for a in band.letters if a.opaque]
+    if solids and not objective.plain:
+        for band in bands:
+            band.back(min(solids))
     weights = [
         (min(objective.empty, objective.loose) if band.soft and not objective.plain else objective.empty) * share
         for band in bands
@@ -269,6 +317,10 @@ def make_group(
         share=share,
         waived=not any(letter.opaque for band in bands for letter in band.letters),
         stiff=not any(band.elastic for band in bands),
+        tied=any(band.tied for band in bands),
+        under=min(
+            objective.fit, objective.empty * share * sum(not band.elastic and not band.soft for band in bands)
+        ),
         guards=tuple(
             tuple(o for o, other in enumerate(bands) if other.top < band.bottom) for band in bands
         ),
@@ -285,51 +337,3 @@ def lone_unsized(*words: Sequence[tuple[Letter, ...]] | dict[tuple[Letter, ...],
                 if letter.size is None:
                     count[letter.symbol] = count.get(letter.symbol, 0) + 1
     return frozenset(symbol for symbol, n in count.items() if n == 1)
-
-
-def column_terms(group: Group, column: Sequence[Option]) -> tuple[float, float, float, bool]:
-    """Cost of a column whose elastic elements are free, that is, a lower bound; exact where none is elastic.
-
-    Returns
-    -------
-    cost
-        ω + empty·E + loose·Λ of the column, metres.
-    omega
-        ω alone.
-    width
-        The largest size in it.
-    firm
-        False where an elastic element could widen the column without widening ω.
-    """
-    objective = group.objective
-    largest = lowest_all = inf
-    largest = 0.0
-    lowest = inf
-    elastic = False
-    empties = 0
-    loose = 0.0
-    softs = 0
-    soft_sizes = 0.0
-    for option in column:
-        if option.empty:
-            empties += 1
-            continue
-        size = option.size
-        if size is None:
-            elastic = True
-            continue
-        largest = max(largest, size)
-        lowest_all = min(lowest_all, size)
-        loose += option.loose
-        if option.soft:
-            softs += 1
-            soft_sizes += size
-        if not option.soft or objective.plain:
-            lowest = min(lowest, size)
-    rested = lowest < inf
-    if not rested:
-        lowest = largest if elastic else lowest_all
-    omega = largest - lowest
-    cost = omega + objective.empty * group.share * empties * largest
-    cost += objective.loose * group.share * (loose + softs * largest - soft_sizes)
-    return cost, omega, largest, rested or not elastic

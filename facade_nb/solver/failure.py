@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import inf
 
 from ..design.errors import NoLayout
 from ..design.model import Axis, Design, Symbol
@@ -167,6 +166,6 @@ def _solvable(walk: AxisSearch, problem: AxisProblem, name: str, symbol: Symbol)
     trial = AxisSearch(changed, walk.objective, walk.tolerance, walk.method, walk.check)
     trial.enumerate()
     for candidate in sorted(trial.candidates, key=lambda c: c.bound)[:8]:
-        if trial.solve(candidate, inf)[0] is not None:
+        if trial.solve(candidate) is not None:
             return True
     return False

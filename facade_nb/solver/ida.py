@@ -80,10 +80,10 @@ class _Dive:
                 found.offer(priced, self.keep)
                 self.threshold = min(self.threshold, priced.cost)
             return
-        children = network.children(path, self.threshold)
+        children = network.children(path, -inf, self.threshold)
         children.sort(key=lambda item: (item[0], sum(len(option.letters) for option in item[1].column)))
         for bound, child in children:
             if bound > self.threshold + EPS:
                 return
-            if self.accept is not None or not self.seen.drops(child, self.threshold):
+            if self.accept is not None or not self.seen.drops(child):
                 self.visit(child)

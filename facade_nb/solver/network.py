@@ -15,11 +15,12 @@ metre that a shorter word falls short of W is paid for, as ω, as looseness or a
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 
-from .columns import EPS, Group, Option, Position
+from .columns import EPS, Band, Group, Option, Position
 
 __all__ = ["Edge", "Network", "Path", "Seen", "State", "edges", "shortfall"]
 
@@ -42,6 +43,10 @@ class Path:
         No column so far could be widened without cost.
     owed
         No letter ended at the last boundary, so one must begin there.
+    spans
+        Per band: least and greatest size that the pieces of the letter it stands in have taken so far, at no cost.
+    learnt
+        Unsized symbols that have stood as a whole: ``(symbol, least, greatest)`` size at no cost.
     trail
         The columns whose price depends on the lengths of pieces. Paths are compared only where it is the same.
     """
@@ -56,6 +61,8 @@ class Path:
     trail: tuple[tuple[Option, ...], ...] = ()
     parent: Path | None = None
     column: tuple[Option, ...] = ()
+    spans: tuple[tuple[float, float], ...] = ()
+    learnt: tuple[tuple[str, float, float], ...] = ()
     dropped: bool = False
 
 
@@ -68,55 +75,114 @@ class Edge:
     cost: float
     omega: float
     width: float
+    least: float
     firm: bool
     owed: bool
     tied: bool
 
 
-def shortfall(group: Group, state: State, width: float, firm: bool) -> float:
-    """Least cost still to come from a node.
+def shortfall(group: Group, path: Path) -> float:
+    """Least cost still to come at the end of a path.
 
-    With rests R_b and W ≥ `width` + max R_b, band b is short of W by at least d_b = W − width − R_b. In each column it
-    is short by ω_j, or it is empty there and pays for it, or it holds a non-opaque letter and pays Λ. As ω is
-    shared by all bands and Σ weights ≤ 1, Σ weight_b·d_b + fit·|W − canvas| is a lower bound, convex in W.
+    With rests R_b and W ≥ `path.width` + max R_b, band b is short of W by at least d_b = W − width − R_b. In each column
+    it is short by ω_j, or it is empty there and pays for it, or it holds a non-opaque letter and pays Λ. As ω is
+    shared by all bands and Σ weights ≤ 1, Σ weight_b·d_b + fit·|W − canvas| is a lower bound, convex in W, so that its
+    least is where it turns. Non-opaque letters to come are loose before whatever stands behind them, which a band pays
+    if it is more than its part of that sum.
+
+    Columns already laid could be made wider than they are charged for: a firm one at 1 > fit a metre, which never pays,
+    another one at `under` a metre. Rests of cut and of unsized letters follow from what their pieces have taken so far;
+    they are soft, because a piece may leave its range at 1 a metre of ω. So W may stay below the longest soft rest at
+    that price, which is the same ω that pays for what bands are short of.
     Returns infinity where no W within the tolerance can be reached.
     """
-    longest = 0.0
-    for band, position in zip(group.bands, state, strict=True):
+    width, canvas, objective = path.width, group.canvas, group.objective
+    longest = soft_longest = 0.0
+    rests: list[tuple[float, float, float]] = []  # rest, weight, looseness
+    by_loose = objective.loose * group.share
+    strain = 0.0
+    for b, (band, position, weight) in enumerate(zip(group.bands, path.state, group.weights, strict=True)):
         i = position >> 3
-        least = band.rest_min[i + 1] if position & 4 else band.rest_min[i]
+        mid = position & 4
+        least = band.rest_min[i + 1] if mid else band.rest_min[i]
+        most = band.rest_max[i]
         if least > longest:
             longest = least
+        multiple = 1
+        if band.tied:
+            if mid and (size := band.letters[i].size) is not None:
+                low, high = path.spans[b]
+                least = max(least, size - high + band.rest_min[i + 1])
+                most = min(most, size - low + band.rest_max[i + 1]) if size > low else band.rest_max[i + 1]
+            if path.learnt and (waiting := band.unsized_from(i + 1 if mid else i)):
+                known = {symbol: (low, high) for symbol, low, high in path.learnt}
+                if all(symbol in known for symbol, _ in waiting):
+                    multiple += sum(n for _, n in waiting)
+                    least += sum(n * known[symbol][0] for symbol, n in waiting)
+                    if not mid or band.letters[i].size is not None:
+                        sized = band.rest_min[i] if not mid else most_sized(band, i, path.spans[b])
+                        most = sized + sum(n * known[symbol][1] for symbol, n in waiting)
+            if least > soft_longest:
+                soft_longest = least
+        strain += weight * multiple
+        rests.append((most, weight, by_loose * band.soft_rest[i]))
     low = width + longest
-    over = low - group.canvas
-    if over > group.tolerance + EPS:
+    if low > canvas + group.tolerance + EPS:
         return inf
-    fit = group.objective.fit
-    best = fit * over if over > 0 else 0.0
-    for weight, band, position in zip(group.weights, group.bands, state, strict=True):
-        lack = longest - band.rest_max[position >> 3]
-        if lack > 0:
-            best += weight * lack
-    if over < 0 and fit and firm and group.stiff:
-        best = min(_at(group, state, width, total) for total in _breaks(group, state, width, low))
+    below = objective.fit if path.firm else group.under
+    scale = 1.0 if strain <= 1.0 else 1.0 / strain
+    soft = width + soft_longest
+    best = inf
+    turns = [low]
+    if low < canvas:
+        turns.append(canvas)
+    if low < soft:
+        turns.append(soft)
+    top = max(canvas, soft)
+    turns += [width + rest for rest, _, _ in rests if low < width + rest < top]
+    for total in turns:
+        over = total - canvas
+        value = objective.fit * over if over > 0 else -below * over
+        future = total - width
+        short = loose = 0.0
+        for rest, weight, own in rests:
+            lack = weight * scale * (future - rest)
+            if lack > own:
+                short += lack - own
+            loose += own
+        need = soft - total
+        value += loose + (need if need > short else short)
+        if value < best:
+            best = value
     return best
 
 
-def _breaks(group: Group, state: State, width: float, low: float) -> list[float]:
-    """Where the bound, as a function of W between `low` and the canvas, may turn."""
-    rests = (width + band.rest_max[position >> 3] for band, position in zip(group.bands, state, strict=True))
-    return [low, group.canvas, *(rest for rest in rests if low < rest < group.canvas)]
+def most_sized(band: Band, i: int, span: tuple[float, float]) -> float:
+    """Greatest size of the sized letters to come, of which letter i has given up `span` already."""
+    return max(0.0, (band.letters[i].size or 0.0) - span[0]) + band.rest_min[i + 1]
 
 
-def _at(group: Group, state: State, width: float, total: float) -> float:
-    value = group.objective.fit * abs(total - group.canvas)
-    for weight, band, position in zip(group.weights, group.bands, state, strict=True):
-        value += weight * max(0.0, total - width - band.rest_max[position >> 3])
-    return value
+def edges(group: Group, state: State, owed: bool, made: float, limit: float) -> list[Edge]:
+    """Every column that may come next, keeps the constraints and the tolerance, and costs more than `made` and at most
+    `limit`, cheapest first.
+
+    The edges of a node are kept with the group, as other paths lead to it too.
+    """
+    known = group.edges.get((state, owed))
+    if known is None or known[0] < limit:
+        costs = _make_edges(group, state, owed, limit)
+        costs.sort(key=_by_cost)
+        known = group.edges[state, owed] = (limit, costs)
+    costs = known[1]
+    return costs[bisect_right(costs, made + EPS, key=_by_cost) : bisect_right(costs, limit + EPS, key=_by_cost)]
 
 
-def edges(group: Group, state: State, owed: bool, limit: float) -> list[Edge]:
-    """Every column that may come next, keeps the constraints and the tolerance, and costs at most `limit`.
+def _by_cost(edge: Edge) -> float:
+    return edge.cost
+
+
+def _make_edges(group: Group, state: State, owed: bool, limit: float) -> list[Edge]:
+    """The edges that leave a node.
 
     Elements are chosen band by band. What is chosen already bounds ω, E and Λ from below, so that a column that has
     become too dear is given up; runs of solid letters only grow, so that the rest of a band's runs go with it.
@@ -167,6 +233,7 @@ def edges(group: Group, state: State, owed: bool, limit: float) -> list[Edge]:
                 cost,
                 omega,
                 high,
+                low,
                 firm,
                 not ended,
                 tied or not firm,
@@ -237,8 +304,7 @@ class Network:
         self.later = [0.0] * (len(groups) + 1)
         for g in range(len(groups) - 1, -1, -1):
             group = groups[g]
-            start = shortfall(group, group.start, 0.0, True) if group.bands else 0.0
-            self.later[g] = self.later[g + 1] + start
+            self.later[g] = self.later[g + 1] + shortfall(group, self._enter(g))
 
     def ceiling(self) -> float:
         """No alignment within the tolerances costs more, so that a larger budget changes nothing."""
@@ -254,7 +320,11 @@ class Network:
 
     def root(self) -> Path:
         """The path without columns."""
-        return Path(0, self.groups[0].start, 0.0, 0.0, 0)
+        return self._enter(0)
+
+    def _enter(self, g: int) -> Path:
+        group = self.groups[g]
+        return Path(g, group.start, 0.0, 0.0, 0, spans=((0.0, 0.0),) * len(group.bands))
 
     def complete(self, path: Path) -> bool:
         """Whether every group is aligned."""
@@ -269,13 +339,16 @@ class Network:
             node = node.parent
         return tuple(tuple(reversed(own)) for own in columns)
 
-    def children(self, path: Path, budget: float) -> list[tuple[float, Path]]:
-        """Paths longer by one column, each with the lower bound of its J, within the budget."""
+    def children(self, path: Path, made: float, limit: float) -> list[tuple[float, Path]]:
+        """Paths longer by one column, each with the lower bound of its J.
+
+        Columns are made that keep the path within `limit`, but not those that kept it within `made` before.
+        """
         group = self.groups[path.group]
         later = self.later[path.group + 1]
-        left = budget - path.cost - later
+        laid = path.cost + later
         out: list[tuple[float, Path]] = []
-        for edge in edges(group, path.state, path.owed, left):
+        for edge in edges(group, path.state, path.owed, made - laid, limit - laid):
             cost = path.cost + edge.cost
             width = path.width + edge.width
             firm = path.firm and edge.firm
@@ -283,20 +356,52 @@ class Network:
             if all(p >> 2 == band.end >> 2 for p, band in zip(edge.state, group.bands, strict=True)):
                 cost += self._closing(group, width, firm)
                 bound = cost + later
-                if bound > budget + EPS:
+                if bound == inf:
                     continue
                 g = path.group + 1
                 state = self.groups[g].start if g < len(self.groups) else ()
                 child = Path(g, state, cost, 0.0, path.columns + 1, True, False, trail, path, edge.column)
+                child.spans = ((0.0, 0.0),) * len(state)
+                child.learnt = self._learn(group, path, edge)[1] if group.tied else path.learnt
             else:
-                bound = cost + shortfall(group, edge.state, width, firm) + later
-                if bound > budget + EPS:
-                    continue
                 child = Path(
                     path.group, edge.state, cost, width, path.columns + 1, firm, edge.owed, trail, path, edge.column
                 )
+                child.spans, child.learnt = self._learn(group, path, edge) if group.tied else (path.spans, path.learnt)
+                bound = cost + shortfall(group, child) + later
+                if bound == inf:
+                    continue
             out.append((bound, child))
         return out
+
+    @staticmethod
+    def _learn(
+        group: Group, path: Path, edge: Edge
+    ) -> tuple[tuple[tuple[float, float], ...], tuple[tuple[str, float, float], ...]]:
+        """What the pieces in a column say about the letters they belong to."""
+        least, most = (edge.least, edge.width) if edge.firm else (0.0, inf)
+        spans: list[tuple[float, float]] = []
+        learnt = path.learnt
+        for b, (band, option) in enumerate(zip(group.bands, edge.column, strict=True)):
+            span = path.spans[b]
+            if not band.tied or option.empty:
+                spans.append(span)
+                continue
+            if not option.transparent:
+                spans.append((0.0, 0.0))
+                continue
+            low = least if len(option.letters) == 1 else 0.0
+            last = option.letters[-1]
+            for i in option.letters:
+                begun = span if i == option.letters[0] and not option.begins else (0.0, 0.0)
+                span = (begun[0] + low, begun[1] + most)
+                letter = band.letters[i]
+                done = i != last or option.ends
+                if done and letter.size is None and letter.symbol not in band.free:
+                    if all(symbol != letter.symbol for symbol, _, _ in learnt):
+                        learnt = (*learnt, (letter.symbol, *span))
+            spans.append((0.0, 0.0) if option.ends else span)
+        return tuple(spans), learnt
 
     @staticmethod
     def _closing(group: Group, width: float, firm: bool) -> float:
@@ -307,17 +412,15 @@ class Network:
         over = width - group.canvas
         if over > group.tolerance + EPS or (group.stiff and -over > group.tolerance + EPS):
             return inf
-        if over < 0 and not firm:
-            return 0.0
-        return group.objective.fit * abs(over)
+        return group.objective.fit * over if over > 0 else -(group.objective.fit if firm else group.under) * over
 
 
 class Seen:
     """The transposition table: the best paths known at each node.
 
     Of two paths at one node, the one that is no cheaper, has no more columns and cannot become cheaper by its W is
-    dropped. |W − canvas| changes by at most the difference of the two W, whatever comes; a wider or narrower path
-    may only replace another where the tolerance on W cannot make the difference.
+    dropped. |W − canvas| changes by at most the difference of the two W, whatever comes; a narrower path may replace a
+    wider one where it cannot end below canvas − μ.
     """
 
     def __init__(self, network: Network, keep: int) -> None:
@@ -325,7 +428,7 @@ class Seen:
         self._keep = keep
         self._known: dict[object, list[Path]] = {}
 
-    def drops(self, path: Path, budget: float) -> bool:
+    def drops(self, path: Path) -> bool:
         """Whether a known path makes this one needless; if not, it becomes known, and what it beats is dropped."""
         key = (path.group, path.state, path.owed, path.trail)
         known = self._known.get(key)
@@ -334,20 +437,20 @@ class Seen:
             return False
         equals = 0
         for other in known:
-            verdict = self._beats(other, path, budget)
+            verdict = self._beats(other, path)
             if verdict > 0:
                 return True
             equals += verdict == 0
         if equals >= self._keep:
             return True
         for other in known:
-            if self._beats(path, other, budget) > 0:
+            if self._beats(path, other) > 0:
                 other.dropped = True
         known[:] = [other for other in known if not other.dropped]
         known.append(path)
         return False
 
-    def _beats(self, a: Path, b: Path, budget: float) -> int:
+    def _beats(self, a: Path, b: Path) -> int:
         """1: `a` makes `b` needless; 0: as good as it in every respect; -1: neither."""
         dw = a.width - b.width
         slack = 0.0
@@ -356,11 +459,10 @@ class Seen:
                 return -1
             group = self._network.groups[a.group]
             fit = group.objective.fit
-            if dw < 0:
-                least = a.width + max(band.at_least(p) for band, p in zip(group.bands, a.state, strict=True))
-                if least < group.canvas - group.tolerance:
-                    return -1
-            elif not fit or budget / fit + dw > group.tolerance:
+            if dw > 0:
+                return -1
+            least = a.width + max(band.at_least(p) for band, p in zip(group.bands, a.state, strict=True))
+            if least < group.canvas - group.tolerance:
                 return -1
             slack = fit * abs(dw)
         if a.cost + slack < b.cost - EPS:

@@ -36,7 +36,7 @@ class Solution:
 
 
 def least_squares(
-    weight: _Array, target: _Array, rows: _Array, lower: _Array, upper: _Array, rho: float = 1e-3
+    weight: _Array, target: _Array, rows: _Array, lower: _Array, upper: _Array, *, rho: float = 1e-3, tolerance: float = 1e-11
 ) -> Solution | None:
     """Minimise ``Σ weight·(x − target)²`` subject to ``lower <= [x; rows @ x] <= upper``.
 
@@ -49,6 +49,8 @@ def least_squares(
         Shape (m, n).
     lower, upper
         Shape (n + m,): bounds of the variables, then of the rows; equal ones make an equation.
+    tolerance
+        By how much a constraint may be violated.
 
     Returns
     -------
@@ -66,7 +68,7 @@ def least_squares(
     for _ in range(40 if singular else 1):
         linear = base - 2.0 * rho * x if singular else base
         new, _value, flag, info = daqp.solve(
-            hessian, linear, rows, upper, lower, sense.copy(), primal_tol=1e-11, dual_tol=1e-12, eps_prox=0.0
+            hessian, linear, rows, upper, lower, sense.copy(), primal_tol=tolerance, dual_tol=1e-12, eps_prox=0.0
         )
         if flag != 1:
             return None

@@ -1,9 +1,12 @@
-"""The default alignment search: best first, exact.
+"""The default alignment search: best first, exact, and resumable.
 
 Paths leave a queue by their lower bound; a complete one is priced and goes back with its exact J. What leaves the
-queue priced is optimal, because everything else there has a bound that is no better. Columns are only made while
-their bound stays within a budget, which begins just above the lower bound of the whole and doubles, so that
-the exponentially many bad columns are never looked at; an incumbent from another candidate caps it.
+queue priced is optimal, because everything else there has a bound that is no better.
+
+The search advances to a limit and stops there, so that the searches of many candidates can take turns (`axis`): none
+is taken further than the best of them needs. Columns dearer than the limit allows are not made, which is what keeps
+the exponentially many bad ones from being looked at; a path whose columns were not all made is parked, and taken up
+again when the limit has grown.
 """
 
 from __future__ import annotations
@@ -18,8 +21,7 @@ from .columns import EPS, Group
 from .network import Network, Path, Seen
 from .pricing import Priced, price
 
-__all__ = ["Found", "Stopped", "search"]
-
+__all__ = ["BestFirst", "Found", "Stopped", "search"]
 
 class Stopped(Exception):
     """The time is up, or the caller asked to stop."""
@@ -64,6 +66,92 @@ class Found:
             self.ties = [priced]
 
 
+class BestFirst:
+    """A best-first search of one network.
+
+    Attributes
+    ----------
+    found
+        Ties and lower bound so far; where `done`, the ties are all there is to know.
+    done
+        The optimum is known, or there is none.
+    """
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        *,
+        keep: int = 8,
+        nodes: int = 1_000_000,
+        check: Callable[[], None] | None = None,
+        accept: Callable[[Priced], bool] | None = None,
+    ) -> None:
+        self.network = Network(groups)
+        self.keep, self.nodes, self.check, self.accept = keep, nodes, check, accept
+        self.found = Found(bound=self.network.later[0])
+        self.done = self.found.bound == inf
+        self._ceiling = self.network.ceiling()
+        self._serial = count()
+        self._seen = Seen(self.network, keep)
+        self._queue: list[tuple[float, int, int, Path | Priced]] = []
+        self._parked: list[tuple[float, Path]] = []
+        if not self.done:
+            self._push(self.found.bound, self.network.root())
+
+    def _push(self, bound: float, item: Path | Priced) -> None:
+        heappush(self._queue, (bound, -item.columns, next(self._serial), item))
+
+    def advance(self, limit: float) -> None:
+        """Go on until the optimum is known, or is known to cost more than `limit`."""
+        found, queue = self.found, self._queue
+        if self.done or limit < found.bound - EPS:
+            return
+        parked, self._parked = self._parked, []
+        for made, path in parked:
+            if not path.dropped:
+                self._expand(path, made, limit)
+        while queue:
+            bound = queue[0][0]
+            if bound > limit + EPS or (found.ties and bound > found.ties[0].cost + EPS):
+                break
+            item = heappop(queue)[3]
+            if not found.ties:
+                found.bound = max(found.bound, bound)
+            if isinstance(item, Priced):
+                if self.accept is None or self.accept(item):
+                    found.offer(item, self.keep)
+                    limit = min(limit, item.cost)
+                continue
+            if item.dropped:
+                continue
+            found.nodes += 1
+            if self.check is not None and not found.nodes & 31:
+                self.check()
+            if found.nodes >= self.nodes:
+                found.cut = self.done = True
+                return
+            if self.network.complete(item):
+                priced = price(self.network.groups, self.network.structure(item))
+                if priced is not None:
+                    self._push(priced.cost, priced)
+            else:
+                self._expand(item, -inf, limit)
+        if found.ties:
+            self.done = True
+        elif limit >= self._ceiling:
+            self.done = True
+            found.bound = inf
+        else:
+            found.bound = max(found.bound, limit)
+
+    def _expand(self, path: Path, made: float, limit: float) -> None:
+        """Make the columns that a limit allows and an earlier one, `made`, did not."""
+        for bound, child in self.network.children(path, made, limit):
+            if self.accept is not None or not self._seen.drops(child):
+                self._push(bound, child)
+        self._parked.append((limit, path))
+
+
 def search(
     groups: Sequence[Group],
     *,
@@ -89,65 +177,11 @@ def search(
         Says whether a structure will do; those that will not are passed over. As it may look at anything, no path is
         dropped for another then.
     """
-    network = Network(groups)
-    found = Found(bound=network.later[0])
-    if found.bound > cap + EPS or found.bound == inf:
-        return found
-    step = 0.02 * max(group.canvas for group in groups)
-    while True:
-        budget = min(cap, network.later[0] + step)
-        all_seen = _sweep(network, budget, found, keep, nodes, check, accept)
-        if found.ties or found.cut:
-            return found
-        found.bound = inf if all_seen else max(found.bound, budget)
-        if all_seen or budget >= cap:
-            return found
-        step *= 2.0
-
-
-def _sweep(
-    network: Network,
-    budget: float,
-    found: Found,
-    keep: int,
-    nodes: int,
-    check: Callable[[], None] | None,
-    accept: Callable[[Priced], bool] | None,
-) -> bool:
-    """One best-first pass within the budget. Returns whether the budget can no longer be what stopped it."""
-    limit = network.ceiling()
-    serial = count()
-    queue: list[tuple[float, int, int, Path | Priced]] = [(network.later[0], 0, next(serial), network.root())]
-    seen = Seen(network, keep)
-    whole = budget >= limit
-    while queue:
-        bound, _, _, item = heappop(queue)
-        if found.ties and bound > found.ties[0].cost + EPS:
+    run = BestFirst(groups, keep=keep, nodes=nodes, check=check, accept=accept)
+    step = 0.01 * max(group.canvas for group in groups)
+    while not run.done and run.found.bound <= cap + EPS:
+        run.advance(min(cap, run.found.bound + step))
+        if run.found.bound >= cap:
             break
-        if isinstance(item, Priced):
-            if accept is None or accept(item):
-                budget = min(budget, item.cost)
-                found.bound = max(found.bound, item.cost)
-                found.offer(item, keep)
-            continue
-        if item.dropped:
-            continue
-        if not found.ties:
-            found.bound = max(found.bound, bound)
-        found.nodes += 1
-        if check is not None and not found.nodes & 63:
-            check()
-        if found.nodes >= nodes:
-            found.cut = True
-            return False
-        if network.complete(item):
-            priced = price(network.groups, network.structure(item))
-            if priced is not None and priced.cost <= budget + EPS:
-                if accept is None:
-                    budget = min(budget, priced.cost)
-                heappush(queue, (priced.cost, -priced.columns, next(serial), priced))
-            continue
-        for child_bound, child in network.children(item, budget):
-            if accept is not None or not seen.drops(child, budget):
-                heappush(queue, (child_bound, -child.columns, next(serial), child))
-    return whole
+        step *= 1.6
+    return run.found

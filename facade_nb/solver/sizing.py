@@ -197,9 +197,8 @@ def _settle(system: System, pull: np.ndarray, x: np.ndarray) -> np.ndarray:
     n = x.size
     kept = system.weight > 0
     lower, upper = system.lower.copy(), system.upper.copy()
-    lower[:n][kept] = np.maximum(lower[:n][kept], x[kept] - 1e-10)
-    upper[:n][kept] = np.minimum(upper[:n][kept], x[kept] + 1e-10)
-    second = least_squares(np.maximum(pull, 1e-6), system.target, system.matrix, lower, upper)
+    lower[:n][kept] = upper[:n][kept] = x[kept]
+    second = least_squares(np.maximum(pull, 1e-6), system.target, system.matrix, lower, upper, tolerance=1e-9)
     return x if second is None else second.x
 
 

@@ -274,11 +274,11 @@ def _aligned(walk: AxisSearch, candidates: Sequence[Candidate]) -> Iterator[Best
     """Candidates that align and can be sized, in the given order."""
     for candidate in candidates:
         try:
-            solved, bound, complete, _ = walk.solve(candidate)
+            solved = walk.solve(candidate)
         except Stopped:
             raise NoLayout("The search was stopped before any layout was found.", walk.problem.axis) from None
         if solved is not None:
-            yield Best(solved, bound, complete)
+            yield Best(solved, solved.cost)
 
 
 def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solved) -> AxisLayout:
