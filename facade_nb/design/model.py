@@ -147,7 +147,7 @@ class Design:
     def stack(self) -> tuple[Layer, ...]:
         """The visible layers, topmost first."""
         shown = [layer for layer in self.layers if layer.visible]
-        return tuple(sorted(reversed(shown), key=lambda layer: -layer.depth))
+        return tuple(sorted(shown, key=lambda layer: layer.depth)[::-1])
 
     @classmethod
     def from_dict(cls, document: Mapping[str, Any]) -> Design:

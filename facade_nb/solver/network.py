@@ -58,7 +58,7 @@ class Path:
     columns: int
     firm: bool = True
     owed: bool = False
-    trail: tuple[tuple[Option, ...], ...] = ()
+    trail: tuple[object, ...] = ()
     parent: Path | None = None
     column: tuple[Option, ...] = ()
     spans: tuple[tuple[float, float], ...] = ()
@@ -358,6 +358,8 @@ class Network:
                 bound = cost + later
                 if bound == inf:
                     continue
+                if width < group.canvas - group.tolerance - EPS:
+                    trail = (*trail, path)  # too narrow as it is: only its price can tell, so it is like no other
                 g = path.group + 1
                 state = self.groups[g].start if g < len(self.groups) else ()
                 child = Path(g, state, cost, 0.0, path.columns + 1, True, False, trail, path, edge.column)

@@ -1,0 +1,147 @@
+"""Design documents: read with every fault told at once, written compactly and atomically (SPEC 1)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from .errors import DesignError, Fault
+from .files import write_atomically
+from .model import Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol
+from .sections import FORMAT, DocumentReader, Members
+from .text import fault_at
+
+__all__ = ["FORMAT", "read", "read_json", "write", "write_json"]
+
+
+def read(document: Mapping[str, Any]) -> Design:
+    """The design that a document describes.
+
+    Raises
+    ------
+    DesignError
+        With every fault in the document, each with its place, what was expected and what was found.
+    """
+    reader = DocumentReader()
+    if isinstance(document, Members):
+        reader.repeated_keys(document)
+    design = reader.design(document)
+    if reader.faults.found:
+        raise DesignError(reader.faults.found)
+    return design
+
+
+def read_json(source: str | Path) -> Design:
+    """The design in a JSON text or in the file of that path.
+
+    A `Path` is always a path; a `str` is JSON if its first character other than blanks opens an object or a list.
+
+    Raises
+    ------
+    DesignError
+        For a file that cannot be read, text that is not JSON (with line and column), and every fault of `read`.
+    """
+    if isinstance(source, str) and source.lstrip("\ufeff \t\r\n")[:1] in ("{", "["):
+        place, text = "", source.removeprefix("\ufeff")
+    else:
+        place = str(source)
+        text = _file_text(source, place)
+    try:
+        document = json.loads(text, object_pairs_hook=Members)
+    except json.JSONDecodeError as error:
+        reason = error.msg[:1].lower() + error.msg[1:]
+        raise DesignError(fault_at(text, error.pos, f"this is not JSON: {reason}", place)) from error
+    except RecursionError as error:
+        raise DesignError(Fault(place, "lists and objects are nested too deeply")) from error
+    except ValueError as error:  # an integer of thousands of digits
+        raise DesignError(Fault(place, "a number has too many digits")) from error
+    return read(document)
+
+
+def _file_text(source: str | Path, place: str) -> str:
+    try:
+        return Path(source).read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise DesignError(
+            Fault(place, f"this file is not UTF-8 text: byte {error.start} cannot be read")
+        ) from error
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        name = place if len(place) <= 80 else f"{place[:80]}…"
+        expected = "expected a design as JSON text, or the path of a file with one"
+        raise DesignError(f"{expected}; {name!r} cannot be read as a file: {reason}") from error
+
+
+def write(design: Design) -> dict[str, Any]:
+    """The document of a design, without what has its default value. ``read(write(design)) == design``."""
+    document: dict[str, Any] = {
+        "format": FORMAT,
+        "name": design.name,
+        "canvas": {"width": design.canvas.width, "height": design.canvas.height},
+    }
+    sections = {
+        "symbols": {name: _changed(symbol, Symbol(name)) for name, symbol in design.symbols.items()},
+        "counters": {name: _changed(counter, Counter(name)) for name, counter in design.counters.items()},
+        "patterns": {name: _write_pattern(pattern) for name, pattern in design.patterns.items()},
+        "layers": [_write_layer(layer) for layer in design.layers],
+        "shapes": _write_shapes(design.shapes),
+    }
+    return document | {name: section for name, section in sections.items() if section}
+
+
+def write_json(design: Design, path: str | Path | None = None, indent: int | None = 2) -> str:
+    """The document as JSON text; with `path` also written there, whole or not at all.
+
+    Raises
+    ------
+    DesignError
+        If the design is not valid (then nothing is written), or the file cannot be written.
+    """
+    document = write(design)
+    read(document)
+    text = json.dumps(document, ensure_ascii=False, allow_nan=False, indent=indent)
+    if path is not None:
+        write_atomically(path, text + "\n")
+    return text
+
+
+def _changed(value: Any, default: Any) -> dict[str, Any]:
+    """The fields in which a dataclass instance differs from a default one."""
+    pairs = ((field.name, getattr(value, field.name)) for field in fields(value))
+    return {name: member for name, member in pairs if member != getattr(default, name)}
+
+
+def _write_shapes(shapes: Mapping[str, Shape]) -> dict[str, Any]:
+    return {key: _changed(shape, Shape()) for key, shape in shapes.items()}
+
+
+def _write_pattern(pattern: PatternDef) -> str | dict[str, Any]:
+    document: dict[str, Any] = {"text": pattern.text}
+    if pattern.hidden:
+        document["hidden"] = list(pattern.hidden)
+    if pattern.shapes:
+        document["shapes"] = _write_shapes(pattern.shapes)
+    return document if len(document) > 1 else pattern.text
+
+
+def _write_layer(layer: Layer) -> dict[str, Any]:
+    document: dict[str, Any] = {"name": layer.name, "x": _write_axis(layer.x), "y": _write_axis(layer.y)}
+    if layer.depth != 0:
+        document["depth"] = (
+            int(layer.depth) if isinstance(layer.depth, float) and layer.depth.is_integer() else layer.depth
+        )
+    if not layer.visible:
+        document["visible"] = layer.visible
+    if layer.shapes:
+        document["shapes"] = _write_shapes(layer.shapes)
+    return document
+
+
+def _write_axis(axis: LayerAxis) -> dict[str, Any]:
+    document = _changed(axis, LayerAxis(axis.pattern))
+    if axis.mask is not None:
+        document["mask"] = list(axis.mask)
+    return {"pattern": axis.pattern} | document

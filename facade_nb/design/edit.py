@@ -1,0 +1,171 @@
+"""Edits of a design: each makes a new design and checks it like a document that is read.
+
+Fields are given as in documents (SPEC 1); None takes a field back to its default. Every function raises
+`DesignError`, with places as in the document, if the outcome would not be valid; the design given stays as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from .document import read, write
+from .errors import DesignError, Fault, nearest
+from .model import Design
+
+__all__ = [
+    "add_layer",
+    "move_layer",
+    "remove_layer",
+    "rename_pattern",
+    "with_canvas",
+    "with_counter",
+    "with_layer",
+    "with_pattern",
+    "with_shape",
+    "with_symbol",
+]
+
+
+def with_canvas(design: Design, width: float | None = None, height: float | None = None) -> Design:
+    """The design on a canvas of another width or height (metres); None leaves it."""
+    document = write(design)
+    _update(document["canvas"], {k: v for k, v in (("width", width), ("height", height)) if v is not None})
+    return read(document)
+
+
+def with_symbol(design: Design, name: str, /, **fields: Any) -> Design:
+    """The design with fields of a symbol changed; the symbol is declared if it was not."""
+    document = write(design)
+    _update(_member(document, "symbols", name), fields)
+    return read(document)
+
+
+def with_counter(design: Design, name: str, /, **fields: Any) -> Design:
+    """The design with `min`, `max` or `value` of a counter changed; the counter is declared if it was not."""
+    document = write(design)
+    _update(_member(document, "counters", name), fields)
+    return read(document)
+
+
+def with_pattern(design: Design, name: str, text: str | None = None, /, **fields: Any) -> Design:
+    """The design with the text, `hidden` or `shapes` of a pattern changed; a new name makes a new pattern."""
+    document = write(design)
+    patterns = document.setdefault("patterns", {})
+    before = patterns.get(name, {})
+    pattern = dict(before) if isinstance(before, dict) else {"text": before}
+    _update(pattern, fields if text is None else {"text": text, **fields})
+    patterns[name] = pattern["text"] if set(pattern) == {"text"} else pattern
+    return read(document)
+
+
+def rename_pattern(design: Design, name: str, new: str) -> Design:
+    """The design with a pattern under another name, in layers too."""
+    document = write(design)
+    patterns = document.get("patterns", {})
+    _known(name, patterns, "patterns", "pattern")
+    if new != name and new in patterns:
+        raise DesignError(Fault("patterns", f"expected a new name for pattern {name!r}; {new!r} is taken"))
+    document["patterns"] = {new if key == name else key: pattern for key, pattern in patterns.items()}
+    for layer in document.get("layers", ()):
+        for axis in (layer["x"], layer["y"]):
+            if axis["pattern"] == name:
+                axis["pattern"] = new
+    return read(document)
+
+
+def with_layer(design: Design, name: str, /, **fields: Any) -> Design:
+    """The design with fields of a layer changed.
+
+    `x` and `y` take an object with the fields to change (``x={"mask": ["P"]}``) or just a pattern's name; ``name=``
+    renames the layer.
+    """
+    document = write(design)
+    layer = document["layers"][_layer(design, name)]
+    for key in ("x", "y"):
+        if key in fields:
+            change = fields.pop(key)
+            _update(layer[key], change if isinstance(change, Mapping) else {"pattern": change})
+    _update(layer, fields)
+    return read(document)
+
+
+def add_layer(
+    design: Design,
+    name: str,
+    x: str | Mapping[str, Any],
+    y: str | Mapping[str, Any],
+    index: int | None = None,
+    **fields: Any,
+) -> Design:
+    """The design with a new layer on top, or at an index of the list (bottom first)."""
+    document = write(design)
+    axes = ({"pattern": axis} if isinstance(axis, str) else axis for axis in (x, y))
+    layer = dict(zip(("name", "x", "y"), (name, *axes), strict=True)) | fields
+    layers = document.setdefault("layers", [])
+    layers.insert(len(layers) if index is None else index, layer)
+    return read(document)
+
+
+def remove_layer(design: Design, name: str) -> Design:
+    """The design without a layer."""
+    document = write(design)
+    del document["layers"][_layer(design, name)]
+    return read(document)
+
+
+def move_layer(design: Design, name: str, index: int) -> Design:
+    """The design with a layer at another index of the list (bottom first; -1 is the top)."""
+    document = write(design)
+    layers = document["layers"]
+    layer = layers.pop(_layer(design, name))
+    layers.insert(index if index >= 0 else len(layers) + 1 + index, layer)
+    return read(document)
+
+
+def with_shape(
+    design: Design, key: str, /, *, layer: str | None = None, pattern: str | None = None, **fields: Any
+) -> Design:
+    """The design with fields of the shape ``"X Y"`` changed: of a layer, of a pattern, or else of the design."""
+    document = write(design)
+    owner: Any = document
+    if layer is not None:
+        owner = document["layers"][_layer(design, layer)]
+    elif pattern is not None:
+        patterns = document.get("patterns", {})
+        _known(pattern, patterns, "patterns", "pattern")
+        owner = patterns[pattern]
+        if isinstance(owner, str):
+            owner = patterns[pattern] = {"text": owner}
+    shapes = owner.setdefault("shapes", {})
+    _update(shapes.setdefault(key, {}), fields)
+    if not shapes[key]:
+        del shapes[key]
+    return read(document)
+
+
+def _update(target: dict[str, Any], fields: Mapping[str, Any]) -> None:
+    for key, value in fields.items():
+        if value is None:
+            target.pop(key, None)
+        else:
+            target[key] = value
+
+
+def _member(document: dict[str, Any], section: str, name: str) -> dict[str, Any]:
+    member: dict[str, Any] = document.setdefault(section, {}).setdefault(name, {})
+    return member
+
+
+def _layer(design: Design, name: str) -> int:
+    names = [layer.name for layer in design.layers]
+    _known(name, names, "layers", "layer")
+    return names.index(name)
+
+
+def _known(name: str, names: Any, place: str, what: str) -> None:
+    if name not in names:
+        listed = ", ".join(map(repr, names)) or "there is none"
+        raise DesignError(
+            Fault(place, f"expected the name of a {what} ({listed}); found {name!r}{nearest(name, names)}")
+        )

@@ -1,0 +1,250 @@
+"""The tree of a pattern, its printed form and the words it makes (SPEC 2; paper 3.2, supplement 1.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain, product
+from math import prod
+
+from .errors import DesignError
+from .text import spell, spell_counter
+
+__all__ = [
+    "MAX_LETTERS",
+    "MAX_WORDS",
+    "MODES",
+    "Alt",
+    "Concat",
+    "Count",
+    "Empty",
+    "Mirror",
+    "Node",
+    "Spelling",
+    "Sym",
+    "alternation",
+    "check_room",
+    "concatenation",
+    "mirrored",
+    "spellings",
+    "unparse",
+    "walk",
+]
+
+MODES: Mapping[str, str] = {
+    "": "none",
+    "~": "normal inner",
+    "|": "normal outer",
+    ".": "pivot inner",
+    ":": "pivot outer",
+    "@": "pivot total",
+}
+"""Reflection modes of counts, as in Table 1 of the supplement."""
+
+MAX_LETTERS = 20_000
+"""Most letters in one word: far beyond any façade, and a bound on what a mistyped count can cost."""
+
+MAX_WORDS = 20_000
+"""Most words of one pattern for one choice of counter values."""
+
+_MAX_TOTAL = 2_000_000
+"""Most letters in all words of one pattern together, for one choice of counter values."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sym:
+    """An instance of a symbol."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Empty:
+    """The empty word, ε."""
+
+
+@dataclass(frozen=True, slots=True)
+class Concat:
+    """Two or more parts one after the other; none of them is itself a `Concat` (see `concatenation`)."""
+
+    parts: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Alt:
+    """Two or more options to choose from; none of them is itself an `Alt` (see `alternation`)."""
+
+    options: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Mirror:
+    """The body reversed, every letter of it mirrored."""
+
+    body: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Count:
+    """One word of the body, repeated.
+
+    Attributes
+    ----------
+    mode
+        A key of `MODES`.
+    negative
+        Whether a minus sign stands before the value.
+    value
+        A number from 0, or the name of a counter.
+    """
+
+    body: Node
+    mode: str
+    negative: bool
+    value: int | str
+
+
+Node = Sym | Empty | Concat | Alt | Mirror | Count
+
+Spelling = tuple[tuple[str, bool], ...]
+"""A word as (symbol, mirrored) pairs."""
+
+
+def concatenation(parts: Iterable[Node]) -> Node:
+    """The parts one after the other, nested concatenations made flat."""
+    flat = [node for part in parts for node in (part.parts if isinstance(part, Concat) else (part,))]
+    return Concat(tuple(flat)) if len(flat) > 1 else flat[0] if flat else Empty()
+
+
+def alternation(options: Sequence[Node]) -> Node:
+    """A choice of the options (at least one), nested choices made flat."""
+    flat = [node for option in options for node in (option.options if isinstance(option, Alt) else (option,))]
+    return Alt(tuple(flat)) if len(flat) > 1 else flat[0]
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """Every node of the tree, in the order of the text; a count comes after its body."""
+    match node:
+        case Concat(parts=nodes) | Alt(options=nodes):
+            for part in nodes:
+                yield from walk(part)
+        case Mirror(body=body) | Count(body=body):
+            yield from walk(body)
+        case Sym() | Empty():
+            pass
+    yield node
+
+
+def unparse(node: Node) -> str:
+    """The tree as text that reads as the same tree."""
+    match node:
+        case Sym(name=name):
+            return spell(name)
+        case Empty():
+            return "ε"
+        case Concat(parts=parts):
+            return "".join(_group(part) if isinstance(part, Alt) else unparse(part) for part in parts)
+        case Alt(options=options):
+            return "|".join(map(unparse, options))
+        case Mirror(body=body):
+            return _group(body) + "'"
+        case Count(body=body, mode=mode, negative=negative, value=value):
+            sign = "-" if negative else ""
+            number = str(value) if isinstance(value, int) else spell_counter(value)
+            return f"{_group(body)}^{mode}{sign}{number}"
+
+
+def _group(node: Node) -> str:
+    """The node as an operand of a postfix operator."""
+    return f"({unparse(node)})" if isinstance(node, Concat | Alt) else unparse(node)
+
+
+def mirrored(word: Spelling) -> Spelling:
+    """The word reversed, every letter mirrored; a mirrored letter becomes a normal one."""
+    return tuple((symbol, not flag) for symbol, flag in reversed(word))
+
+
+def spellings(node: Node, counters: Mapping[str, int]) -> list[Spelling]:
+    """Every word of a tree for these counter values, in lexicographic order of choices, equal ones once.
+
+    Raises
+    ------
+    DesignError
+        If a counter has no value, or the words are longer or more than `MAX_LETTERS` and `MAX_WORDS` allow.
+    """
+    match node:
+        case Sym(name=name):
+            return [((name, False),)]
+        case Empty():
+            return [()]
+        case Concat(parts=parts):
+            return _sequences([spellings(part, counters) for part in parts])
+        case Alt(options=options):
+            found: dict[Spelling, None] = {}
+            for option in options:
+                found.update(dict.fromkeys(spellings(option, counters)))
+                check_room(words=len(found))
+            return list(found)
+        case Mirror(body=body):
+            return [mirrored(word) for word in spellings(body, counters)]
+        case Count(body=body, mode=mode, negative=negative, value=value):
+            if isinstance(value, str):
+                if value not in counters:
+                    raise DesignError(f"counter {value!r} has no value")
+                value = counters[value]
+            count = -value if negative else value
+            if count == 0:
+                return [()]
+            bases = spellings(body, counters)
+            return list(dict.fromkeys(_repeat(base, mode, count) for base in bases))
+
+
+def _sequences(parts: list[list[Spelling]]) -> list[Spelling]:
+    """Every choice of one word of each part, joined."""
+    check_room(words=prod(map(len, parts)))
+    words: dict[Spelling, None] = {}
+    total = 0
+    for choice in product(*parts):
+        length = sum(map(len, choice))
+        total += length
+        check_room(length, total)
+        words[tuple(chain.from_iterable(choice))] = None
+    return list(words)
+
+
+def _repeat(base: Spelling, mode: str, count: int) -> Spelling:
+    """`count` copies of the base in a reflection mode (Table 1); a negative count mirrors the base.
+
+    Pivot letters, shared by a copy and its mirror image, come from the copy and are not mirrored.
+    """
+    check_room(len(base) * abs(count) * (2 if mode else 1))
+    w = mirrored(base) if count < 0 else base
+    k = abs(count) if w else 1  # ε repeated is ε: a huge count of it costs nothing
+    if not mode:
+        return w * k
+    v = mirrored(w)
+    match mode:
+        case "~":
+            return (w + v) * k
+        case "|":
+            return w * k + v * k
+        case ".":
+            return (w + v[1:]) * k
+        case ":":
+            return (w + v[:-1]) * (k - 1) + w + v
+        case _:
+            return (w + v[1:-1]) * (k - 1) + w + v[1:]
+
+
+def check_room(length: int = 0, total: int = 0, words: int = 0) -> None:
+    """Refuse a word of too many letters, too many letters in all, or too many words (`DesignError`)."""
+    if length > MAX_LETTERS:
+        raise DesignError(f"a word would have {length:,} letters; at most {MAX_LETTERS:,} are possible")
+    if total > _MAX_TOTAL:
+        raise DesignError(
+            f"the words would have over {_MAX_TOTAL:,} letters together; use fewer alternatives"
+        )
+    if words > MAX_WORDS:
+        raise DesignError(
+            f"there would be over {MAX_WORDS:,} words for one choice of counters; use fewer alternatives"
+        )

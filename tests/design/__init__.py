@@ -1,0 +1,1 @@
+"""Tests of the design room: pattern language, documents, edits."""

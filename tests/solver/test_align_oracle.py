@@ -1,0 +1,125 @@
+"""`align` against exhaustive search (`tests.oracle`): SPEC 3, "equal to exhaustive search wherever that can be run"."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from typing import TypeVar
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from facade_nb.solver import Letter, Objective, align
+from tests.oracle import DEFAULT, Case, TooBig, Weights, best, check, make_case
+
+T = TypeVar("T")
+LIMIT = 1500
+"""Partial structures that the oracle may look at: a second or two."""
+
+
+def objective(weights: Weights) -> Objective:
+    """The objective of the package that the oracle's weights stand for."""
+    if weights.paper:
+        return Objective.paper()
+    return Objective(empty=weights.empty, loose=weights.loose, fit=weights.fit)
+
+
+@st.composite
+def cases(draw: st.DrawFn, unsized: bool = False) -> Case:
+    """Inputs of `align`, as `make_case` puts them together."""
+
+    def pick(options: Sequence[T]) -> T:
+        return draw(st.sampled_from(options))
+
+    return make_case(pick, unsized)
+
+
+def compare(case: Case, search: str, limit: int | None = None) -> None:
+    """Assert that `align` finds what the oracle finds, and that what it returns is an alignment."""
+    expected = best(case.rows, case.canvas, case.tolerance, case.weights, case.cuts, limit=limit)
+    found = align(
+        case.rows,
+        canvas=case.canvas,
+        tolerance=case.tolerance,
+        objective=objective(case.weights),
+        search=search,
+        cuts=case.cuts,
+    )
+    assert (found is None) == (expected is None), case
+    if found is None or expected is None:
+        return
+    assert check(found, case.rows, case.canvas, case.tolerance, case.weights, case.cuts) == [], case
+    assert found.cost == pytest.approx(expected.cost, abs=1e-6), case
+    if (
+        expected.strict_columns is not None
+    ):  # else each optimum has a piece of no length, and SPEC says not how many
+        assert len(found.columns) == expected.strict_columns, case
+
+
+def compare_if_small(case: Case, search: str) -> None:
+    """Leave out what would keep the oracle busy for long."""
+    try:
+        compare(case, search, limit=LIMIT)
+    except TooBig:
+        assume(False)
+
+
+@pytest.mark.parametrize("search", ["best", "ida"])
+class TestAgainstExhaustiveSearch:
+    @settings(max_examples=150)
+    @given(case=cases())
+    def test_sized_letters(self, search: str, case: Case) -> None:
+        compare_if_small(case, search)
+
+    @settings(max_examples=30)
+    @given(case=cases(unsized=True))
+    def test_unsized_letters(self, search: str, case: Case) -> None:
+        compare_if_small(case, search)
+
+    @pytest.mark.parametrize("seed", range(60))
+    def test_spread_out_inputs(self, search: str, seed: int) -> None:
+        """Hypothesis keeps to simple inputs; these are as wild as `make_case` gets."""
+        compare(make_case(random.Random(seed).choice), search)
+
+
+def letters(text: str) -> tuple[Letter, ...]:
+    """Read "d:2 E:2": lower-case letters are transparent, one without a number is unsized."""
+    found = []
+    for one in text.split():
+        symbol, _, size = one.partition(":")
+        found.append(Letter(symbol, float(size) if size else None, transparent=symbol.islower()))
+    return tuple(found)
+
+
+@pytest.mark.parametrize("search", ["best", "ida"])
+@pytest.mark.parametrize(
+    ("rows", "canvas", "tolerance"),
+    [
+        (["d:2", "E:2", "D:2"], 4.0, 0.0),
+        (["C:1.13", "d:1.13", "D:1.13"], 2.26, 0.0),
+        (["E:2 d:2", "E:2 B:2"], 6.25, 1.0),
+        (["b:1 D:1", "D:1 A:1"], 4.0, 1.0),
+        (["a A:0.8", "C:3.05 A:0.8"], 5.5, 0.5),
+        (["b", "A:0.5", "B:0.5"], 2.0, 1.0),
+    ],
+)
+def test_uncut_placeholder_beside_insertions(
+    rows: list[str], canvas: float, tolerance: float, search: str
+) -> None:
+    """A transparent letter may stay whole between columns in which its row is empty, though it could be cut."""
+    compare(Case(tuple(map(letters, rows)), canvas, tolerance, DEFAULT, cuts=True), search)
+
+
+def test_objective_is_the_default_of_solving() -> None:
+    """The weights that the oracle takes for SPEC's default are those of the package."""
+    ours = Objective()
+    assert (ours.empty, ours.loose, ours.fit) == (DEFAULT.empty, DEFAULT.loose, DEFAULT.fit)
+
+
+@pytest.mark.parametrize("search", ["best", "ida"])
+def test_a_row_that_has_no_letters(search: str) -> None:
+    """Alone, the paper's Ω is degenerate: an empty lower word costs nothing (SPEC 3)."""
+    found = align([[Letter("A", 3.0)], []], canvas=3.0, search=search)
+    assert found is not None and found.error == 0.0
+    assert [[len(cell) for cell in column] for column in found.columns] == [[1, 0]]
