@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from heapq import heapify, heappop, heappush
 from itertools import islice, product
 from math import inf
 
@@ -24,8 +25,8 @@ __all__ = ["AxisSearch", "Solved"]
 
 _TIES = 4
 _NODES = 1_000_000
-_STEP = 0.01
-"""First limit above the least lower bound, as a fraction of the canvas; each round adds `_GROWTH` times more."""
+_STEP = 0.004
+"""How far above the next lower bound a candidate goes first, as a fraction of the canvas; each turn `_GROWTH` times more."""
 _GROWTH = 1.5
 
 
@@ -67,6 +68,11 @@ class Best:
     bound: float = inf
     complete: bool = True
     unsizable: bool = False
+
+    @property
+    def cost(self) -> float:
+        """J of the best so far; infinite without one."""
+        return inf if self.solved is None else self.solved.cost
 
 
 class _Run:
@@ -171,45 +177,39 @@ class AxisSearch:
             )
 
     def best(self, among: Iterable[Candidate] | None = None, cap: float = inf) -> Best:
-        """The best candidate, by rounds of growing budget.
+        """The best candidate; candidates take turns.
 
-        In a round every candidate whose lower bound is within the budget is aligned within it; a candidate that has
-        nothing there has the budget as its new lower bound. So no time is spent on the dear alignments of a candidate
-        while another may have a cheap one. An answer lowers the budget for those that follow; when a round has one,
-        what is left over is no better.
+        The one with the least lower bound goes on, up to a little above the next one's, and comes back into the queue with
+        what it has then been proven to cost at least. So no time is spent on the dear alignments of one candidate while
+        another may have a cheap one, and when the least lower bound is above the best answer, that is optimal.
         """
-        queue = sorted(self.candidates if among is None else among, key=lambda c: c.bound)
+        order = self.candidates if among is None else list(among)
         best = Best()
-        step = _STEP * self.problem.canvas
-        limit = min(cap, queue[0].bound + step) if queue else cap
-        floors = {id(c): c.bound for c in queue}
+        step = [_STEP * self.problem.canvas] * len(order)
+        queue = [(candidate.bound, n) for n, candidate in enumerate(order)]
+        heapify(queue)
         try:
-            while queue:
-                later: list[Candidate] = []
-                for candidate in queue:
-                    if floors[id(candidate)] > limit + EPS:
-                        later.append(candidate)
-                        continue
-                    solved = self.solve(candidate, limit)
-                    case = self.cases[id(candidate)]
-                    best.unsizable = best.unsizable or case.unsizable
-                    best.complete = best.complete and not any(run.cut for run in case.runs)
-                    if solved is not None:
-                        best.bound = min(best.bound, case.floor)
-                        limit = min(limit, solved.cost)
-                        if solved.beats(best.solved):
-                            best.solved = solved
-                    elif not all(run.done for run in case.runs):
-                        floors[id(candidate)] = case.floor
-                        later.append(candidate)
-                queue = later
-                if best.solved is not None or limit >= cap or not queue:
-                    break
-                limit = min(cap, max(limit, min(floors[id(c)] for c in queue)) + step)
-                step *= _GROWTH
+            while queue and queue[0][0] <= min(cap, best.cost) + EPS:
+                floor, n = queue[0]
+                behind = min((item[0] for item in queue[1:3]), default=floor)
+                top = min(cap, best.cost)
+                limit = min(top, max(floor, behind) + step[n])
+                step[n] *= _GROWTH
+                solved = self.solve(order[n], limit)
+                heappop(queue)
+                case = self.cases[id(order[n])]
+                best.unsizable = best.unsizable or case.unsizable
+                best.complete = best.complete and not any(run.cut for run in case.runs)
+                if solved is not None:
+                    best.bound = min(best.bound, case.floor)
+                    if solved.beats(best.solved):
+                        best.solved = solved
+                elif not all(run.done for run in case.runs):
+                    beyond = top + 2 * EPS if limit >= top else floor  # nothing as good as the best is left in it
+                    heappush(queue, (max(beyond, case.floor), n))
         except Stopped:
             best.complete = False
-        best.bound = min([best.bound, *(floors[id(c)] for c in queue)])
+        best.bound = min([best.bound, *(floor for floor, _ in queue)])
         self._tell_fates(best)
         return best
 

@@ -102,12 +102,12 @@ def letters(text: str) -> tuple[Letter, ...]:
         (["b:1 D:1", "D:1 A:1"], 4.0, 1.0),
         (["a A:0.8", "C:3.05 A:0.8"], 5.5, 0.5),
         (["b", "A:0.5", "B:0.5"], 2.0, 1.0),
+        (["B:2 c:0.5", "a b"], 2.5, 1.0),
+        (["B:2 B:2 c:0.5", "a b"], 4.2, 1.0),
     ],
 )
-def test_uncut_placeholder_beside_insertions(
-    rows: list[str], canvas: float, tolerance: float, search: str
-) -> None:
-    """A transparent letter may stay whole between columns in which its row is empty, though it could be cut."""
+def test_found_by_long_runs(rows: list[str], canvas: float, tolerance: float, search: str) -> None:
+    """Whole placeholders beside columns in which their row is empty; unsized ones with more columns at the same cost."""
     compare(Case(tuple(map(letters, rows)), canvas, tolerance, DEFAULT, cuts=True), search)
 
 
