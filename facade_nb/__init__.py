@@ -12,7 +12,9 @@ __version__ = "0.1.0"
 
 
 def __getattr__(name: str) -> object:
-    if name == "gallery":  # sits above solver; loaded when asked for, so that importing the solver stays quick
+    if (
+        name == "gallery"
+    ):  # sits above solver; loaded when asked for, so that importing the solver stays quick
         from importlib import import_module
 
         return import_module(".gallery", __name__)

@@ -26,7 +26,8 @@ class Alignment:
     Attributes
     ----------
     columns
-        Per column, per row (topmost first): the letters in it; a piece of a cut letter, and an unsized letter, has
+        Per column, per row (topmost first): the letters in it; a piece of a cut letter, and an unsized
+        letter, has
         the size that makes the objective least. An empty tuple is ε.
     error
         Ω = Σ ω_j, metres (Eq. 9, or its variant for non-opaque rows under the default objective).
@@ -58,7 +59,8 @@ def align(
     Parameters
     ----------
     rows
-        Words, topmost row first. A letter without a size gets the size that makes the objective least; all letters of
+        Words, topmost row first. A letter without a size gets the size that makes the objective least; all
+        letters of
         its symbol the same.
     canvas, tolerance
         Metres: ω_j ≤ tolerance and |W − canvas| ≤ tolerance.
@@ -90,7 +92,9 @@ def align(
         raise ValueError(f"expected canvas ≥ 0 and tolerance ≥ 0, found {canvas!r} and {tolerance!r}")
     if not any(rows):
         return Alignment((), 0.0, 0.0, 0.0) if canvas <= tolerance else None
-    group = make_group(rows, canvas, tolerance, Objective.paper() if objective is None else objective, cuts=cuts)
+    group = make_group(
+        rows, canvas, tolerance, Objective.paper() if objective is None else objective, cuts=cuts
+    )
     found = (search_ida if search == "ida" else search_best)([group])
     return None if found.best is None else alignment_of(group, found.best, 0)
 

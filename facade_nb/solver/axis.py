@@ -26,8 +26,9 @@ __all__ = ["AxisSearch", "Solved"]
 _TIES = 4
 _NODES = 1_000_000
 _STEP = 0.004
-"""How far above the next lower bound a candidate goes first, as a fraction of the canvas; each turn `_GROWTH` times more."""
+"""How far above the next lower bound a candidate goes first, as a fraction of the canvas."""
 _GROWTH = 1.5
+"""Each turn takes it so many times further."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,9 +88,11 @@ class _Run:
         accept: Callable[[Priced], bool] | None,
     ) -> None:
         self.groups = groups
-        self._ida = (lambda limit: search_ida(groups, cap=limit, keep=_TIES, nodes=nodes, check=check, accept=accept)) if (
-            method == "ida"
-        ) else None
+        self._ida = (
+            (lambda limit: search_ida(groups, cap=limit, keep=_TIES, nodes=nodes, check=check, accept=accept))
+            if (method == "ida")
+            else None
+        )
         self._first = BestFirst(groups, keep=_TIES, nodes=nodes, check=check, accept=accept)
         self._found = self._first.found
         self.done = self._first.done
@@ -173,15 +176,26 @@ class AxisSearch:
     def _tell_words(self, trace: Trace, name: str) -> None:
         for word in self.found[name].words:
             trace.events.append(
-                WordJudged(self.problem.axis, name, str(word), word.size, dict(word.counters), True, "fits the canvas")
+                WordJudged(
+                    self.problem.axis,
+                    name,
+                    str(word),
+                    word.size,
+                    dict(word.counters),
+                    True,
+                    "fits the canvas",
+                )
             )
 
     def best(self, among: Iterable[Candidate] | None = None, cap: float = inf) -> Best:
         """The best candidate; candidates take turns.
 
-        The one with the least lower bound goes on, up to a little above the next one's, and comes back into the queue with
-        what it has then been proven to cost at least. So no time is spent on the dear alignments of one candidate while
-        another may have a cheap one, and when the least lower bound is above the best answer, that is optimal.
+        The one with the least lower bound goes on, up to a little above the next one's, and comes back into
+        the queue with
+        what it has then been proven to cost at least. So no time is spent on the dear alignments of one
+        candidate while
+        another may have a cheap one, and when the least lower bound is above the best answer, that is
+        optimal.
         """
         order = self.candidates if among is None else list(among)
         best = Best()
@@ -205,7 +219,9 @@ class AxisSearch:
                     if solved.beats(best.solved):
                         best.solved = solved
                 elif not all(run.done for run in case.runs):
-                    beyond = top + 2 * EPS if limit >= top else floor  # nothing as good as the best is left in it
+                    beyond = (
+                        top + 2 * EPS if limit >= top else floor
+                    )  # nothing as good as the best is left in it
                     heappush(queue, (max(beyond, case.floor), n))
         except Stopped:
             best.complete = False
@@ -220,7 +236,13 @@ class AxisSearch:
             case = self.cases.get(id(candidate))
             solved = case.solved if case else None
             if solved is not None and best.solved is not None:
-                fate = "best" if solved is best.solved else "tied" if solved.cost <= best.solved.cost + EPS else "dearer"
+                fate = (
+                    "best"
+                    if solved is best.solved
+                    else "tied"
+                    if solved.cost <= best.solved.cost + EPS
+                    else "dearer"
+                )
             elif case is not None and case.unsizable:
                 fate = "no sizes"
             elif case is not None and all(run.done for run in case.runs):
@@ -258,7 +280,10 @@ class AxisSearch:
         if case.solved is None:
             case.unsizable = True
             if len(case.runs) == 1:
-                again = self._run(case.groups, lambda p: self._size(candidate, case.groups, case.clusters, [[p]]) is not None)
+                again = self._run(
+                    case.groups,
+                    lambda p: self._size(candidate, case.groups, case.clusters, [[p]]) is not None,
+                )
                 case.runs = [again]
                 return self.solve(candidate, limit)
         return case.solved
@@ -296,7 +321,9 @@ class AxisSearch:
         for cluster in clusters:
             free = lone_unsized(*(dict.fromkeys(rows[g]) for g in cluster))
             for g in cluster:
-                groups[g] = make_group(rows[g], self.problem.canvas, self.tolerance, self.objective, free=free)
+                groups[g] = make_group(
+                    rows[g], self.problem.canvas, self.tolerance, self.objective, free=free
+                )
         return groups, clusters
 
     def _size(

@@ -35,7 +35,8 @@ def candidates(
 ) -> Iterator[Candidate]:
     """Every candidate whose words keep Eq. 7, in lexicographic order.
 
-    The lower bound of Eq. 7 is canvas − μ − Σ of the opaque letters of the patterns above in the same group, because opaque
+    The lower bound of Eq. 7 is canvas − μ − Σ of the opaque letters of the patterns above in the same group,
+    because opaque
     letters above may push the words below aside; unsized letters take whatever is left.
     """
     names = [name for name, _ in problem.patterns]
@@ -45,7 +46,9 @@ def candidates(
         if check is not None:
             check()
         if k == len(names):
-            bound = sum(lower_bound(rows, problem.canvas, tolerance, objective) for rows in rows_of(problem, chosen))
+            bound = sum(
+                lower_bound(rows, problem.canvas, tolerance, objective) for rows in rows_of(problem, chosen)
+            )
             if bound < inf:
                 yield Candidate(dict(chosen), dict(values), bound)
             return
@@ -73,14 +76,18 @@ def _above(problem: AxisProblem) -> dict[str, list[list[str]]]:
 
 
 def _long_enough(
-    problem: AxisProblem, name: str, chosen: Mapping[str, Word], above: Sequence[Sequence[str]], tolerance: float
+    problem: AxisProblem,
+    name: str,
+    chosen: Mapping[str, Word],
+    above: Sequence[Sequence[str]],
+    tolerance: float,
 ) -> bool:
     word = chosen[name]
     if any(letter.size is None for letter in word.letters):
         return True
     for patterns in above:
         if any(p not in chosen for p in patterns):
-            continue  # not decided yet: patterns are chosen in order of first use, which another group may differ from
+            continue  # not chosen yet: another group may use the patterns in another order
         room = sum(a.size or 0.0 for p in patterns for a in chosen[p].letters if a.opaque)
         if word.size < problem.canvas - tolerance - room - EPS:
             return False
@@ -90,7 +97,8 @@ def _long_enough(
 def rows_of(problem: AxisProblem, words: Mapping[str, Word]) -> list[list[tuple[Letter, ...]]]:
     """The rows of every group, topmost first.
 
-    An unsized symbol that is substituted in one pattern and left standing in another gets the size of its content, so
+    An unsized symbol that is substituted in one pattern and left standing in another gets the size of its
+    content, so
     that both fill the same part of the canvas (supplement 2.2).
     """
     extent: dict[str, float] = {}
@@ -105,7 +113,10 @@ def rows_of(problem: AxisProblem, words: Mapping[str, Word]) -> list[list[tuple[
     for name, _ in problem.patterns:
         letters = words[name].letters
         if extent and any(a.size is None and a.symbol in extent for a in letters):
-            letters = tuple(replace(a, size=extent[a.symbol]) if a.size is None and a.symbol in extent else a for a in letters)
+            letters = tuple(
+                replace(a, size=extent[a.symbol]) if a.size is None and a.symbol in extent else a
+                for a in letters
+            )
         made[name] = letters
     return [[made[name] for name in rows] for _, rows in problem.groups]
 
@@ -113,7 +124,7 @@ def rows_of(problem: AxisProblem, words: Mapping[str, Word]) -> list[list[tuple[
 def lower_bound(
     rows: Sequence[Sequence[Letter]], canvas: float, tolerance: float, objective: Objective
 ) -> float:
-    """J of a group is at least this, whatever the alignment; see `network.shortfall`. Infinity: the words do not fit."""
+    """J of a group is at least this, whatever the alignment (`network.shortfall`). Infinity: no fit."""
     distinct = list(dict.fromkeys(tuple(row) for row in rows))
     totals: list[tuple[float, float]] = []
     longest = 0.0
@@ -130,7 +141,10 @@ def lower_bound(
 
     def cost(width: float) -> float:
         over = width - canvas
-        return objective.fit * abs(over) + sum(weight * max(0.0, width - size) for size, weight in totals) / scale
+        return (
+            objective.fit * abs(over)
+            + sum(weight * max(0.0, width - size) for size, weight in totals) / scale
+        )
 
     breaks = [longest]
     if longest < canvas:

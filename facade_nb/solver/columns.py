@@ -1,8 +1,11 @@
 """The columns of an alignment: what may stand in one, and what it costs (SPEC 3, *Columns*; the paper's 5.2).
 
-A group of an axis has rows; equal words are one `Band`, because they are cut alike. A column takes from each band an
-*element*: nothing, a run of solid letters, or a run of transparent letters whose first and last may be pieces of cut
-ones. An `Option` is such an element as seen from the band's position, with everything the constraints and the cost
+A group of an axis has rows; equal words are one `Band`, because they are cut alike. A column takes from each
+band an
+*element*: nothing, a run of solid letters, or a run of transparent letters whose first and last may be
+pieces of cut
+ones. An `Option` is such an element as seen from the band's position, with everything the constraints and
+the cost
 ask about it computed once; a column is a tuple of options, one a band.
 
 Constraints, by the numbers of SPEC 3:
@@ -15,7 +18,7 @@ Constraints, by the numbers of SPEC 3:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from math import inf
 from typing import Any
@@ -29,8 +32,10 @@ EPS = 1e-9
 """Costs and sizes closer than this are equal."""
 
 Position = int
-"""Where a band stands: ``8·i + 4·mid + 2·gap + held``: the next letter i; `mid`: letter i is cut and its rest is still
-to come; `gap`: the column before was empty here and letter i is attached, so it may not begin the next (C4); `held`:
+"""Where a band stands: ``8·i + 4·mid + 2·gap + held``: the next letter i; `mid`: letter i is cut and its
+rest is still
+to come; `gap`: the column before was empty here and letter i is attached, so it may not begin the next (C4);
+`held`:
 the last element ended with an attached letter, so the next column may not be empty here (C4)."""
 
 
@@ -59,7 +64,8 @@ class Option:
     letters
         Indices into the band's word of the letters, or pieces, in it.
     tied
-        Elastic, and some piece in it answers to an equation (a fixed size, or a size shared with other letters).
+        Elastic, and some piece in it answers to an equation (a fixed size, or a size shared with other
+        letters).
     """
 
     target: Position
@@ -79,11 +85,14 @@ class Option:
 class Band:
     """The rows of a group that have one word.
 
-    `rest_min` and `rest_max` bound the total size still to come at each letter index, from sized letters alone and
+    `rest_min` and `rest_max` bound the total size still to come at each letter index, from sized letters
+    alone and
     with unsized ones counted as unbounded.
     """
 
-    def __init__(self, letters: Sequence[Letter], rows: Sequence[int], *, cuts: bool, free: frozenset[str]) -> None:
+    def __init__(
+        self, letters: Sequence[Letter], rows: Sequence[int], *, cuts: bool, free: frozenset[str]
+    ) -> None:
         self.letters = tuple(letters)
         self.rows = tuple(rows)
         self.top, self.bottom = min(rows), max(rows)
@@ -108,8 +117,10 @@ class Band:
     def back(self, thinnest: float) -> None:
         """Fill `soft_rest`: least Σ (column − element) over the runs with non-opaque letters still to come.
 
-        Behind a non-opaque letter stands something opaque (C1), which is no narrower than the thinnest opaque letter;
-        however a run of solid letters is split into elements, the one with the letter falls short of that by at least
+        Behind a non-opaque letter stands something opaque (C1), which is no narrower than the thinnest
+        opaque letter;
+        however a run of solid letters is split into elements, the one with the letter falls short of that by
+        at least
         what the whole rest of the run does.
         """
         run = 0.0
@@ -203,7 +214,12 @@ class Band:
             bound = letter.symbol not in self.free
             if self.cuts:  # ends within letter j
                 yield Option(
-                    8 * j + 4, transparent=True, size=None, begins=not mid, letters=letters, tied=tied or bound
+                    8 * j + 4,
+                    transparent=True,
+                    size=None,
+                    begins=not mid,
+                    letters=letters,
+                    tied=tied or bound,
                 )
             whole = letter.size if (j > i or not mid) else None
             fixed = None if fixed is None or whole is None else fixed + whole
@@ -284,7 +300,8 @@ def make_group(
     rows
         Words, topmost first.
     free
-        Unsized symbols that stand once in all that is aligned together: nothing ties their size. None: counted here.
+        Unsized symbols that stand once in all that is aligned together: nothing ties their size. None:
+        counted here.
     """
     words: dict[tuple[Letter, ...], list[int]] = {}
     for index, row in enumerate(rows):
@@ -294,15 +311,16 @@ def make_group(
     bands = tuple(Band(word, indices, cuts=cuts, free=free) for word, indices in words.items())
     band_of = [0] * len(rows)
     for b, band in enumerate(bands):
-        for row in band.rows:
-            band_of[row] = b
+        for i in band.rows:
+            band_of[i] = b
     share = 1.0 / max(1, len(bands))
     solids = [a.size or 0.0 for band in bands for a in band.letters if a.opaque]
     if solids and not objective.plain:
         for band in bands:
             band.back(min(solids))
     weights = [
-        (min(objective.empty, objective.loose) if band.soft and not objective.plain else objective.empty) * share
+        (min(objective.empty, objective.loose) if band.soft and not objective.plain else objective.empty)
+        * share
         for band in bands
     ]
     total = sum(weights)
@@ -321,14 +339,12 @@ def make_group(
         under=min(
             objective.fit, objective.empty * share * sum(not band.elastic and not band.soft for band in bands)
         ),
-        guards=tuple(
-            tuple(o for o, other in enumerate(bands) if other.top < band.bottom) for band in bands
-        ),
+        guards=tuple(tuple(o for o, other in enumerate(bands) if other.top < band.bottom) for band in bands),
         weights=tuple(weights),
     )
 
 
-def lone_unsized(*words: Sequence[tuple[Letter, ...]] | dict[tuple[Letter, ...], list[int]]) -> frozenset[str]:
+def lone_unsized(*words: Iterable[tuple[Letter, ...]]) -> frozenset[str]:
     """Unsized symbols with a single letter in the given distinct words."""
     count: dict[str, int] = {}
     for batch in words:

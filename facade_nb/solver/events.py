@@ -33,8 +33,11 @@ class WordJudged(Event):
 
 @dataclass(frozen=True, slots=True)
 class CandidateJudged(Event):
-    """A candidate and its fate: ``best``, ``tied``, ``dearer``, ``no alignment``, ``no sizes``, or ``bound`` (not aligned,
-    because its lower bound is no better than what is known)."""
+    """A candidate and its fate.
+
+    ``best``, ``tied``, ``dearer``, ``no alignment``, ``no sizes``, or ``bound``: not aligned to the end, because its
+    lower bound is no better than what is known.
+    """
 
     words: Mapping[str, str]
     counters: Mapping[str, int]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from ..design.errors import NoLayout
@@ -36,7 +36,8 @@ def explain(
         names = ", ".join(repr(c) for c in shared)
         return NoLayout(
             f"Counter {names} is used both across and up, and no value of it fits both: across it can be "
-            f"{_values(walk, shared)}, up {_values(other, shared)}. Use another name on one axis, or change the canvas.",
+            f"{_values(walk, shared)}, up {_values(other, shared)}. Use "
+            "another name on one axis, or change the canvas.",
             counters=tuple(shared),
         )
     return _constraint(design, walk, best)
@@ -53,8 +54,8 @@ def _too_long(walk: AxisSearch) -> NoLayout | None:
     for name, found in walk.found.items():
         if found.shortest.size > problem.canvas + walk.tolerance + 1e-9:
             return NoLayout(
-                f"Pattern {name!r}: its shortest word, {_short(found.shortest)}, measures {found.shortest.size:.4g} m, and the canvas "
-                f"is {problem.canvas:.4g} m {_EXTENT[problem.axis]}. A canvas {_SIZE[problem.axis]} of "
+                f"Pattern {name!r}: its shortest word, {_short(found.shortest)}, measures "
+                f"{found.shortest.size:.4g} m, and the canvas is {_canvas(problem)}. A {_SIZE[problem.axis]} of "
                 f"{found.shortest.size:.4g} m would hold it.",
                 problem.axis,
                 patterns=(name,),
@@ -80,8 +81,8 @@ def _no_words(walk: AxisSearch) -> NoLayout | None:
             bounded = [c for c in longest.counters if _bounded(problem, c)]
             hint = f" Counter {bounded[0]!r} would have to go further." if bounded else ""
             return NoLayout(
-                f"Pattern {name!r}: its longest word, {_short(longest)}, measures {longest.size:.4g} m and cannot fill the canvas, which is "
-                f"{problem.canvas:.4g} m {_EXTENT[problem.axis]}.{hint} A canvas {_SIZE[problem.axis]} of "
+                f"Pattern {name!r}: its longest word, {_short(longest)}, measures {longest.size:.4g} m and cannot "
+                f"fill the canvas, which is {_canvas(problem)}.{hint} A {_SIZE[problem.axis]} of "
                 f"{longest.size:.4g} m would be filled.",
                 problem.axis,
                 patterns=(name,),
@@ -105,11 +106,14 @@ def _no_candidate(walk: AxisSearch) -> NoLayout | None:
     if walk.candidates:
         return None
     shared = [c for c, _ in problem.counters if sum(c in p.counters for _, p in problem.patterns) > 1]
-    patterns = tuple(n for n, p in problem.patterns if any(c in p.counters for c in shared)) or tuple(walk.found)
+    patterns = tuple(n for n, p in problem.patterns if any(c in p.counters for c in shared)) or tuple(
+        walk.found
+    )
     blame = f" They share counter {', '.join(map(repr, shared))}." if shared else ""
     return NoLayout(
-        f"Patterns {', '.join(map(repr, patterns))} have no words that fit the canvas of {problem.canvas:.4g} m together.{blame} "
-        f"Change the canvas {_SIZE[problem.axis]}, the sizes, or the bounds of the counters.",
+        f"Patterns {', '.join(map(repr, patterns))} have no words that fit the canvas of "
+        f"{problem.canvas:.4g} m together.{blame} Change the canvas {_SIZE[problem.axis]}, "
+        "the sizes, or the bounds of the counters.",
         problem.axis,
         patterns=patterns,
         counters=tuple(shared),
@@ -123,27 +127,33 @@ def _constraint(design: Design, walk: AxisSearch, best: Best) -> NoLayout:
         for quality, relaxed, meaning in _relaxed(symbol):
             if _solvable(walk, problem, name, relaxed):
                 return NoLayout(
-                    f"{name!r} is {quality}, and {meaning}: every alignment {_along(problem.axis)} breaks that. It would work if "
-                    f"{name!r} were not {quality}.",
+                    f"{name!r} is {quality}, and {meaning}: every alignment {_along(problem.axis)} breaks that. "
+                    f"It would work if {name!r} were not {quality}.",
                     problem.axis,
                     symbols=(name,),
                 )
     if best.unsizable:
         return NoLayout(
-            f"The words can be aligned {_along(problem.axis)}, but no sizes satisfy all of the alignment at once: symbols that must have one "
-            "size everywhere, or their min and max, contradict each other.",
+            f"The words can be aligned {_along(problem.axis)}, but no sizes satisfy all of the alignment at "
+            "once: symbols that must have one size everywhere, or their min and max, contradict each other.",
             problem.axis,
             patterns=tuple(walk.found),
             symbols=tuple(n for n, s in problem.symbols if s.min is not None or s.max is not None),
         )
     shortest = min((c for c in walk.candidates), key=lambda c: c.bound, default=None)
-    words = "" if shortest is None else " Nearest: " + ", ".join(f"{n} = {_short(w)}" for n, w in shortest.words.items()) + "."
+    words = ""
+    if shortest is not None:
+        words = " Nearest: " + ", ".join(f"{n} = {_short(w)}" for n, w in shortest.words.items()) + "."
     return NoLayout(
-        f"No alignment of {', '.join(map(repr, walk.found))} {_along(problem.axis)} keeps within the canvas of {problem.canvas:.4g} m "
-        f"with something opaque behind every gap.{words}",
+        f"No alignment of {', '.join(map(repr, walk.found))} {_along(problem.axis)} keeps within the canvas "
+        f"of {problem.canvas:.4g} m with something opaque behind every gap.{words}",
         problem.axis,
         patterns=tuple(walk.found),
     )
+
+
+def _canvas(problem: AxisProblem) -> str:
+    return f"{problem.canvas:.4g} m {_EXTENT[problem.axis]}"
 
 
 def _along(axis: Axis) -> str:
@@ -153,7 +163,13 @@ def _along(axis: Axis) -> str:
 def _relaxed(symbol: Symbol) -> list[tuple[str, Symbol, str]]:
     out: list[tuple[str, Symbol, str]] = []
     if symbol.unoccludable:
-        out.append(("unoccludable", replace(symbol, unoccludable=False), "nothing that is not opaque may stand before it"))
+        out.append(
+            (
+                "unoccludable",
+                replace(symbol, unoccludable=False),
+                "nothing that is not opaque may stand before it",
+            )
+        )
     if symbol.attached:
         out.append(("attached", replace(symbol, attached=False), "no gap may open beside it"))
     if not symbol.opaque and not symbol.transparent:
@@ -165,7 +181,5 @@ def _solvable(walk: AxisSearch, problem: AxisProblem, name: str, symbol: Symbol)
     changed = replace(problem, symbols=tuple((n, symbol if n == name else s) for n, s in problem.symbols))
     trial = AxisSearch(changed, walk.objective, walk.tolerance, walk.method, walk.check)
     trial.enumerate()
-    for candidate in sorted(trial.candidates, key=lambda c: c.bound)[:8]:
-        if trial.solve(candidate) is not None:
-            return True
-    return False
+    likely = sorted(trial.candidates, key=lambda c: c.bound)[:8]
+    return any(trial.solve(candidate) is not None for candidate in likely)

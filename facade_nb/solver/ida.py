@@ -1,7 +1,10 @@
-"""The paper's search: informed iterative deepening with a transposition table (5.2; Reinefeld and Marsland 1994).
+"""The paper's search: informed iterative deepening with a transposition table (5.2; Reinefeld and Marsland
+1994).
 
-Depth first, so that no global ranking of edges is needed: each node ranks the edges that leave it, by their lower
-bound and then by the fewer symbols, which favours more columns. What exceeds the threshold is not made; if nothing was
+Depth first, so that no global ranking of edges is needed: each node ranks the edges that leave it, by their
+lower
+bound and then by the fewer symbols, which favours more columns. What exceeds the threshold is not made; if
+nothing was
 found, the distance of the threshold from the lower bound doubles and the search begins again.
 """
 

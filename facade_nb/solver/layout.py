@@ -167,7 +167,9 @@ class Layout:
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         """In a notebook a layout shows itself as its elevation."""
-        from ..render import elevation_svg  # the one upward import: a courtesy of notebooks, made when asked for
+        from ..render import (
+            elevation_svg,
+        )  # the one upward import: a courtesy of notebooks, made when asked for
 
         return {"image/svg+xml": elevation_svg(self), "text/plain": repr(self)}
 
@@ -239,7 +241,9 @@ def _read_axis(document: Mapping[str, Any]) -> AxisLayout:
                     RowLayout(
                         row["layer"],
                         row["pattern"],
-                        tuple(tuple(PlacedLetter(**letter) for letter in element) for element in row["columns"]),
+                        tuple(
+                            tuple(PlacedLetter(**letter) for letter in element) for element in row["columns"]
+                        ),
                     )
                     for row in group["rows"]
                 ),

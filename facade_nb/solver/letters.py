@@ -6,7 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import fsum
 
-__all__ = ["Letter", "Word", "spell"]
+from ..design.text import spell
+
+__all__ = ["Letter", "Word"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,12 +47,6 @@ class Letter:
 
     def __str__(self) -> str:
         return spell(self.symbol) + ("'" if self.mirrored else "")
-
-
-def spell(symbol: str) -> str:
-    """The symbol as patterns write it: long names in angle brackets."""
-    short = symbol[:1].isalpha() and symbol != "ε" and (len(symbol) == 1 or symbol[1:].isdecimal())
-    return symbol if short else f"<{symbol}>"
 
 
 @dataclass(frozen=True, slots=True)

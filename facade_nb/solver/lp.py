@@ -1,8 +1,11 @@
 """Small linear programmes, solved exactly by a sequence of quadratic ones.
 
-The alignment search prices hundreds of structures with ten to fifty variables each. A general LP code spends a
-millisecond on any of them before it begins; daqp, a dual active-set QP code, answers in hundredths of one. Adding
-``ρ/2·‖x − x_k‖²`` to a linear objective and solving again from the answer is the proximal-point method; on a linear
+The alignment search prices hundreds of structures with ten to fifty variables each. A general LP code spends
+a
+millisecond on any of them before it begins; daqp, a dual active-set QP code, answers in hundredths of one.
+Adding
+``ρ/2·‖x − x_k‖²`` to a linear objective and solving again from the answer is the proximal-point method; on a
+linear
 programme it ends after finitely many rounds (Ferris 1991), here nearly always two, with the exact vertex.
 """
 
@@ -44,7 +47,15 @@ def solve_lp(cost: _Array, rows: _Array, upper: _Array, lower: _Array, rho: floa
     best = np.inf
     for _ in range(60):
         x_new, _value, flag, _info = daqp.solve(
-            hessian, cost - rho * x, rows, upper, lower, sense.copy(), primal_tol=1e-11, dual_tol=1e-12, eps_prox=0.0
+            hessian,
+            cost - rho * x,
+            rows,
+            upper,
+            lower,
+            sense.copy(),
+            primal_tol=1e-11,
+            dual_tol=1e-12,
+            eps_prox=0.0,
         )
         if flag != 1:
             return None

@@ -20,11 +20,17 @@ _NEAR = 1e-6
 def shape_of(design: Design, layer: Layer, x: str, y: str) -> Shape:
     """What the pair of symbols looks like in a layer, every field filled in.
 
-    A layer's shapes override its patterns', which override the design's; within each, ``"X Y"`` beats ``"X *"``, which beats
+    A layer's shapes override its patterns', which override the design's; within each, ``"X Y"`` beats ``"X
+    *"``, which beats
     ``"* Y"``, which beats ``"* *"``.
     """
     shape = DEFAULT_SHAPE
-    sources = (design.shapes, design.patterns[layer.x.pattern].shapes, design.patterns[layer.y.pattern].shapes, layer.shapes)
+    sources = (
+        design.shapes,
+        design.patterns[layer.x.pattern].shapes,
+        design.patterns[layer.y.pattern].shapes,
+        layer.shapes,
+    )
     for source in sources:
         if source:
             for key in ("* *", f"* {y}", f"{x} *", f"{x} {y}"):
@@ -38,7 +44,8 @@ def shape_of(design: Design, layer: Layer, x: str, y: str) -> Shape:
 def merge(design: Design, x: AxisLayout, y: AxisLayout) -> tuple[PlacedShape, ...]:
     """Visible shapes, bottom layer first.
 
-    Letters that are transparent, masked out by the layer or hidden by their pattern make no shape; nor do shapes that are
+    Letters that are transparent, masked out by the layer or hidden by their pattern make no shape; nor do
+    shapes that are
     not `visible`, nor those wholly behind a visible shape both of whose symbols are opaque.
     """
     shapes: list[PlacedShape] = []
@@ -56,9 +63,7 @@ def merge(design: Design, x: AxisLayout, y: AxisLayout) -> tuple[PlacedShape, ..
                 rect = (h.start, v.start, h.end, v.end)
                 if look.visible and not any(_covers(cover, rect) for cover in covers):
                     own.append(_placed(layer, h, v, rect, look))
-        covers += [
-            s.rect for s in own if design.symbol(s.x).opaque and design.symbol(s.y).opaque
-        ]
+        covers += [s.rect for s in own if design.symbol(s.x).opaque and design.symbol(s.y).opaque]
         shapes[:0] = own
     return tuple(shapes)
 
@@ -82,7 +87,11 @@ def _shown(design: Design, layer: Layer, axis: Axis, solved: AxisLayout) -> Iter
     own = layer.along(axis)
     hidden = design.patterns[own.pattern].hidden
     for letter in solved.row(layer.name).letters:
-        if letter.transparent or letter.symbol in hidden or (own.mask is not None and letter.symbol not in own.mask):
+        if (
+            letter.transparent
+            or letter.symbol in hidden
+            or (own.mask is not None and letter.symbol not in own.mask)
+        ):
             continue
         yield letter
 
@@ -172,12 +181,14 @@ def _pushers(design: Design, axes: Mapping[Axis, AxisLayout], hole: Rect) -> Ite
         h, v = here["x"], here["y"]
         if h is None or v is None:
             continue
-        pair = f"{h.symbol} {v.symbol}"
-        for axis, letter in (("x", h), ("y", v)):
-            own = layer.along("x" if axis == "x" else "y")
+        stands = (
+            f"{h.symbol} {v.symbol} of layer {layer.name!r} stands there and pushed the others aside, but "
+        )
+        for axis, letter in zip(AXES, (h, v), strict=True):
+            own = layer.along(axis)
             if own.mask is not None and letter.symbol not in own.mask:
-                yield f"{pair} of layer {layer.name!r} stands there and pushed the others aside, but its {axis} mask hides {letter.symbol}"
+                yield f"{stands}its {axis} mask hides {letter.symbol}"
             elif letter.symbol in design.patterns[own.pattern].hidden:
-                yield f"{pair} of layer {layer.name!r} stands there and pushed the others aside, but pattern {own.pattern!r} hides {letter.symbol}"
+                yield f"{stands}pattern {own.pattern!r} hides {letter.symbol}"
         if not shape_of(design, layer, h.symbol, v.symbol).visible:
-            yield f"{pair} of layer {layer.name!r} stands there and pushed the others aside, but is not visible"
+            yield f"{stands}it is not visible"

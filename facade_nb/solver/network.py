@@ -1,15 +1,20 @@
 """The alignment decision network, made as it is walked (the paper's 5.2, supplement 3.3).
 
-A node is a position in every word of a group; an edge is a column; a path from the first node to the last is an
-alignment. Groups that share an unsized symbol are walked one after the other on one path. Nothing of the network is
+A node is a position in every word of a group; an edge is a column; a path from the first node to the last is
+an
+alignment. Groups that share an unsized symbol are walked one after the other on one path. Nothing of the
+network is
 stored: `Network.children` makes the edges that leave a path's end, and only those within a budget.
 
 Lower bounds, both exact where nothing is elastic:
 
-*Elastic letters cost nothing at first.* A column is charged for its solid and its whole sized letters alone, whatever
-lengths the pieces of cut letters will get. A complete path is priced exactly by a linear programme (`pricing`).
+*Elastic letters cost nothing at first.* A column is charged for its solid and its whole sized letters alone,
+whatever
+lengths the pieces of cut letters will get. A complete path is priced exactly by a linear programme
+(`pricing`).
 
-*Shortfall.* Whatever comes, W will be at least what has been laid plus the longest word still to come, and every
+*Shortfall.* Whatever comes, W will be at least what has been laid plus the longest word still to come, and
+every
 metre that a shorter word falls short of W is paid for, as ω, as looseness or as empty columns.
 """
 
@@ -44,11 +49,13 @@ class Path:
     owed
         No letter ended at the last boundary, so one must begin there.
     spans
-        Per band: least and greatest size that the pieces of the letter it stands in have taken so far, at no cost.
+        Per band: least and greatest size that the pieces of the letter it stands in have taken so far, at no
+        cost.
     learnt
         Unsized symbols that have stood as a whole: ``(symbol, least, greatest)`` size at no cost.
     trail
-        The columns whose price depends on the lengths of pieces. Paths are compared only where it is the same.
+        The columns whose price depends on the lengths of pieces. Paths are compared only where it is the
+        same.
     """
 
     group: int
@@ -84,15 +91,22 @@ class Edge:
 def shortfall(group: Group, path: Path) -> float:
     """Least cost still to come at the end of a path.
 
-    With rests R_b and W ≥ `path.width` + max R_b, band b is short of W by at least d_b = W − width − R_b. In each column
-    it is short by ω_j, or it is empty there and pays for it, or it holds a non-opaque letter and pays Λ. As ω is
-    shared by all bands and Σ weights ≤ 1, Σ weight_b·d_b + fit·|W − canvas| is a lower bound, convex in W, so that its
-    least is where it turns. Non-opaque letters to come are loose before whatever stands behind them, which a band pays
+    With rests R_b and W ≥ `path.width` + max R_b, band b is short of W by at least d_b = W − width − R_b. In
+    each column
+    it is short by ω_j, or it is empty there and pays for it, or it holds a non-opaque letter and pays Λ. As
+    ω is
+    shared by all bands and Σ weights ≤ 1, Σ weight_b·d_b + fit·|W − canvas| is a lower bound, convex in W,
+    so that its
+    least is where it turns. Non-opaque letters to come are loose before whatever stands behind them, which a
+    band pays
     if it is more than its part of that sum.
 
-    Columns already laid could be made wider than they are charged for: a firm one at 1 > fit a metre, which never pays,
-    another one at `under` a metre. Rests of cut and of unsized letters follow from what their pieces have taken so far;
-    they are soft, because a piece may leave its range at 1 a metre of ω. So W may stay below the longest soft rest at
+    Columns already laid could be made wider than they are charged for: a firm one at 1 > fit a metre, which
+    never pays,
+    another one at `under` a metre. Rests of cut and of unsized letters follow from what their pieces have
+    taken so far;
+    they are soft, because a piece may leave its range at 1 a metre of ω. So W may stay below the longest
+    soft rest at
     that price, which is the same ω that pays for what bands are short of.
     Returns infinity where no W within the tolerance can be reached.
     """
@@ -174,7 +188,9 @@ def edges(group: Group, state: State, owed: bool, made: float, limit: float) -> 
         costs.sort(key=_by_cost)
         known = group.edges[state, owed] = (limit, costs)
     costs = known[1]
-    return costs[bisect_right(costs, made + EPS, key=_by_cost) : bisect_right(costs, limit + EPS, key=_by_cost)]
+    return costs[
+        bisect_right(costs, made + EPS, key=_by_cost) : bisect_right(costs, limit + EPS, key=_by_cost)
+    ]
 
 
 def _by_cost(edge: Edge) -> float:
@@ -184,8 +200,10 @@ def _by_cost(edge: Edge) -> float:
 def _make_edges(group: Group, state: State, owed: bool, limit: float) -> list[Edge]:
     """The edges that leave a node.
 
-    Elements are chosen band by band. What is chosen already bounds ω, E and Λ from below, so that a column that has
-    become too dear is given up; runs of solid letters only grow, so that the rest of a band's runs go with it.
+    Elements are chosen band by band. What is chosen already bounds ω, E and Λ from below, so that a column
+    that has
+    become too dear is given up; runs of solid letters only grow, so that the rest of a band's runs go with
+    it.
     """
     objective, mu, share = group.objective, group.tolerance + EPS, group.share
     limit += EPS
@@ -198,7 +216,14 @@ def _make_edges(group: Group, state: State, owed: bool, limit: float) -> list[Ed
     made: list[Edge] = []
 
     def close(
-        high: float, low: float, low_all: float, empties: int, loose: float, softs: int, soft_sizes: float, elastic: bool
+        high: float,
+        low: float,
+        low_all: float,
+        empties: int,
+        loose: float,
+        softs: int,
+        soft_sizes: float,
+        elastic: bool,
     ) -> None:
         rested = low < inf
         if not rested:
@@ -283,7 +308,16 @@ def _make_edges(group: Group, state: State, owed: bool, limit: float) -> list[Ed
             chosen.append(option)
             low_all_ = size if size < low_all else low_all
             if option.soft:
-                args = (high_, low_, low_all_, empties, loose + option.loose, softs + 1, soft_sizes + size, elastic)
+                args = (
+                    high_,
+                    low_,
+                    low_all_,
+                    empties,
+                    loose + option.loose,
+                    softs + 1,
+                    soft_sizes + size,
+                    elastic,
+                )
             else:
                 args = (high_, low_, low_all_, empties, loose + option.loose, softs, soft_sizes, elastic)
             if b == last:
@@ -359,7 +393,10 @@ class Network:
                 if bound == inf:
                     continue
                 if width < group.canvas - group.tolerance - EPS:
-                    trail = (*trail, path)  # too narrow as it is: only its price can tell, so it is like no other
+                    trail = (
+                        *trail,
+                        path,
+                    )  # too narrow as it is: only its price can tell, so it is like no other
                 g = path.group + 1
                 state = self.groups[g].start if g < len(self.groups) else ()
                 child = Path(g, state, cost, 0.0, path.columns + 1, True, False, trail, path, edge.column)
@@ -367,9 +404,20 @@ class Network:
                 child.learnt = self._learn(group, path, edge)[1] if group.tied else path.learnt
             else:
                 child = Path(
-                    path.group, edge.state, cost, width, path.columns + 1, firm, edge.owed, trail, path, edge.column
+                    path.group,
+                    edge.state,
+                    cost,
+                    width,
+                    path.columns + 1,
+                    firm,
+                    edge.owed,
+                    trail,
+                    path,
+                    edge.column,
                 )
-                child.spans, child.learnt = self._learn(group, path, edge) if group.tied else (path.spans, path.learnt)
+                child.spans, child.learnt = (
+                    self._learn(group, path, edge) if group.tied else (path.spans, path.learnt)
+                )
                 bound = cost + shortfall(group, child) + later
                 if bound == inf:
                     continue
@@ -399,9 +447,9 @@ class Network:
                 span = (begun[0] + low, begun[1] + most)
                 letter = band.letters[i]
                 done = i != last or option.ends
-                if done and letter.size is None and letter.symbol not in band.free:
-                    if all(symbol != letter.symbol for symbol, _, _ in learnt):
-                        learnt = (*learnt, (letter.symbol, *span))
+                new = letter.size is None and all(symbol != letter.symbol for symbol, _, _ in learnt)
+                if done and new and letter.symbol not in band.free:
+                    learnt = (*learnt, (letter.symbol, *span))
             spans.append((0.0, 0.0) if option.ends else span)
         return tuple(spans), learnt
 
@@ -409,19 +457,24 @@ class Network:
     def _closing(group: Group, width: float, firm: bool) -> float:
         """Price of W at the end of a group: exact where nothing is elastic, a lower bound otherwise.
 
-        Widening a firm column costs at least 1 a metre in ω and gains `fit` < 1, so that W as laid is what counts.
+        Widening a firm column costs at least 1 a metre in ω and gains `fit` < 1, so that W as laid is what
+        counts.
         """
         over = width - group.canvas
         if over > group.tolerance + EPS or (group.stiff and -over > group.tolerance + EPS):
             return inf
-        return group.objective.fit * over if over > 0 else -(group.objective.fit if firm else group.under) * over
+        return (
+            group.objective.fit * over if over > 0 else -(group.objective.fit if firm else group.under) * over
+        )
 
 
 class Seen:
     """The transposition table: the best paths known at each node.
 
-    Of two paths at one node, the one that is no cheaper, has no more columns and cannot become cheaper by its W is
-    dropped. |W − canvas| changes by at most the difference of the two W, whatever comes; a narrower path may replace a
+    Of two paths at one node, the one that is no cheaper, has no more columns and cannot become cheaper by
+    its W is
+    dropped. |W − canvas| changes by at most the difference of the two W, whatever comes; a narrower path may
+    replace a
     wider one where it cannot end below canvas − μ.
     """
 

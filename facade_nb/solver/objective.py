@@ -1,6 +1,7 @@
 """What is minimised (SPEC 3, *Objective*; the paper's 5.2).
 
-Both objectives are sums over columns of an alignment, in metres, with ties broken by the larger number of columns.
+Both objectives are sums over columns of an alignment, in metres, with ties broken by the larger number of
+columns.
 """
 
 from __future__ import annotations
@@ -19,13 +20,16 @@ class Objective:
     empty
         Price of a metre of column that a row leaves empty (E), weighted by the row's share.
     loose
-        Price of a metre of looseness (Λ): letters that share an element, and non-opaque letters that do not fill
+        Price of a metre of looseness (Λ): letters that share an element, and non-opaque letters that do not
+        fill
         their column.
     fit
-        Price of a metre by which the columns' sum W misses the canvas. Below 1: then making a column wider than its
+        Price of a metre by which the columns' sum W misses the canvas. Below 1: then making a column wider
+        than its
         letters, in order to fit, never pays, and J stays convex in the sizes (see `pricing`).
     plain
-        Eq. 9 as printed. Otherwise a row with a non-opaque letter counts in ω_j only as far as it is larger than the
+        Eq. 9 as printed. Otherwise a row with a non-opaque letter counts in ω_j only as far as it is larger
+        than the
         rest, because it need not fill the column (supplement 3.4).
     """
 

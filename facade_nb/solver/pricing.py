@@ -1,20 +1,26 @@
 """What a finished structure costs: the sizes of cut pieces and unsized letters that make its J least.
 
-A *structure* says which letters and pieces stand in which column, for every group that is searched together. With the
-sizes open, J is a maximum of linear functions of them: ω_j = M_j − m_j with M_j at least, m_j at most every size in
-the column; E and Λ grow with M_j; and with 0 ≤ fit < 1 both Ω + fit·(W − canvas) and Ω + fit·(canvas − W) grow with
-every M_j, so that their larger one is convex and M_j sits on the largest size at the optimum. One small linear
-programme gives the exact answer. Only the demand W ≥ canvas − μ is not convex (M_j could be blown up to meet it);
+A *structure* says which letters and pieces stand in which column, for every group that is searched together.
+With the
+sizes open, J is a maximum of linear functions of them: ω_j = M_j − m_j with M_j at least, m_j at most every
+size in
+the column; E and Λ grow with M_j; and with 0 ≤ fit < 1 both Ω + fit·(W − canvas) and Ω + fit·(canvas − W)
+grow with
+every M_j, so that their larger one is convex and M_j sits on the largest size at the optimum. One small
+linear
+programme gives the exact answer. Only the demand W ≥ canvas − μ is not convex (M_j could be blown up to meet
+it);
 where it is not met by itself, we branch on which row is the largest of a column.
 
-Pieces may shrink to nothing in that optimum. If no equally good sizes keep every piece positive, the structure is
+Pieces may shrink to nothing in that optimum. If no equally good sizes keep every piece positive, the
+structure is
 *improper*: another one, without the piece, says the same. Proper structures win ties.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf
 
 import numpy as np
@@ -57,11 +63,6 @@ class Priced:
     widths: tuple[float, ...]
     omegas: tuple[float, ...]
     unsized: dict[str, float] = field(default_factory=dict)
-
-    @property
-    def rank(self) -> tuple[float, bool, int]:
-        """Smaller is better: cost, then proper, then more columns."""
-        return (self.cost, not self.proper, -self.columns)
 
 
 class _Programme:
@@ -110,15 +111,15 @@ def price(groups: Sequence[Group], structure: Structure) -> Priced | None:
     x = None if sizes.impossible else _solve_with_floor(groups, sizes, ())
     if x is None:
         return None
+    priced = _measure(groups, structure, sizes, x)
     pieces = programme.pieces
-    proper = True
-    if pieces and min(x[p] for p in pieces) < 1e-6:
-        value = float(np.dot(programme.cost, x))
-        spread = _spread(groups, sizes, value)
-        proper = spread is not None
-        if spread is not None:
-            x = spread
-    return _measure(groups, structure, sizes, x, proper=proper)
+    if priced is None or not pieces or min(x[p] for p in pieces) >= 1e-6:
+        return priced
+    spread = _spread(groups, sizes, float(np.dot(programme.cost, x)))
+    if spread is None:
+        return replace(priced, proper=False)
+    measured = _measure(groups, structure, sizes, spread)
+    return priced if measured is None else replace(priced, pieces=measured.pieces, unsized=measured.unsized)
 
 
 class _Sizes:
@@ -170,7 +171,8 @@ class _Sizes:
         return parts
 
     def size(self, g: int, j: int, b: int) -> _Term:
-        constant, terms = 0.0, {}
+        constant = 0.0
+        terms: dict[int, float] = {}
         for c, t in self.parts[g][j][b]:
             constant += c
             for v, coefficient in t.items():
@@ -180,7 +182,8 @@ class _Sizes:
     def add_columns(self, g: int, group: Group) -> None:
         """ω, E and Λ of every column, W, and the tolerances."""
         objective, programme, mu = group.objective, self.programme, group.tolerance
-        width_const, width_terms = 0.0, {}
+        width_const = 0.0
+        width_terms: dict[int, float] = {}
         tops: list[tuple[int, list[_Term]]] = []
         for j, column in enumerate(self.structure[g]):
             sizes = {b: self.size(g, j, b) for b, option in enumerate(column) if not option.empty}
@@ -199,7 +202,9 @@ class _Sizes:
                 )
                 width_const += largest
                 continue
-            high = programme.variable(-FREE, 1.0 + group.share * (objective.empty * empties + objective.loose * len(softs)))
+            high = programme.variable(
+                -FREE, 1.0 + group.share * (objective.empty * empties + objective.loose * len(softs))
+            )
             low = programme.variable(-FREE, -1.0)
             fixed_low, fixed_high = inf, -inf
             for b, (constant, terms) in sizes.items():
@@ -240,7 +245,9 @@ class _Sizes:
         total = 0.0
         for j in range(len(self.structure[g])):
             total += max(
-                _value(self.size(g, j, b), x) for b, option in enumerate(self.structure[g][j]) if not option.empty
+                _value(self.size(g, j, b), x)
+                for b, option in enumerate(self.structure[g][j])
+                if not option.empty
             )
         return total, group.canvas - group.tolerance
 
@@ -302,7 +309,7 @@ def _spread(groups: Sequence[Group], sizes: _Sizes, value: float) -> np.ndarray 
     programme = sizes.programme
     least = programme.variable(0.0)
     saved = programme.cost
-    budget = ({v: c for v, c in enumerate(saved) if c}, -FREE, value + EPS)
+    budget = ({v: c for v, c in enumerate(saved) if c}, -FREE, value + 1e-10)
     programme.cost = [0.0] * len(saved)
     programme.cost[least] = -1.0
     programme.high[least] = 1.0
@@ -319,7 +326,7 @@ def _spread(groups: Sequence[Group], sizes: _Sizes, value: float) -> np.ndarray 
 
 
 def _measure(
-    groups: Sequence[Group], structure: Structure, sizes: _Sizes, x: np.ndarray | None, *, proper: bool = True
+    groups: Sequence[Group], structure: Structure, sizes: _Sizes, x: np.ndarray | None
 ) -> Priced | None:
     """Ω and J from the sizes themselves, whatever the programme said."""
     cost = omega = 0.0
@@ -332,7 +339,8 @@ def _measure(
         taken: list[tuple[tuple[float, ...], ...]] = []
         for j, column in enumerate(structure[g]):
             parts = tuple(
-                tuple(max(0.0, _value(term, x)) for term in sizes.parts[g][j][b]) for b in range(len(group.bands))
+                tuple(max(0.0, _value(term, x)) for term in sizes.parts[g][j][b])
+                for b in range(len(group.bands))
             )
             taken.append(parts)
             here = {b: sum(parts[b]) for b, option in enumerate(column) if not option.empty}
@@ -356,4 +364,4 @@ def _measure(
         omegas.append(group_omega)
     unsized = {} if x is None else {symbol: float(x[v]) for symbol, v in sizes.unsized.items()}
     columns = sum(len(group_columns) for group_columns in structure)
-    return Priced(cost, omega, columns, proper, structure, tuple(pieces), tuple(widths), tuple(omegas), unsized)
+    return Priced(cost, omega, columns, True, structure, tuple(pieces), tuple(widths), tuple(omegas), unsized)

@@ -1,6 +1,7 @@
 """What one axis of a design asks of the solver: nothing but what the answer depends on.
 
-Two designs with equal problems have equal answers on that axis, which is what lets an edit of one axis leave the other
+Two designs with equal problems have equal answers on that axis, which is what lets an edit of one axis leave
+the other
 alone.
 """
 
@@ -48,7 +49,9 @@ class AxisProblem:
 
     def with_counters(self, values: Mapping[str, int]) -> AxisProblem:
         """The same with some counters fixed."""
-        fixed = tuple((n, Counter(n, v, v, v)) if (v := values.get(n)) is not None else (n, c) for n, c in self.counters)
+        fixed = tuple(
+            (n, Counter(n, v, v, v)) if (v := values.get(n)) is not None else (n, c) for n, c in self.counters
+        )
         return AxisProblem(self.axis, self.canvas, self.groups, self.patterns, self.symbols, fixed)
 
 

@@ -25,7 +25,8 @@ class Solution:
     x
         Shape (n,).
     multipliers
-        Shape (n + m,): of the variables' bounds, then of the rows. Positive: the upper bound pulls; negative: the lower.
+        Shape (n + m,): of the variables' bounds, then of the rows. Positive: the upper bound pulls;
+        negative: the lower one.
     iterations
         Active-set changes.
     """
@@ -36,7 +37,14 @@ class Solution:
 
 
 def least_squares(
-    weight: _Array, target: _Array, rows: _Array, lower: _Array, upper: _Array, *, rho: float = 1e-3, tolerance: float = 1e-11
+    weight: _Array,
+    target: _Array,
+    rows: _Array,
+    lower: _Array,
+    upper: _Array,
+    *,
+    rho: float = 1e-3,
+    tolerance: float = 1e-11,
 ) -> Solution | None:
     """Minimise ``Σ weight·(x − target)²`` subject to ``lower <= [x; rows @ x] <= upper``.
 
@@ -56,7 +64,6 @@ def least_squares(
     -------
     The solution, or None where the constraints contradict each other.
     """
-    n = weight.size
     sense = np.zeros(upper.size, dtype=np.int32)
     sense[upper == lower] = 5
     singular = bool((weight <= 0).any())
@@ -68,7 +75,15 @@ def least_squares(
     for _ in range(40 if singular else 1):
         linear = base - 2.0 * rho * x if singular else base
         new, _value, flag, info = daqp.solve(
-            hessian, linear, rows, upper, lower, sense.copy(), primal_tol=tolerance, dual_tol=1e-12, eps_prox=0.0
+            hessian,
+            linear,
+            rows,
+            upper,
+            lower,
+            sense.copy(),
+            primal_tol=tolerance,
+            dual_tol=1e-12,
+            eps_prox=0.0,
         )
         if flag != 1:
             return None

@@ -1,13 +1,20 @@
-"""Sizing and placement: one least-squares problem for an axis, all groups together (the paper's 5.3, supplement 3.4, 3.5).
+"""Sizing and placement: one least-squares problem for an axis, all groups together (the paper's 5.3,
+supplement 3.4, 3.5).
 
-Variables are the size z of every symbol, every boundary between columns, and every boundary between letters inside an
-element. Stitched letters and columns share a boundary, which is how the paper's stitching constraints are kept; what
-remains are the rows named here: a letter's two bounds are its symbol's size apart, pieces of a cut letter add up to
-it, the gaps γ around a non-opaque element are equal in pairs, and a substituted symbol that is left standing elsewhere has the
+Variables are the size z of every symbol, every boundary between columns, and every boundary between letters
+inside an
+element. Stitched letters and columns share a boundary, which is how the paper's stitching constraints are
+kept; what
+remains are the rows named here: a letter's two bounds are its symbol's size apart, pieces of a cut letter
+add up to
+it, the gaps γ around a non-opaque element are equal in pairs, and a substituted symbol that is left standing
+elsewhere has the
 extent of its content.
 
-Two rounds: the first minimises Σ (z − preferred)² over the sized symbols, which fixes their sizes (the objective is
-strictly convex in them); the second, with those sizes kept, brings unsized symbols and pieces as near as can be to
+Two rounds: the first minimises Σ (z − preferred)² over the sized symbols, which fixes their sizes (the
+objective is
+strictly convex in them); the second, with those sizes kept, brings unsized symbols and pieces as near as can
+be to
 their sizes in the alignment.
 """
 
@@ -38,8 +45,10 @@ class System:
     Attributes
     ----------
     variables
-        Names: ``|A|`` the size of a symbol, ``g:j`` the right edge of column j of group g, ``g:ijk.t`` the upper
-        bound of letter k of row i in column j, ``g:ijk.s`` its lower bound where a gap parts it from the column's edge.
+        Names: ``|A|`` the size of a symbol, ``g:j`` the right edge of column j of group g, ``g:ijk.t`` the
+        upper
+        bound of letter k of row i in column j, ``g:ijk.s`` its lower bound where a gap parts it from the
+        column's edge.
     rows
         Names of the equations and inequalities, then the matrix with its bounds.
     """
@@ -95,7 +104,9 @@ class _Builder:
         self.size_of: dict[str, int] = {}
         self.extents: dict[tuple[int, int, str, int], dict[int, float]] = {}
 
-    def variable(self, name: str, low: float, high: float, target: float, weight: float = 0.0, pull: float = 0.0) -> int:
+    def variable(
+        self, name: str, low: float, high: float, target: float, weight: float = 0.0, pull: float = 0.0
+    ) -> int:
         self.names.append(name)
         self.low.append(low)
         self.high.append(high)

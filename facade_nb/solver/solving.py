@@ -47,7 +47,8 @@ def solve(
     design
         A valid design; without layers its layout is empty.
     objective
-        Default `Objective()`: the least J over all candidates. `Objective.paper()` follows the paper: tolerances one after
+        Default `Objective()`: the least J over all candidates. `Objective.paper()` follows the paper:
+        tolerances one after
         the other, candidates in lexicographic order, the first that aligns in all groups.
     tolerances
         Fractions of the canvas, growing; the default objective uses the largest alone.
@@ -66,7 +67,9 @@ def solve(
         Where there is none, or none was found in time; says what is to blame.
     """
     if not tolerances or any(not 0 <= t <= 1 for t in tolerances) or list(tolerances) != sorted(tolerances):
-        raise ValueError(f"tolerances: expected growing fractions of the canvas from 0 to 1, found {tolerances!r}")
+        raise ValueError(
+            f"tolerances: expected growing fractions of the canvas from 0 to 1, found {tolerances!r}"
+        )
     if search not in ("best", "ida"):
         raise ValueError(f"search: expected 'best' or 'ida', found {search!r}")
     log = Trace() if trace else None
@@ -185,7 +188,9 @@ class _Run:
             if not complete:
                 break
         if best is None:
-            raise explain(self.design, walks["x"], Best(complete=complete), other=walks["y"], shared=self.shared)
+            raise explain(
+                self.design, walks["x"], Best(complete=complete), other=walks["y"], shared=self.shared
+            )
         gap = max(0.0, rank[0] - bound)
         for axis in AXES:
             own_best = best[axis]

@@ -49,7 +49,8 @@ def instances(
 ) -> Instances:
     """Every word of a pattern whose sized letters measure at most `limit` metres.
 
-    Counters are tried outwards from the value nearest to 0; a longer count never makes a word shorter, so that each
+    Counters are tried outwards from the value nearest to 0; a longer count never makes a word shorter, so
+    that each
     direction ends where the shortest word has become too long.
     """
     names = pattern.counters
@@ -151,14 +152,16 @@ def words(
     pattern
         Pattern text.
     sizes
-        Preferred sizes in metres. Symbols without one are unsized and may stand only as placeholders of a control
+        Preferred sizes in metres. Symbols without one are unsized and may stand only as placeholders of a
+        control
         pattern.
     canvas, tolerance
         Metres.
     counters
         Bounds ``(min, max)`` by name; default from 0 without an upper bound.
     unsized_step
-        Sample unsized symbols at positive multiples of this many metres, as the paper's Figure 7 does. Without it
+        Sample unsized symbols at positive multiples of this many metres, as the paper's Figure 7 does.
+        Without it
         a word with unsized letters is listed once, and kept where its sized letters leave them room.
 
     Returns

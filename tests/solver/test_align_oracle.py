@@ -107,7 +107,7 @@ def letters(text: str) -> tuple[Letter, ...]:
     ],
 )
 def test_found_by_long_runs(rows: list[str], canvas: float, tolerance: float, search: str) -> None:
-    """Whole placeholders beside columns in which their row is empty; unsized ones with more columns at the same cost."""
+    """Whole placeholders beside columns that leave their row empty; unsized ones with more columns at equal cost."""
     compare(Case(tuple(map(letters, rows)), canvas, tolerance, DEFAULT, cuts=True), search)
 
 

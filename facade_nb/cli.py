@@ -1,0 +1,99 @@
+"""The command line: ``python -m facade_nb solve DESIGN.json`` (SPEC 6).
+
+Exit status 0: done; 2: the input is at fault; 3: the design has no layout; 1: a drawing that this machine
+cannot make.
+Messages go to stderr, without a traceback. Everything is computed before the first file is written, and
+files are
+written whole or not at all.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from . import Design, DesignError, Layout, NoLayout, __version__, solve
+from .design.files import write_atomically
+
+__all__ = ["main"]
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit status."""
+    parser = argparse.ArgumentParser(prog="facade-nb", description="Procedural façades designed in layers.")
+    parser.add_argument("--version", action="version", version=f"facade_nb {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True)
+    solving = commands.add_parser(
+        "solve",
+        help="solve a design",
+        description="Solve a design. Without --out the layout goes to standard output.",
+    )
+    solving.add_argument("design", metavar="DESIGN.json", help="the design document")
+    for name, what in (
+        ("out", "the layout document (JSON)"),
+        ("trace", "every stage of the solver as events (JSON)"),
+        ("svg", "the elevation (SVG)"),
+        ("png", "a lit picture (PNG, needs OSMesa or EGL)"),
+        ("glb", "the mesh (binary glTF)"),
+    ):
+        solving.add_argument(f"--{name}", metavar="FILE", help=f"write {what}")
+    solving.add_argument("--time-limit", type=float, default=10.0, metavar="SECONDS", help="default: 10")
+    options = parser.parse_args(argv)
+    try:
+        return _solve(options)
+    except DesignError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except NoLayout as error:
+        print(f"No layout: {error}", file=sys.stderr)
+        return 3
+    except KeyboardInterrupt:
+        print("Stopped.", file=sys.stderr)
+        return 130
+
+
+def _solve(options: argparse.Namespace) -> int:
+    design = Design.from_json(Path(options.design))
+    layout = solve(design, trace=options.trace is not None, time_limit=options.time_limit)
+    text = json.dumps(layout.to_dict(), ensure_ascii=False, indent=2, allow_nan=False) + "\n"
+    files: list[tuple[str, str | bytes]] = []
+    if options.out:
+        files.append((options.out, text))
+    if options.trace:
+        files.append(
+            (options.trace, json.dumps(layout.trace.to_dict(), ensure_ascii=False, allow_nan=False) + "\n")
+        )
+    try:
+        files += _drawings(options, layout)
+    except RuntimeError as error:  # no backend can draw here; the message says what would help
+        print(error, file=sys.stderr)
+        return 1
+    for path, data in files:
+        write_atomically(path, data)
+    if not options.out:
+        sys.stdout.write(text)
+    for warning in layout.warnings:
+        print(f"Note: {warning}", file=sys.stderr)
+    return 0
+
+
+def _drawings(options: argparse.Namespace, layout: Layout) -> list[tuple[str, str | bytes]]:
+    files: list[tuple[str, str | bytes]] = []
+    if not (options.svg or options.png or options.glb):
+        return files
+    from . import render
+
+    if options.svg:
+        files.append((options.svg, render.elevation_svg(layout)))
+    with tempfile.TemporaryDirectory() as folder:
+        for name, write in (("png", render.render_png), ("glb", render.write_glb)):
+            target = getattr(options, name)
+            if target:
+                scratch = Path(folder, f"drawing.{name}")
+                write(layout, scratch)
+                files.append((target, scratch.read_bytes()))
+    return files
