@@ -1,0 +1,28 @@
+"""Fixtures and settings that every test shares."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+# Before anything imports OpenGL: tests have no display. OSMesa alone, since one process can't serve two backends.
+os.environ.setdefault("PYOPENGL_PLATFORM", "osmesa")
+
+# `make test` must give the same answer twice, so its examples are fixed; HYPOTHESIS_PROFILE=explore looks further.
+# There are no deadlines: these machines are shared.
+settings.register_profile(
+    "fixed", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.register_profile(
+    "explore", deadline=None, max_examples=1000, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """Return the root of the checkout."""
+    return Path(__file__).resolve().parent.parent

@@ -1,0 +1,113 @@
+"""The wheel and the sdist, built as a stranger would: from a clean export, where there is no Node."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+
+@dataclass(frozen=True)
+class Archive:
+    """A built distribution: where it is, and the names of the files in it."""
+
+    path: Path
+    names: frozenset[str]
+
+
+@pytest.fixture(scope="session")
+def bare_environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Return an environment whose path holds no Node, no browser, nothing at all."""
+    empty = tmp_path_factory.mktemp("bin")
+    dropped = ("PYTHONPATH", "VIRTUAL_ENV", "PYOPENGL_PLATFORM", "DISPLAY")
+    environment = {name: value for name, value in os.environ.items() if name not in dropped}
+    environment["PATH"] = str(empty)
+    assert shutil.which("node", path=environment["PATH"]) is None
+    return environment
+
+
+@pytest.fixture(scope="session")
+def export(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Copy what git has or would add, as a fresh clone holds it."""
+    target = tmp_path_factory.mktemp("export") / "facade_nb"
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=root,
+        capture_output=True,
+        check=True,
+    ).stdout.decode()
+    for name in filter(None, listed.split("\0")):
+        if (root / name).is_file():  # a tracked file may have been removed
+            (target / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(root / name, target / name)
+    return target
+
+
+def build(kind: str, source: Path, out: Path, environment: dict[str, str]) -> Path:
+    command = [sys.executable, "-m", "build", f"--{kind}", "--outdir", str(out), str(source)]
+    done = subprocess.run(command, env=environment, cwd=out, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (built,) = out.glob("*.whl" if kind == "wheel" else "*.tar.gz")
+    return built
+
+
+def read_wheel(path: Path) -> Archive:
+    with zipfile.ZipFile(path) as archive:
+        return Archive(path, frozenset(archive.namelist()))
+
+
+@pytest.fixture(scope="session")
+def wheel(
+    export: Path, bare_environment: dict[str, str], tmp_path_factory: pytest.TempPathFactory
+) -> Archive:
+    """Return the wheel built from the clean checkout."""
+    return read_wheel(build("wheel", export, tmp_path_factory.mktemp("wheel"), bare_environment))
+
+
+@pytest.fixture(scope="session")
+def sdist(
+    export: Path, bare_environment: dict[str, str], tmp_path_factory: pytest.TempPathFactory
+) -> Archive:
+    """Return the sdist built from the clean checkout; names without the leading folder."""
+    path = build("sdist", export, tmp_path_factory.mktemp("sdist"), bare_environment)
+    with tarfile.open(path) as archive:
+        names = frozenset(name.partition("/")[2] for name in archive.getnames())
+    return Archive(path, names)
+
+
+@pytest.fixture(scope="session")
+def wheel_of_sdist(
+    sdist: Archive, bare_environment: dict[str, str], tmp_path_factory: pytest.TempPathFactory
+) -> Archive:
+    """Return the wheel built from the unpacked sdist."""
+    source = tmp_path_factory.mktemp("unpacked")
+    with tarfile.open(sdist.path) as archive:
+        archive.extractall(source, filter="data")
+    (folder,) = source.iterdir()
+    out = tmp_path_factory.mktemp("wheel-of-sdist")
+    return read_wheel(build("wheel", folder, out, bare_environment))
+
+
+@pytest.fixture(scope="session")
+def installed(
+    root: Path,
+    wheel_of_sdist: Archive,
+    bare_environment: dict[str, str],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Path:
+    """Install the wheel with what it depends on, and nothing else; return the Python that has it."""
+    folder = tmp_path_factory.mktemp("venv")
+    subprocess.run([sys.executable, "-m", "venv", folder], check=True, env=bare_environment)
+    python = folder / "bin" / "python"
+    pip = [python, "-m", "pip", "--disable-pip-version-check", "install", "-q"]
+    options = ["-c", root / "constraints.txt", wheel_of_sdist.path]
+    done = subprocess.run([*pip, *options], env=bare_environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return python
