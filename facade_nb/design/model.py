@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Literal
 
 from .pattern import Pattern, parse
@@ -174,3 +175,8 @@ class Design:
         from .document import write_json
 
         return write_json(self, path, indent=indent)
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        """In a notebook a design shows itself as the elevation of its layout."""
+        bundle: dict[str, str] = import_module("facade_nb.display").design_bundle(self)
+        return bundle

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import Any
 
 from ..design.model import Axis, Canvas, Design
@@ -101,7 +102,7 @@ class PlacedShape:
     thickness: float = 0.2
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Layout:
     """A solved façade.
 
@@ -167,11 +168,16 @@ class Layout:
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         """In a notebook a layout shows itself as its elevation."""
-        from ..render import (
-            elevation_svg,
-        )  # the one upward import: a courtesy of notebooks, made when asked for
+        bundle: dict[str, str] = import_module("facade_nb.display").layout_bundle(self)
+        return bundle
 
-        return {"image/svg+xml": elevation_svg(self), "text/plain": repr(self)}
+    def __repr__(self) -> str:
+        counters = "".join(f", {name} = {value}" for name, value in self.counters.items())
+        state = "" if self.complete else ", not complete"
+        return (
+            f"<Layout {self.name!r}: {self.canvas.width:g} × {self.canvas.height:g} m, "
+            f"{len(self.shapes)} shapes{counters}{state}>"
+        )
 
 
 def _axis_dict(axis: AxisLayout) -> dict[str, Any]:

@@ -1,0 +1,24 @@
+"""Drawing a layout: an SVG elevation, a mesh, a picture.
+
+Nothing here needs a GL library, trimesh or Pillow until a mesh or a picture is asked for.
+"""
+
+from .elevation import elevation_svg
+from .geometry import GEOMETRIES
+from .materials import MATERIALS
+from .mesh import write_glb
+from .overlay import overlay_svg
+from .picture import render_png
+from .scene import Scene, Solid, build_scene
+
+__all__ = [
+    "GEOMETRIES",
+    "MATERIALS",
+    "Scene",
+    "Solid",
+    "build_scene",
+    "elevation_svg",
+    "overlay_svg",
+    "render_png",
+    "write_glb",
+]

@@ -1,0 +1,175 @@
+"""The elevation: a layout drawn as an architect would, as one SVG text."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+from typing import Any
+
+from ..solver.layout import Layout
+from .annotate import Frame, draw_dimensions, draw_empty, draw_holes, draw_survey
+from .ink import Defs, draw_parts, inline, polygon_path
+from .materials import find_material
+from .relief import Edges, Relief, Segment
+from .scene import Scene, Solid, build_scene
+from .style import FINE, HEAVY, MEDIUM, Style, find_style, num
+
+__all__ = ["elevation_svg"]
+
+
+def elevation_svg(
+    layout: Layout,
+    *,
+    width_px: float | None = None,
+    theme: str = "light",
+    survey: Sequence[Mapping[str, Any]] | None = None,
+    ids: bool = True,
+    dimensions: bool = False,
+    holes: bool = False,
+    background: bool = True,
+    prefix: str | None = None,
+) -> str:
+    """Draw a layout as an elevation.
+
+    Each shape is a ``<g>`` whose first child, after its title, is a rectangle of class ``cell`` that covers exactly
+    the shape's rectangle and takes the pointer. With `ids` the group carries ``data-shape`` (index into
+    ``layout.shapes``), ``data-layer``, ``data-x`` and ``data-y``. ``<svg>`` carries ``data-scale`` (pixels per metre)
+    and ``data-origin`` (the pixel of the façade's lower left corner).
+
+    Parameters
+    ----------
+    layout
+        What to draw.
+    width_px
+        Width of the whole drawing in pixels; None: as large as fits about 900 by 640.
+    theme
+        ``light`` or ``dark``.
+    survey
+        Surveyed openings (``{"kind": ..., "rect": [left, bottom, right, top]}``) to outline on top.
+    ids
+        Whether shapes carry their data attributes and titles, for picking.
+    dimensions
+        Whether to add dimension lines.
+    holes
+        Whether to mark the places that no shape covers.
+    background
+        Whether to draw the paper; without it the drawing is transparent around the façade.
+    prefix
+        What the ids in the drawing begin with; None: something that no other drawing has.
+
+    Raises
+    ------
+    DesignError
+        For a shape with an unknown geometry or material.
+    ValueError
+        For an unknown theme, or a width without room for the drawing.
+    """
+    style = find_style(theme)
+    scene = build_scene(layout)
+    frame = Frame.fit(layout.canvas.width, layout.canvas.height, width_px, dimensions=dimensions)
+    prefix = prefix or f"f{secrets.token_hex(4)}"
+    body: list[str] = []
+    defs = Defs(prefix, style, frame.scale, frame.at(0, 0))
+    if background:
+        body.append(f'<rect width="100%" height="100%" fill="{style.paper}"/>')
+    if scene.solids:
+        body += _facade(scene, defs, frame, style, ids=ids)
+    else:
+        body += draw_empty(layout.canvas.width, layout.canvas.height, frame, style)
+    body += _ground(frame, style)
+    if holes and layout.holes:
+        body += draw_holes(layout.holes, frame, style, prefix)
+    if dimensions:
+        body += draw_dimensions(layout, frame, style)
+    if survey is not None:
+        body += draw_survey(layout, survey, frame, style)
+    label = escape(f"Elevation of {layout.name}, {layout.canvas.width:g} by {layout.canvas.height:g} metres")
+    w, h = num(frame.width), num(frame.height)
+    x, y = frame.at(0, 0)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" viewBox="0 0 {w} {h}" role="img" '
+        f'aria-label="{label}" style="max-width:100%;height:auto" data-scale="{frame.scale:.6g}" '
+        f'data-origin="{num(x)} {num(y)}"><defs>{defs}</defs>{"".join(body)}</svg>'
+    )
+
+
+def _facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bool) -> Iterable[str]:
+    relief = Relief(scene)
+    edges, shadows = relief.edges(), relief.shadows()
+    layers: list[list[Solid]] = [[] for _ in relief.layers]
+    for solid in scene.solids:
+        layers[relief.layers[solid.shape.layer]].append(solid)
+    for solids, lines, shade in zip(layers, edges, shadows, strict=True):
+        yield "<g>"
+        for solid in solids:
+            yield _shape(solid, defs, frame, ids=ids)
+        if shade:
+            d = "".join(polygon_path([frame.at(x, y) for x, y in polygon]) for polygon in shade)
+            yield (
+                f'<path class="shadow" d="{d}" fill="{style.shadow}" fill-opacity="{style.shade}" '
+                'pointer-events="none"/>'
+            )
+        yield _lines(lines, frame, style)
+        yield "</g>"
+
+
+def _shape(solid: Solid, defs: Defs, frame: Frame, *, ids: bool) -> str:
+    shape = solid.shape
+    left, bottom, right, top = shape.rect
+    x, y = frame.at(left, top)
+    w, h = (right - left) * frame.scale, (top - bottom) * frame.scale
+    head = "<g>"
+    if ids:
+        label = f"{shape.layer}: {shape.x} {shape.y}, {shape.kind} ({shape.geometry}, {shape.material})"
+        head = (
+            f'<g data-shape="{solid.index}" data-layer="{escape(shape.layer)}" data-x="{escape(shape.x)}" '
+            f'data-y="{escape(shape.y)}"><title>{escape(label)}</title>'
+        )
+    cell = f'<rect class="cell" x="{num(x)}" y="{num(y)}" width="{num(w)}" height="{num(h)}" fill='
+    if shape.geometry == "box" or not solid.parts:
+        material = find_material(solid.materials["body"])
+        fill = defs.paint(material)
+        seam = (
+            ""
+            if material.pattern == "glass"
+            else f' stroke="{defs.style.tone(material.fill)}" stroke-width=".5"'
+        )
+        return f'{head}{cell}"{fill}"{seam}/></g>'
+    if inline(solid):
+        drawn = draw_parts(solid, defs, (x, y + h))
+    else:
+        drawn = f'<use href="#{defs.shape(solid, w, h)}" x="{num(x)}" y="{num(y)}"/>'
+    return f'{head}{cell}"none" pointer-events="all"/>{drawn}</g>'
+
+
+def _lines(edges: Edges, frame: Frame, style: Style) -> str:
+    text = ""
+    for segments, weight in ((edges.joint, FINE), (edges.depth, MEDIUM), (edges.outline, HEAVY)):
+        if segments:
+            text += (
+                f'<path d="{_segments(segments, frame)}" stroke="{style.ink}" stroke-width="{weight}" '
+                f'stroke-linecap="square" fill="none" pointer-events="none"/>'
+            )
+    return text
+
+
+def _segments(segments: Iterable[Segment], frame: Frame) -> str:
+    d = ""
+    for x0, y0, x1, y1 in segments:
+        (px, py), (qx, qy) = frame.at(x0, y0), frame.at(x1, y1)
+        d += f"M{num(px)} {num(py)}" + (f"V{num(qy)}" if x0 == x1 else f"H{num(qx)}")
+    return d
+
+
+def _ground(frame: Frame, style: Style) -> Iterable[str]:
+    """A heavy ground line with a thin band of earth below it."""
+    y = frame.at(0, 0)[1]
+    x0, x1 = 0.35 * frame.left, frame.width - 0.35 * frame.right
+    colour = style.ink if style.name == "light" else style.faint
+    step = 6.0
+    ticks = "".join(f"M{num(x0 + i * step + 5)} {num(y + 2)}l-5 5" for i in range(int((x1 - x0) / step)))
+    yield (
+        f'<path d="{ticks}" stroke="{colour}" stroke-width=".4" stroke-opacity=".45" fill="none"/>'
+        f'<path d="M{num(x0)} {num(y + 1)}H{num(x1)}" stroke="{colour}" stroke-width="2.2" stroke-linecap="round"/>'
+    )

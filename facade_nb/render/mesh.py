@@ -1,0 +1,89 @@
+"""The mesh for other programs: a trimesh scene, and GLB (binary glTF 2.0)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..design.files import write_atomically
+from ..solver.layout import Layout
+from .materials import find_material, rgb
+from .meshing import corner_normals, mesh_parts
+from .parts import Part
+from .scene import Scene, Solid, build_scene
+
+if TYPE_CHECKING:
+    import trimesh
+    from trimesh.visual.material import PBRMaterial
+
+__all__ = ["node_name", "to_trimesh", "write_glb"]
+
+
+def to_trimesh(scene: Scene) -> trimesh.Scene:
+    """A trimesh scene: a node for every shape and material slot, named ``layer/index X Y/slot``.
+
+    Shapes that look the same share their geometry. Metres, y up, z towards the viewer, as glTF wants it.
+    """
+    import trimesh
+
+    result = trimesh.Scene()
+    paints: dict[str, PBRMaterial] = {}
+    made: dict[tuple[tuple[Part, ...], str, str], str] = {}
+    for solid in scene.solids:
+        local = mesh_parts(solid.parts)
+        normals = corner_normals(local)
+        place = np.eye(4)
+        place[:3, 3] = (solid.rect[0], solid.rect[1], solid.face)
+        for k, slot in enumerate(local.names):
+            name = solid.materials[slot]
+            key = (solid.parts, slot, name)
+            if key not in made:
+                if name not in paints:
+                    paints[name] = _paint(name)
+                chosen = local.slots == k
+                count = int(chosen.sum())
+                body = trimesh.Trimesh(
+                    vertices=local.vertices[local.faces[chosen]].reshape(-1, 3),
+                    faces=np.arange(3 * count).reshape(-1, 3),
+                    vertex_normals=normals[chosen].reshape(-1, 3),
+                    visual=trimesh.visual.TextureVisuals(material=paints[name]),
+                    process=False,
+                )
+                made[key] = f"{solid.shape.geometry} {slot} {name} {len(made)}"
+                result.geometry[made[key]] = body
+            result.graph.update(frame_to=node_name(solid, slot), matrix=place, geometry=made[key])
+    return result
+
+
+def node_name(solid: Solid, slot: str) -> str:
+    """The name of a shape's node in the mesh."""
+    shape = solid.shape
+    return f"{shape.layer}/{solid.index} {shape.x} {shape.y}/{slot}"
+
+
+def write_glb(layout: Layout, path: str | Path) -> Path:
+    """Write a layout as GLB, atomically, and return the path.
+
+    Raises
+    ------
+    DesignError
+        For a shape with an unknown geometry or material, or a file that cannot be written.
+    """
+    scene = to_trimesh(build_scene(layout))
+    write_atomically(path, scene.export(file_type="glb", include_normals=True))
+    return Path(path)
+
+
+def _paint(name: str) -> PBRMaterial:
+    from trimesh.visual.material import PBRMaterial
+
+    material = find_material(name)
+    colour = (np.array(rgb(material.base)) / 255.0) ** 2.2  # glTF factors are linear
+    return PBRMaterial(
+        name=name,
+        baseColorFactor=[*colour, 1.0],
+        roughnessFactor=material.roughness,
+        metallicFactor=material.metallic,
+    )

@@ -1,0 +1,225 @@
+"""From parts to triangles. Every part becomes a closed body, its triangles counter-clockwise seen from outside."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import cos, pi, sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .parts import Block, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned
+
+__all__ = ["Mesh", "corner_normals", "mesh_part", "mesh_parts", "triangulate"]
+
+_SEGMENTS = 32
+"""Sides of a turned body."""
+
+_BOX = np.array(
+    [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
+     [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]]
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mesh:
+    """Triangles of several closed parts.
+
+    Attributes
+    ----------
+    vertices
+        (n, 3) float64, metres.
+    faces
+        (m, 3) int64, indices into `vertices`.
+    slots
+        (m,) int64, index into `names`: which material slot a triangle has.
+    smooth
+        (m,) bool: shaded as a curved surface, with the normals of its neighbours.
+    names
+        The slots.
+    """
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    slots: NDArray[np.int64]
+    smooth: NDArray[np.bool_]
+    names: tuple[str, ...]
+
+
+def mesh_parts(parts: Sequence[Part]) -> Mesh:
+    """One mesh of all parts."""
+    vertices, faces, slots, smooth = [], [], [], []
+    names: list[str] = []
+    count = 0
+    for part in parts:
+        points, triangles, curved = mesh_part(part)
+        if part.slot not in names:
+            names.append(part.slot)
+        vertices.append(points)
+        faces.append(triangles + count)
+        slots.append(np.full(len(triangles), names.index(part.slot)))
+        smooth.append(curved)
+        count += len(points)
+    if not vertices:
+        return Mesh(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, int), np.zeros(0, bool), ())
+    return Mesh(
+        np.concatenate(vertices),
+        np.concatenate(faces),
+        np.concatenate(slots),
+        np.concatenate(smooth),
+        tuple(names),
+    )
+
+
+def mesh_part(part: Part) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
+    """Vertices (n, 3), faces (m, 3) and which faces are curved (m,) of one part."""
+    match part:
+        case Block():
+            points, faces = _block(part)
+        case Ring():
+            points, faces = _ring(part)
+        case Prism():
+            points, faces = _extruded([(x, y) for x, y in part.points], part.z0, part.z1)
+        case Moulding():
+            points, faces = _moulding(part)
+        case Turned():
+            return _turned(part)
+        case Polyhedron():
+            points = np.array(part.points, float)
+            faces = np.array([(f[0], f[i], f[i + 1]) for f in part.faces for i in range(1, len(f) - 1)])
+    return points, faces, np.zeros(len(faces), bool)
+
+
+def _block(b: Block) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    plan = ((b.x0, b.y0), (b.x1, b.y0), (b.x1, b.y1), (b.x0, b.y1))
+    return np.array([(x, y, z) for z in (b.z0, b.z1) for x, y in plan], float), _BOX
+
+
+def _ring(r: Ring) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    t = r.width
+    outer = ((r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1))
+    inner = ((r.x0 + t, r.y0 + t), (r.x1 - t, r.y0 + t), (r.x1 - t, r.y1 - t), (r.x0 + t, r.y1 - t))
+    points = np.array([(x, y, z) for z in (r.z0, r.z1) for loop in (outer, inner) for x, y in loop], float)
+    faces: list[tuple[int, int, int]] = []
+    for i in range(4):
+        j = (i + 1) % 4
+        a, b, c, e = (
+            i,
+            j,
+            4 + i,
+            4 + j,
+        )  # back: outer i, outer j, inner i, inner j; the front lies 8 further on
+        for quad in ((a + 8, b + 8, e + 8, c + 8), (a, c, e, b), (a, b, b + 8, a + 8), (c, c + 8, e + 8, e)):
+            faces += [(quad[0], quad[1], quad[2]), (quad[0], quad[2], quad[3])]
+    return points, np.array(faces)
+
+
+def _extruded(
+    polygon: Sequence[Point], z0: float, z1: float
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    n = len(polygon)
+    points = np.array([(x, y, z) for z in (z0, z1) for x, y in polygon], float)
+    cap = triangulate(polygon)
+    i = np.arange(n)
+    j = (i + 1) % n
+    sides = np.concatenate([np.stack([i, j, j + n], 1), np.stack([i, j + n, i + n], 1)])
+    return points, np.concatenate([cap[:, ::-1], cap + n, sides])
+
+
+def _moulding(m: Moulding) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    # Seen from the right end (+x) with z to the left and y up, front and back run counter-clockwise as (-z, y).
+    loop = [(-z, y) for y, z in m.profile]
+    loop = [(-m.z0, loop[0][1]), *loop[::1], (-m.z0, loop[-1][1])]
+    polygon = loop[::-1]
+    points, faces = _extruded(_without_doubles(polygon), m.x0, m.x1)
+    return np.stack([points[:, 2], points[:, 1], -points[:, 0]], 1), faces
+
+
+def _without_doubles(polygon: Sequence[Point]) -> list[Point]:
+    return [p for i, p in enumerate(polygon) if p != polygon[i - 1]]
+
+
+def _turned(t: Turned) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
+    angles = [2 * pi * i / _SEGMENTS for i in range(_SEGMENTS)]
+    around = np.array([(cos(a), sin(a)) for a in angles])
+    rings = [
+        np.stack([t.cx + r * around[:, 0], np.full(_SEGMENTS, y), t.cz + r * around[:, 1]], 1)
+        for y, r in t.profile
+    ]
+    i = np.arange(_SEGMENTS)
+    j = (i + 1) % _SEGMENTS
+    sides = []
+    for level in range(len(rings) - 1):
+        low, high = level * _SEGMENTS, (level + 1) * _SEGMENTS
+        sides += [np.stack([low + i, high + j, low + j], 1), np.stack([low + i, high + i, high + j], 1)]
+    bottom, top = len(rings) * _SEGMENTS, len(rings) * _SEGMENTS + 1
+    last = (len(rings) - 1) * _SEGMENTS
+    caps = [
+        np.stack([np.full(_SEGMENTS, bottom), i, j], 1),
+        np.stack([np.full(_SEGMENTS, top), last + j, last + i], 1),
+    ]
+    centres = np.array([[t.cx, t.profile[0][0], t.cz], [t.cx, t.profile[-1][0], t.cz]])
+    faces = np.concatenate([*sides, *caps])
+    smooth = np.arange(len(faces)) < len(faces) - 2 * _SEGMENTS
+    return np.concatenate([*rings, centres]), faces, smooth
+
+
+def triangulate(polygon: Sequence[Point]) -> NDArray[np.int64]:
+    """Triangles (m, 3), as indices, of a simple counter-clockwise polygon, by cutting off ears.
+
+    Raises
+    ------
+    ValueError
+        For a polygon that crosses itself or runs clockwise.
+    """
+    left = list(range(len(polygon)))
+    triangles: list[tuple[int, int, int]] = []
+    while len(left) > 3:
+        for k in range(len(left)):
+            a, b, c = left[k - 1], left[k], left[(k + 1) % len(left)]
+            if _turn(polygon[a], polygon[b], polygon[c]) <= 1e-14:
+                continue
+            others = (polygon[p] for p in left if p not in (a, b, c))
+            if not any(_inside(p, polygon[a], polygon[b], polygon[c]) for p in others):
+                triangles.append((a, b, c))
+                del left[k]
+                break
+        else:
+            flat = [
+                k
+                for k in range(len(left))
+                if abs(_turn(*(polygon[left[(k + s) % len(left)]] for s in (-1, 0, 1)))) <= 1e-14
+            ]
+            if not flat:
+                raise ValueError("expected a simple counter-clockwise polygon")
+            k = flat[0]  # only corners without an angle are left: a sliver without area closes the surface
+            triangles.append((left[k - 1], left[k], left[(k + 1) % len(left)]))
+            del left[k]
+    triangles.append((left[0], left[1], left[2]))
+    return np.array(triangles)
+
+
+def _turn(a: Point, b: Point, c: Point) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def _inside(p: Point, a: Point, b: Point, c: Point) -> bool:
+    return _turn(a, b, p) >= 0 and _turn(b, c, p) >= 0 and _turn(c, a, p) >= 0 and p not in (a, b, c)
+
+
+def corner_normals(mesh: Mesh) -> NDArray[np.float64]:
+    """Unit normals (m, 3, 3) at the corners of each triangle: the face's own, or averaged where it is smooth."""
+    corners = mesh.vertices[mesh.faces]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(across, axis=1, keepdims=True)
+    flat = across / np.where(lengths > 0, lengths, 1)
+    normals = np.repeat(flat[:, None, :], 3, axis=1)
+    if mesh.smooth.any():
+        summed = np.zeros_like(mesh.vertices)
+        curved = mesh.faces[mesh.smooth]
+        for k in range(3):
+            np.add.at(summed, curved[:, k], across[mesh.smooth])
+        sizes = np.linalg.norm(summed, axis=1, keepdims=True)
+        normals[mesh.smooth] = (summed / np.where(sizes > 0, sizes, 1))[curved]
+    return normals

@@ -1,0 +1,280 @@
+"""The façade as a relief: which surface lies at each place, where it breaks in depth, and what throws shadow on what.
+
+Everything here is in metres with y up; the elevation turns it into ink. Only shapes that fill their rectangles make
+up the *skin*; the others (columns, balconies, roofs) stand before it and only throw shadow.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..solver.layout import Rect
+from .ink import clip, hull
+from .parts import Block, Moulding, Point, Prism, Turned, front, outline
+from .scene import Scene, Solid
+from .style import LIGHT
+
+__all__ = ["Edges", "Relief"]
+
+_STEP = 0.025
+"""Smaller differences in depth, metres, are drawn as a fine line, not as an edge."""
+
+_COURSES = frozenset({"cornice", "ledge", "pitched"})
+"""Geometries that run on from cell to cell without a joint."""
+
+Segment = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Edges:
+    """Lines of the skin to draw once a layer is: at its outline, at breaks in depth, between materials."""
+
+    outline: tuple[Segment, ...]
+    depth: tuple[Segment, ...]
+    joint: tuple[Segment, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Caster:
+    """What throws shadow: convex, between two depths. `of` is its solid if part of the skin; a `box` is a rectangle."""
+
+    points: tuple[Point, ...]
+    z0: float
+    z1: float
+    of: int | None = None
+    box: bool = True
+
+
+class Relief:
+    """The relief of a scene.
+
+    Parameters
+    ----------
+    scene
+        Its solids, in painting order.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        names = list(dict.fromkeys(solid.shape.layer for solid in scene.solids))
+        self.layers: dict[str, int] = {name: i for i, name in enumerate(names)}
+        self._skin = [solid for solid in scene.solids if solid.geometry.full and solid.parts]
+        rects = np.array([solid.rect for solid in self._skin]).reshape(-1, 4)
+        self._xs, self._ys = _merged(rects[:, [0, 2]]), _merged(rects[:, [1, 3]])
+        left, right = (np.searchsorted(self._xs, rects[:, k] - 1e-6) for k in (0, 2))
+        low, high = (np.searchsorted(self._ys, rects[:, k] - 1e-6) for k in (1, 3))
+        top = np.full((max(len(self._ys) - 1, 0), max(len(self._xs) - 1, 0)), -1)
+        for k in range(len(self._skin)):
+            top[low[k] : high[k], left[k] : right[k]] = k
+        self._top = top
+        """Index into the skin of the surface seen in each cell of the grid (row from the bottom); -1: none."""
+
+    def edges(self) -> list[Edges]:
+        """The skin's lines, layer by layer in painting order: each where the later of its two surfaces is painted."""
+        keys: dict[tuple[object, ...], int] = {}
+        number, plane, stage = [], [], []
+        for solid in self._skin:
+            shape = solid.shape
+            plain = shape.geometry == "arch" or (shape.geometry == "box" and shape.material != "glass")
+            same = None if plain else shape.rect[1::2] if shape.geometry in _COURSES else solid.index
+            key = (round(solid.plane, 4), solid.materials["body"], "" if plain else shape.geometry, same)
+            number.append(keys.setdefault(key, len(keys)))
+            plane.append(solid.plane)
+            stage.append(self.layers[shape.layer])
+        surfaces = np.array([*number, -1])  # the last entry is what -1 finds: nothing there
+        planes, stages = np.array([*plane, np.nan]), np.array([*stage, -1])
+        found: list[tuple[list[Segment], list[Segment], list[Segment]]] = [([], [], []) for _ in self.layers]
+        framed = np.pad(self._top, 1, constant_values=-1)
+        for upright, grid in ((True, framed[1:-1, :]), (False, framed[:, 1:-1].T)):
+            a, b = grid[:, :-1], grid[:, 1:]
+            if not a.size:
+                continue
+            differ = surfaces[a] != surfaces[b]
+            step = np.abs(planes[a] - planes[b])
+            weight = np.where(np.isnan(step), 0, np.where(step > _STEP, 1, 2))
+            label = np.where(differ, weight + 3 * np.maximum(stages[a], stages[b]), -1)
+            across, along = (self._xs, self._ys) if upright else (self._ys, self._xs)
+            for line in range(label.shape[1]):
+                for start, end, value in _runs(label[:, line]):
+                    layer, kind = divmod(value, 3)
+                    at, p, q = float(across[line]), float(along[start]), float(along[end])
+                    found[layer][kind].append((at, p, at, q) if upright else (p, at, q, at))
+        return [Edges(tuple(outer), tuple(deep), tuple(joint)) for outer, deep, joint in found]
+
+    def shadows(self) -> list[list[list[Point]]]:
+        """The polygons in shade on the skin, layer by layer, each clipped to the surface it falls on.
+
+        They overlap; fill them with the non-zero rule. All run the same way round.
+        """
+        result: list[list[list[Point]]] = [[] for _ in self.layers]
+        casters = self._casters
+        receivers = self._receivers
+        if not casters or not receivers:
+            return result
+        boxes = np.array([_bounds(caster.points) for caster in casters])
+        near, far = np.array([c.z0 for c in casters]), np.array([c.z1 for c in casters])
+        for layer, plane, rect, members in receivers:
+            reach = far - plane
+            dx, dy = np.maximum(reach, 0) * LIGHT[0], np.maximum(reach, 0) * LIGHT[1]
+            hit = (
+                (reach > 1e-4)
+                & (boxes[:, 0] < rect[2])
+                & (boxes[:, 2] + dx > rect[0])
+                & (boxes[:, 1] - dy < rect[3])
+                & (boxes[:, 3] > rect[1])
+            )
+            start = np.maximum(near - plane, 0.0)
+            for k in np.flatnonzero(hit):
+                caster = casters[k]
+                if caster.of in members:
+                    continue
+                a, b = float(start[k]), float(reach[k])
+                polygon = clip(_swept(caster, a, b), rect)
+                if len(polygon) > 2:
+                    result[layer].append(polygon)
+        return result
+
+    @cached_property
+    def _receivers(self) -> list[tuple[int, float, Rect, frozenset[int]]]:
+        """Layer, plane, rectangle and solids of what takes shadow, neighbours at one depth merged."""
+        groups: dict[tuple[int, float], list[Solid]] = defaultdict(list)
+        for solid in self._skin:
+            groups[self.layers[solid.shape.layer], round(solid.plane, 4)].append(solid)
+        return [
+            (layer, plane, rect, frozenset(members))
+            for (layer, plane), solids in groups.items()
+            for rect, members in _joined([(solid.rect, [solid.index]) for solid in solids])
+        ]
+
+    @cached_property
+    def _casters(self) -> list[_Caster]:
+        casters: list[_Caster] = []
+        planes = np.array([*(round(solid.plane, 4) for solid in self._skin), np.nan])
+        stands = np.array(
+            [solid.shape.geometry not in ("cornice", "ledge") for solid in self._skin] + [False]
+        )
+        heights = np.where(stands, planes, np.nan)[self._top]
+        levels = np.unique(heights[~np.isnan(heights)])
+        for level in levels[1:]:  # nothing lies behind the lowest
+            rects: list[tuple[Rect, list[int]]] = []
+            for row in range(len(heights)):
+                bottom, top = float(self._ys[row]), float(self._ys[row + 1])
+                for start, end, value in _runs(np.where(heights[row] == level, 0, -1)):
+                    del value
+                    rects.append(((float(self._xs[start]), bottom, float(self._xs[end]), top), []))
+            casters += [_Caster(_corners(rect), float(levels[0]), float(level)) for rect, _ in _joined(rects)]
+        for solid in self.scene.solids:
+            casters += _of_parts(solid)
+        return casters
+
+
+def _of_parts(solid: Solid) -> Iterable[_Caster]:
+    full = solid.geometry.full
+    if full and solid.shape.geometry == "box":
+        return
+    left, bottom = solid.rect[:2]
+    least = solid.plane - solid.face + 0.03 if full else -1e9
+    for part in solid.parts:
+        if front(part) <= least:
+            continue
+        match part:
+            case Block():
+                if (
+                    min(part.x1 - part.x0, part.y1 - part.y0) < 0.028
+                ):  # glazing bars and balusters: too thin to tell
+                    continue
+                z0, z1, points = part.z0, part.z1, outline(part)
+            case Moulding():
+                zs = [z for _, z in part.profile]
+                most = max(zs) - 0.15 * (max(zs) - min(zs)) - 1e-9
+                for (y0, za), (y1, zb) in zip(part.profile, part.profile[1:], strict=False):
+                    if y1 > y0 and min(za, zb) >= most:
+                        band = _corners((left + part.x0, bottom + y0, left + part.x1, bottom + y1))
+                        yield _Caster(band, solid.face + part.z0, solid.face + max(za, zb), solid.index)
+                continue
+            case Turned():
+                radius = max(r for _, r in part.profile[len(part.profile) // 3 :])
+                z0, z1 = part.cz - 0.6 * radius, part.cz + 0.6 * radius
+                points = _corners(
+                    (part.cx - radius, part.profile[0][0], part.cx + radius, part.profile[-1][0])
+                )
+            case Prism() if not full and part.slot in ("body", "gable"):
+                z0, z1, points = part.z0, part.z1, part.points
+            case _:
+                continue
+        moved = tuple((x + left, y + bottom) for x, y in points)
+        yield _Caster(
+            moved,
+            solid.face + z0,
+            solid.face + z1,
+            solid.index if full else None,
+            not isinstance(part, Prism),
+        )
+
+
+def _swept(caster: _Caster, a: float, b: float) -> list[Point]:
+    """The shadow's outline, counter-clockwise, between the caster moved `a` and `b` metres along the light."""
+    if not caster.box:
+        return hull((x + t * LIGHT[0], y - t * LIGHT[1]) for t in (a, b) for x, y in caster.points)
+    (x0, y0), _, (x1, y1), _ = caster.points
+    ax, ay, bx, by = a * LIGHT[0], a * LIGHT[1], b * LIGHT[0], b * LIGHT[1]
+    return [
+        (x0 + ax, y0 - ay),
+        (x0 + bx, y0 - by),
+        (x1 + bx, y0 - by),
+        (x1 + bx, y1 - by),
+        (x1 + ax, y1 - ay),
+        (x0 + ax, y1 - ay),
+    ]
+
+
+def _merged(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Sorted, and those within a micrometre taken as one."""
+    ordered = np.unique(values)
+    return ordered[np.insert(np.diff(ordered) > 1e-6, 0, True)] if len(ordered) else ordered
+
+
+def _runs(labels: NDArray[np.int64]) -> Iterable[tuple[int, int, int]]:
+    """Start, end and value of each run of equal labels that are not negative."""
+    cuts = np.flatnonzero(np.diff(labels)) + 1
+    starts = [0, *cuts.tolist()]
+    for start, end in zip(starts, [*starts[1:], len(labels)], strict=True):
+        if end > start and labels[start] >= 0:
+            yield start, end, int(labels[start])
+
+
+def _joined(rects: Sequence[tuple[Rect, list[int]]]) -> list[tuple[Rect, list[int]]]:
+    """Rectangles that share a whole side made one, first side by side, then one above the other."""
+    for axis in (0, 1):
+        lo, hi, other, end = axis, axis + 2, 1 - axis, 3 - axis
+        ordered = sorted(
+            rects, key=lambda item: (round(item[0][other], 6), round(item[0][end], 6), item[0][lo])
+        )
+        done: list[tuple[Rect, list[int]]] = []
+        for rect, members in ordered:
+            if done:
+                last, before = done[-1]
+                same = abs(last[other] - rect[other]) < 1e-6 and abs(last[end] - rect[end]) < 1e-6
+                if same and abs(last[hi] - rect[lo]) < 1e-6:
+                    joined = (last[0], last[1], rect[2], rect[3])
+                    done[-1] = (joined, before + members)
+                    continue
+            done.append((rect, list(members)))
+        rects = done
+    return list(rects)
+
+
+def _corners(rect: Rect) -> tuple[Point, ...]:
+    left, bottom, right, top = rect
+    return ((left, bottom), (right, bottom), (right, top), (left, top))
+
+
+def _bounds(points: Sequence[Point]) -> Rect:
+    xs, ys = [x for x, _ in points], [y for _, y in points]
+    return min(xs), min(ys), max(xs), max(ys)

@@ -1,0 +1,72 @@
+"""Recipes of roofs. A roof is as deep as its shape is thick; `scene` can make it as deep as a building."""
+
+from __future__ import annotations
+
+from math import cos, hypot, pi, sin
+
+from .parts import Block, Part, Polyhedron, Prism
+
+__all__ = ["gable", "hip", "pitched"]
+
+
+def gable(w: float, h: float, d: float) -> tuple[Part, ...]:
+    """A gabled roof seen from its gable: two slabs over a boarded triangle, with a round window where it is high."""
+    half, verge = w / 2, 0.25
+    slab = min(0.16, 0.16 * h)
+    tall = min(slab * hypot(half, h) / half, 0.3 * h)  # thickness of the slab measured upright
+    slope = (h - tall) / half
+    eave = min(0.25, 0.06 * w, 0.25 / slope)
+    under = slope * half
+    left = ((-eave, -slope * eave), (half, under), (half, h), (-eave, tall - slope * eave))
+    right = ((half, under), (w + eave, -slope * eave), (w + eave, tall - slope * eave), (half, h))
+    parts: list[Part] = [
+        Prism(((0, 0), (w, 0), (half, under)), -d, 0.0, "gable"),
+    ]
+    radius = min(0.3, 0.2 * under, 0.12 * w)
+    if radius > 0.1:
+        cy = 0.42 * under
+        for r, z, slot in ((radius, 0.03, "frame"), (0.78 * radius, 0.032, "glass")):
+            circle = tuple(
+                (half + r * cos(2 * pi * i / 24), cy + r * sin(2 * pi * i / 24)) for i in range(24)
+            )
+            parts.append(Prism(circle, 0.0, z, slot))
+        bar = 0.09 * radius
+        parts.append(
+            Block(half - bar, cy - 0.78 * radius, half + bar, cy + 0.78 * radius, 0.0, 0.036, "frame")
+        )
+        parts.append(
+            Block(half - 0.78 * radius, cy - bar, half + 0.78 * radius, cy + bar, 0.0, 0.036, "frame")
+        )
+    board = 0.55 * tall  # a painted verge board under the tiles
+    for quad in (left, right):
+        low = tuple((x, y) if i < 2 else (x, y - tall + board) for i, (x, y) in enumerate(quad))
+        high = tuple((x, y + board) if i < 2 else (x, y) for i, (x, y) in enumerate(quad))
+        parts.append(Prism(low, -d, verge - 0.04, "frame"))
+        parts.append(Prism(high, -d, verge))
+    return tuple(parts)
+
+
+def hip(w: float, h: float, d: float) -> tuple[Part, ...]:
+    """A hipped roof seen from its long side; the ridge draws in by as much as the slope runs back, at most by 0.3 w."""
+    return _slope(w, h, d, min(h, 0.3 * w), 0.3)
+
+
+def pitched(w: float, h: float, d: float) -> tuple[Part, ...]:
+    """A pitched roof seen from its eaves: the whole rectangle is slope."""
+    return _slope(w, h, d, 0.0, 0.0)
+
+
+def _slope(w: float, h: float, d: float, draw: float, eave: float) -> tuple[Part, ...]:
+    run = max(d, 1.6 * h)
+    front, back = 0.3, -run - 0.3
+    near = -min(run / 2, 1.2 * h)  # on a deep house the slope stays as steep and the top is flat
+    far = -run - near - 0.001
+    e = min(eave, 0.06 * w)
+    points = (
+        (-e, 0.0, front), (w + e, 0.0, front), (w + e, 0.0, back), (-e, 0.0, back),
+        (draw, h, near), (w - draw, h, near), (w - draw, h, far), (draw, h, far),
+    )  # fmt: skip
+    faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7), (3, 2, 1, 0), (4, 5, 6, 7))
+    ridge_cap = Block(draw, h - 0.06, w - draw, h, near - 0.06, near + 0.06)
+    gutter = Block(-e, -0.1, w + e, 0.0, -0.1, front + 0.06, "gutter")
+    return (Polyhedron(points, faces), ridge_cap, gutter)

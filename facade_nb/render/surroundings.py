@@ -1,0 +1,64 @@
+"""What a façade needs to read as a building: a body behind it, its side walls in the façade's materials."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+from ..solver.layout import Layout
+from .meshing import Mesh, mesh_parts
+from .parts import Block, Part
+from .scene import Solid, Triangles, build_scene, triangles_of
+
+__all__ = ["building"]
+
+_ROOFS = frozenset({"roof", "hip", "pitched"})
+
+
+def building(layout: Layout, depth: float | None = None) -> Triangles:
+    """All that stands in a picture: the scene with roofs as deep as the house, and a body `depth` metres deep."""
+    width = layout.canvas.width
+    deep = depth if depth is not None else min(12.0, max(4.0, 0.75 * width))
+    scene = build_scene(layout, roof_depth=deep + 0.25)
+    bodies: list[tuple[int, Mesh, Mapping[str, str]]] = [
+        (solid.index, solid.mesh(), solid.materials) for solid in scene.solids
+    ]
+    walls = [solid for solid in scene.solids if solid.geometry.full and solid.geometry.name not in _ROOFS]
+    if walls:
+        back = min(solid.face - solid.depth for solid in walls)
+        bodies += [_mesh(-1, parts, name) for name, parts in _lining(walls, back).items()]
+        bodies += [_mesh(-1, parts, name) for name, parts in _body(walls, width, back, deep).items()]
+    return triangles_of(bodies)
+
+
+def _mesh(index: int, parts: Sequence[Part], material: str) -> tuple[int, Mesh, Mapping[str, str]]:
+    return index, mesh_parts(parts), {"body": material}
+
+
+def _lining(walls: Sequence[Solid], back: float) -> dict[str, list[Part]]:
+    """What fills the gap between the backs of walls that differ in depth and the body, so that no light leaks in."""
+    found: dict[str, list[Part]] = {}
+    for solid in walls:
+        behind = solid.face - solid.depth
+        if behind > back + 1e-6:
+            left, bottom, right, top = solid.rect
+            name = solid.materials["body"]
+            found.setdefault(name, []).append(Block(left, bottom, right, top, back, behind))
+    return found
+
+
+def _body(walls: Sequence[Solid], width: float, back: float, deep: float) -> dict[str, list[Part]]:
+    """A block behind the walls, in bands of the material that stands at the façade's left and right edge."""
+    found: dict[str, list[Part]] = {}
+    low, high = min(solid.rect[1] for solid in walls), max(solid.rect[3] for solid in walls)
+    middle = (back - deep) / 2 + back / 2
+    for edge, x0, x1 in ((0.0, 0.0, width / 2), (width, width / 2, width)):
+        touching = [s for s in walls if abs((s.rect[0] if edge == 0.0 else s.rect[2]) - edge) < 1e-3]
+        stops = sorted({low, high, *(y for s in touching for y in s.rect[1::2])})
+        for y0, y1 in pairwise(stops):
+            here = [s for s in touching if s.rect[1] < (y0 + y1) / 2 < s.rect[3]]
+            name = here[-1].materials["body"] if here else walls[0].materials["body"]
+            if name == "glass":
+                name = "plaster"
+            found.setdefault(name, []).append(Block(x0, y0, x1, y1, middle - deep / 2, back))
+    return found
