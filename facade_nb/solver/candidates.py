@@ -41,14 +41,13 @@ def candidates(
     """
     names = [name for name, _ in problem.patterns]
     above = _above(problem)
+    bounds = _Bounds(problem, tolerance, objective)
 
     def descend(k: int, chosen: dict[str, Word], values: dict[str, int]) -> Iterator[Candidate]:
         if check is not None:
             check()
         if k == len(names):
-            bound = sum(
-                lower_bound(rows, problem.canvas, tolerance, objective) for rows in rows_of(problem, chosen)
-            )
+            bound = bounds.of(chosen)
             if bound < inf:
                 yield Candidate(dict(chosen), dict(values), bound)
             return
@@ -63,6 +62,36 @@ def candidates(
         chosen.pop(name, None)
 
     yield from descend(0, {}, {})
+
+
+class _Bounds:
+    """Lower bounds of J, kept for each group and the words that it depends on."""
+
+    def __init__(self, problem: AxisProblem, tolerance: float, objective: Objective) -> None:
+        self._problem, self._tolerance, self._objective = problem, tolerance, objective
+        substituted = {name: pattern.substituted for name, pattern in problem.patterns}
+        patterns = problem.pattern
+        self._inputs: list[tuple[str, ...]] = []
+        for _, rows in problem.groups:
+            standing = {symbol for name in rows for symbol in patterns[name].placeholders}
+            givers = [name for name, symbols in substituted.items() if standing & set(symbols)]
+            self._inputs.append(tuple(dict.fromkeys([*rows, *givers])))
+        self._known: dict[tuple[int, ...], float] = {}
+
+    def of(self, words: Mapping[str, Word]) -> float:
+        """Sum over the groups."""
+        total = 0.0
+        for g, names in enumerate(self._inputs):
+            key = (g, *(id(words[name]) for name in names))
+            bound = self._known.get(key)
+            if bound is None:
+                rows = rows_of(self._problem, words, g)[0]
+                bound = lower_bound(rows, self._problem.canvas, self._tolerance, self._objective)
+                self._known[key] = bound
+            total += bound
+            if total == inf:
+                break
+        return total
 
 
 def _above(problem: AxisProblem) -> dict[str, list[list[str]]]:
@@ -94,8 +123,10 @@ def _long_enough(
     return True
 
 
-def rows_of(problem: AxisProblem, words: Mapping[str, Word]) -> list[list[tuple[Letter, ...]]]:
-    """The rows of every group, topmost first.
+def rows_of(
+    problem: AxisProblem, words: Mapping[str, Word], only: int | None = None
+) -> list[list[tuple[Letter, ...]]]:
+    """The rows of every group (or of the one numbered `only`), topmost first.
 
     An unsized symbol that is substituted in one pattern and left standing in another gets the size of its
     content, so
@@ -109,8 +140,9 @@ def rows_of(problem: AxisProblem, words: Mapping[str, Word]) -> list[list[tuple[
                 total[letter.origin] = total.get(letter.origin, 0.0) + (letter.size or 0.0)
         for (symbol, _), size in total.items():
             extent.setdefault(symbol, size)
+    groups = problem.groups if only is None else problem.groups[only : only + 1]
     made: dict[str, tuple[Letter, ...]] = {}
-    for name, _ in problem.patterns:
+    for name in dict.fromkeys(name for _, rows in groups for name in rows):
         letters = words[name].letters
         if extent and any(a.size is None and a.symbol in extent for a in letters):
             letters = tuple(
@@ -118,7 +150,7 @@ def rows_of(problem: AxisProblem, words: Mapping[str, Word]) -> list[list[tuple[
                 for a in letters
             )
         made[name] = letters
-    return [[made[name] for name in rows] for _, rows in problem.groups]
+    return [[made[name] for name in rows] for _, rows in groups]
 
 
 def lower_bound(

@@ -56,16 +56,17 @@ def instances(
     names = pattern.counters
     nearest_zero = {name: _nearest_zero(counter(name)) for name in names}
     endless: set[str] = set()
-    letters: dict[Glyph, Letter] = {}
+    letters: dict[tuple[Glyph, object], Letter] = {}
 
     def spell(values: Mapping[str, int]) -> list[Word]:
         made = []
         for glyphs in pattern.words(values):
             word = []
             for glyph in glyphs:
-                letter = letters.get(glyph)
+                key = (glyph, glyph.origin)  # where it comes from takes no part in a glyph's equality
+                letter = letters.get(key)
                 if letter is None:
-                    letter = letters[glyph] = _letter(glyph, symbol)
+                    letter = letters[key] = _letter(glyph, symbol)
                 word.append(letter)
             made.append(Word(tuple(word), dict(values)))
         return made
