@@ -1,10 +1,8 @@
 """The command line: ``python -m facade_nb solve DESIGN.json`` (SPEC 6).
 
 Exit status 0: done; 2: the input is at fault; 3: the design has no layout; 1: a drawing that this machine
-cannot make.
-Messages go to stderr, without a traceback. Everything is computed before the first file is written, and
-files are
-written whole or not at all.
+cannot make. Messages go to stderr, without a traceback. Everything is computed before the first file is
+written, and files are written whole or not at all.
 """
 
 from __future__ import annotations

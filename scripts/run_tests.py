@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent
 BIN = ROOT / ".venv" / "bin"
 TOOLS = ROOT / "node_modules" / ".bin"
 PYTHON = BIN / "python"
-PYTEST = (PYTHON, "-m", "pytest", "-q")
+PYTEST = (PYTHON, "-m", "pytest", "-q", "--durations=8")
 
 # The browser tests start servers and a browser of their own, so they run alone; the rest shares the cores.
 STEPS: dict[str, Sequence[str | Path]] = {

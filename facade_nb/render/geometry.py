@@ -194,7 +194,7 @@ class Geometry:
     unsuited: frozenset[str] = frozenset()
 
     def parts(self, w: float, h: float, d: float) -> tuple[Part, ...]:
-        """The parts of a shape `w` wide, `h` high and `d` deep, metres; a plain block where there is no room for more."""
+        """The parts of a shape `w` by `h`, `d` deep, metres; a plain block where there is no room for more."""
         return (box if min(w, h) < self.least else self.recipe)(w, h, d)
 
     def material(self, slot: str, material: str) -> str:
@@ -228,7 +228,10 @@ _TABLE = (
         "door", door, "frame, panelled leaves, step, fanlight where it is tall", "the step comes 0.3 m forward",
         recess=reveal, least=0.3, slots=_WINDOW | {"metal": "bronze"}, own="oak", unsuited=_PLASTER | {"glass"},
     ),
-    Geometry("arch", archway, "wall with an arched, glazed opening", least=0.3, slots=_WINDOW | {"frame": "painted-wood"}),
+    Geometry(
+        "arch", archway, "wall with an arched, glazed opening", "the keystone comes 0.03 m forward",
+        least=0.3, slots=_WINDOW | {"frame": "painted-wood"},
+    ),
     Geometry(
         "column", column, "round column with base, swelling shaft and capital",
         "as deep as it is wide, whatever the thickness",

@@ -134,6 +134,8 @@ class _Pen:
             text += "".join(self._reflections(part) for part in parts)
         if first.slot == "gable":
             text += self._under_the_verge(parts)
+        if isinstance(first, Polyhedron):
+            text += f'<path d="{d}" stroke="{self.style.ink}" stroke-width="{MEDIUM}" fill="none"/>'
         if self.solid.shape.geometry == "roof" and isinstance(first, Prism) and first.z1 > 0.1:
             text += self._verge(parts, tiled=first.slot == "body")
         return text

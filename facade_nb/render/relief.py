@@ -181,7 +181,7 @@ def _of_parts(solid: Solid) -> Iterable[_Caster]:
     left, bottom = solid.rect[:2]
     least = solid.plane - solid.face + 0.03 if full else -1e9
     for part in solid.parts:
-        if front(part) <= least:
+        if front(part) <= least and not isinstance(part, Moulding):
             continue
         match part:
             case Block():

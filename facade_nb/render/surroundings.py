@@ -28,6 +28,8 @@ def building(layout: Layout, depth: float | None = None) -> Triangles:
         back = min(solid.face - solid.depth for solid in walls)
         bodies += [_mesh(-1, parts, name) for name, parts in _lining(walls, back).items()]
         bodies += [_mesh(-1, parts, name) for name, parts in _body(walls, width, back, deep).items()]
+    if not bodies:  # an empty canvas: a blank panel of its size
+        bodies.append(_mesh(-1, [Block(0, 0, width, layout.canvas.height, -0.05, 0)], "plaster-white"))
     return triangles_of(bodies)
 
 

@@ -27,8 +27,7 @@ class Alignment:
     ----------
     columns
         Per column, per row (topmost first): the letters in it; a piece of a cut letter, and an unsized
-        letter, has
-        the size that makes the objective least. An empty tuple is ε.
+        letter, has the size that makes the objective least. An empty tuple is ε.
     error
         Ω = Σ ω_j, metres (Eq. 9, or its variant for non-opaque rows under the default objective).
     cost
@@ -60,8 +59,7 @@ def align(
     ----------
     rows
         Words, topmost row first. A letter without a size gets the size that makes the objective least; all
-        letters of
-        its symbol the same.
+        letters of its symbol the same.
     canvas, tolerance
         Metres: ω_j ≤ tolerance and |W − canvas| ≤ tolerance.
     objective

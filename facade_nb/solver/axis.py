@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from heapq import heapify, heappop, heappush
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from heapq import heappop, heappush
 from itertools import islice, product
 from math import inf
 
 from ..design.model import Counter, Symbol
-from .candidates import Candidate, candidates, rows_of
+from .candidates import Candidate, CandidateStream, candidates, rows_of
 from .columns import EPS, Group, lone_unsized, make_group
 from .events import CandidateJudged, Trace, WordJudged
 from .ida import search_ida
@@ -25,6 +25,8 @@ __all__ = ["AxisSearch", "Solved"]
 
 _TIES = 4
 _NODES = 1_000_000
+_TOLD = 2000
+"""So many candidates that were never taken up are told in a trace."""
 _STEP = 0.004
 """How far above the next lower bound a candidate goes first, as a fraction of the canvas."""
 _GROWTH = 1.5
@@ -128,10 +130,11 @@ class _Run:
 class _Case:
     """A candidate being solved."""
 
-    groups: list[Group]
-    clusters: list[list[int]]
-    runs: list[_Run]
+    candidate: Candidate
     least: float
+    groups: list[Group] = field(default_factory=list)
+    clusters: list[list[int]] = field(default_factory=list)
+    runs: list[_Run] = field(default_factory=list)
     solved: Solved | None = None
     unsizable: bool = False
 
@@ -152,12 +155,12 @@ class AxisSearch:
     check: Callable[[], None] | None = None
     trace: Trace | None = None
     found: dict[str, Instances] = field(default_factory=dict)
-    candidates: list[Candidate] = field(default_factory=list)
-    cases: dict[int, _Case] = field(default_factory=dict)
+    cases: list[_Case] = field(default_factory=list)
     runs: dict[object, _Run] = field(default_factory=dict)
+    stream: CandidateStream | None = None
 
     def enumerate(self) -> None:
-        """List words and candidates."""
+        """List the words that fit."""
         symbols = self.problem.symbol
         counters = dict(self.problem.counters)
         for name, pattern in self.problem.patterns:
@@ -170,8 +173,51 @@ class AxisSearch:
             )
             if self.trace is not None:
                 self._tell_words(self.trace, name)
-        words = {name: found.words for name, found in self.found.items()}
-        self.candidates = list(candidates(self.problem, words, self.tolerance, self.objective, self.check))
+        self.stream = self._stream()
+
+    def _stream(self) -> CandidateStream:
+        return CandidateStream(self.problem, self.words(), self.tolerance, self.objective, self.check)
+
+    def words(self) -> dict[str, Sequence[Word]]:
+        """Words by pattern."""
+        return {name: found.words for name, found in self.found.items()}
+
+    def restricted(self, values: Mapping[str, int]) -> AxisSearch:
+        """The same search with some counters held; what has been aligned is shared."""
+        found = {
+            name: replace(
+                own,
+                words=tuple(
+                    w for w in own.words if all(values.get(c, v) == v for c, v in w.counters.items())
+                ),
+            )
+            for name, own in self.found.items()
+        }
+        other = AxisSearch(
+            self.problem,
+            self.objective,
+            self.tolerance,
+            self.method,
+            self.check,
+            self.trace,
+            found,
+            runs=self.runs,
+        )
+        other.stream = other._stream()
+        return other
+
+    @property
+    def floor(self) -> float:
+        """Lower bound of J over all candidates."""
+        return (self.stream or self._stream()).bound
+
+    def case(self, candidate: Candidate) -> _Case:
+        """A candidate to be solved."""
+        return _Case(candidate, candidate.bound)
+
+    def in_order(self) -> Iterator[Candidate]:
+        """Candidates in lexicographic order, as the paper takes them."""
+        return candidates(self.problem, self.words(), self.tolerance, self.objective, self.check)
 
     def _tell_words(self, trace: Trace, name: str) -> None:
         for word in self.found[name].words:
@@ -187,31 +233,39 @@ class AxisSearch:
                 )
             )
 
-    def best(self, among: Iterable[Candidate] | None = None, cap: float = inf) -> Best:
+    def best(self, cap: float = inf) -> Best:
         """The best candidate; candidates take turns.
 
         The one with the least lower bound goes on, up to a little above the next one's, and comes back into
-        the queue with
-        what it has then been proven to cost at least. So no time is spent on the dear alignments of one
-        candidate while
-        another may have a cheap one, and when the least lower bound is above the best answer, that is
-        optimal.
+        the queue with what it has then been proven to cost at least. So no time is spent on the dear
+        alignments of one candidate while another may have a cheap one, and when the least lower bound is
+        above the best answer, that is optimal.
         """
-        order = self.candidates if among is None else list(among)
         best = Best()
-        step = [_STEP * self.problem.canvas] * len(order)
-        queue = [(candidate.bound, n) for n, candidate in enumerate(order)]
-        heapify(queue)
+        stream = self.stream or self._stream()
+        queue: list[tuple[float, int]] = []
+        steps: list[float] = []
+        floor = 0.0
         try:
-            while queue and queue[0][0] <= min(cap, best.cost) + EPS:
-                floor, n = queue[0]
-                behind = min((item[0] for item in queue[1:3]), default=floor)
+            while True:
                 top = min(cap, best.cost)
-                limit = min(top, max(floor, behind) + step[n])
-                step[n] *= _GROWTH
-                solved = self.solve(order[n], limit)
+                while stream.bound <= min(top, queue[0][0] if queue else inf) + EPS:
+                    candidate = stream.take()
+                    if candidate is None:
+                        break
+                    heappush(queue, (candidate.bound, len(self.cases)))
+                    self.cases.append(self.case(candidate))
+                    steps.append(_STEP * self.problem.canvas)
+                floor = min(stream.bound, queue[0][0] if queue else inf)
+                if not queue or queue[0][0] > top + EPS:
+                    break
+                own, n = queue[0]
+                behind = min([stream.bound, *(item[0] for item in queue[1:3])])
+                limit = min(top, max(own, behind if behind < inf else own) + steps[n])
+                steps[n] *= _GROWTH
+                case = self.cases[n]
+                solved = self.solve(case, limit)
                 heappop(queue)
-                case = self.cases[id(order[n])]
                 best.unsizable = best.unsizable or case.unsizable
                 best.complete = best.complete and not any(run.cut for run in case.runs)
                 if solved is not None:
@@ -219,37 +273,35 @@ class AxisSearch:
                     if solved.beats(best.solved):
                         best.solved = solved
                 elif not all(run.done for run in case.runs):
-                    beyond = (
-                        top + 2 * EPS if limit >= top else floor
-                    )  # nothing as good as the best is left in it
+                    # where the limit was the best answer's cost, nothing as good is left in this candidate
+                    beyond = top + 2 * EPS if limit >= top else own
                     heappush(queue, (max(beyond, case.floor), n))
         except Stopped:
             best.complete = False
-        best.bound = min([best.bound, *(floor for floor, _ in queue)])
+        best.bound = min(best.bound, floor)
         self._tell_fates(best)
         return best
 
     def _tell_fates(self, best: Best) -> None:
         if self.trace is None:
             return
-        for candidate in self.candidates:
-            case = self.cases.get(id(candidate))
-            solved = case.solved if case else None
+        for case in self.cases:
+            solved = case.solved
+            fate = "bound"
             if solved is not None and best.solved is not None:
-                fate = (
-                    "best"
-                    if solved is best.solved
-                    else "tied"
-                    if solved.cost <= best.solved.cost + EPS
-                    else "dearer"
-                )
-            elif case is not None and case.unsizable:
+                tied = solved.cost <= best.solved.cost + EPS
+                fate = "best" if solved is best.solved else "tied" if tied else "dearer"
+            elif case.unsizable:
                 fate = "no sizes"
-            elif case is not None and all(run.done for run in case.runs):
+            elif case.runs and all(run.done for run in case.runs):
                 fate = "no alignment"
-            else:
-                fate = "bound"
-            self._tell(self.trace, candidate, fate, solved)
+            self._tell(self.trace, case.candidate, fate, solved)
+        stream = self.stream or self._stream()
+        for _ in range(_TOLD):
+            candidate = stream.take()
+            if candidate is None:
+                break
+            self._tell(self.trace, candidate, "bound", None)
 
     def _tell(self, trace: Trace, candidate: Candidate, fate: str, solved: Solved | None) -> None:
         trace.events.append(
@@ -265,44 +317,37 @@ class AxisSearch:
             )
         )
 
-    def solve(self, candidate: Candidate, limit: float = inf) -> Solved | None:
+    def solve(self, case: _Case, limit: float = inf) -> Solved | None:
         """Align a candidate in all groups, each within what the others leave of the limit, and size it.
 
-        None: there is nothing within the limit; `floor` says how much more is known.
+        None: there is nothing within the limit; `case.floor` says how much more is known.
         """
-        case = self._case(candidate)
+        if not case.runs:
+            self._open(case)
         for run in case.runs:
             run.advance(limit - case.floor + run.floor)
             if not run.ties:
                 return None
         if case.solved is None:
-            case.solved = self._size(candidate, case.groups, case.clusters, [run.ties for run in case.runs])
-        if case.solved is None:
+            case.solved = self._size(case, [run.ties for run in case.runs])
+        if case.solved is None and not case.unsizable:
             case.unsizable = True
             if len(case.runs) == 1:
-                again = self._run(
-                    case.groups,
-                    lambda p: self._size(candidate, case.groups, case.clusters, [[p]]) is not None,
-                )
-                case.runs = [again]
-                return self.solve(candidate, limit)
+                case.runs = [self._run(case.groups, lambda priced: self._size(case, [[priced]]) is not None)]
+                return self.solve(case, limit)
         return case.solved
 
-    def _case(self, candidate: Candidate) -> _Case:
-        case = self.cases.get(id(candidate))
-        if case is None:
-            groups, clusters = self._groups(candidate)
-            runs: list[_Run] = []
-            for cluster in clusters:
-                key = tuple(tuple(b.letters for b in groups[g].bands) + groups[g].band_of for g in cluster)
-                run = self.runs.get(key)
-                if run is None:
-                    run = self.runs[key] = self._run([groups[g] for g in cluster], None)
-                runs.append(run)
-                for g, group in zip(cluster, run.groups, strict=True):
-                    groups[g] = group
-            case = self.cases[id(candidate)] = _Case(groups, clusters, runs, candidate.bound)
-        return case
+    def _open(self, case: _Case) -> None:
+        """Find the candidate's groups, and the searches that other candidates share with it."""
+        case.groups, case.clusters = self._groups(case.candidate)
+        for cluster in case.clusters:
+            key = tuple(group.identity for group in (case.groups[g] for g in cluster))
+            run = self.runs.get(key)
+            if run is None:
+                run = self.runs[key] = self._run([case.groups[g] for g in cluster], None)
+            case.runs.append(run)
+            for g, group in zip(cluster, run.groups, strict=True):
+                case.groups[g] = group
 
     def _run(self, groups: Sequence[Group], accept: Callable[[Priced], bool] | None) -> _Run:
         nodes = _NODES if accept is None else _NODES // 50
@@ -310,7 +355,10 @@ class AxisSearch:
 
     def _groups(self, candidate: Candidate) -> tuple[list[Group], list[list[int]]]:
         """The groups of a candidate, and which of them share an unsized symbol and so are aligned together."""
-        rows = rows_of(self.problem, candidate.words)
+        flat = iter(
+            rows_of(self.problem, candidate.words, [n for _, names in self.problem.groups for n in names])
+        )
+        rows = [[next(flat) for _ in names] for _, names in self.problem.groups]
         unsized = [{a.symbol for row in own for a in row if a.size is None} for own in rows]
         clusters: list[list[int]] = []
         for g, symbols in enumerate(unsized):
@@ -326,27 +374,21 @@ class AxisSearch:
                 )
         return groups, clusters
 
-    def _size(
-        self,
-        candidate: Candidate,
-        groups: Sequence[Group],
-        clusters: Sequence[Sequence[int]],
-        ties: Sequence[Sequence[Priced]],
-    ) -> Solved | None:
+    def _size(self, case: _Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
         """Size every combination of equally good structures; the least deviation wins."""
         symbols = self.problem.symbol
         best: Solved | None = None
         for combination in islice(product(*ties), 2 * _TIES):
             parts: dict[int, tuple[Priced, int]] = {}
-            for cluster, priced in zip(clusters, combination, strict=True):
+            for cluster, priced in zip(case.clusters, combination, strict=True):
                 parts.update({g: (priced, k) for k, g in enumerate(cluster)})
-            own = tuple(parts[g] for g in range(len(groups)))
-            sized = size_axis(groups, own, self.problem.canvas, lambda s: symbols.get(s) or Symbol(s))
+            own = tuple(parts[g] for g in range(len(case.groups)))
+            sized = size_axis(case.groups, own, self.problem.canvas, lambda s: symbols.get(s) or Symbol(s))
             if sized is None:
                 continue
             solved = Solved(
-                candidate,
-                tuple(groups),
+                case.candidate,
+                tuple(case.groups),
                 own,
                 sized,
                 sum(p.cost for p in combination),
@@ -355,7 +397,3 @@ class AxisSearch:
             if solved.beats(best):
                 best = solved
         return best
-
-    def words(self) -> Mapping[str, Sequence[Word]]:
-        """Words by pattern."""
-        return {name: found.words for name, found in self.found.items()}

@@ -1,9 +1,15 @@
-"""Candidates: one word for each pattern under one value of each counter (the paper's 5.1, Eq. 7, supplement 3.2)."""
+"""Candidates: one word for each pattern under one value of each counter (the paper's 5.1, Eq. 7, supplement 3.2).
+
+The lower bound of Eq. 7 is canvas − μ − Σ of the opaque letters of the patterns above in the same group,
+because opaque letters above may push the words below aside; unsized letters take whatever is left.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from heapq import heappop, heappush
+from itertools import count
 from math import inf
 
 from .columns import EPS
@@ -11,10 +17,10 @@ from .letters import Letter, Word
 from .objective import Objective
 from .problem import AxisProblem
 
-__all__ = ["Candidate", "candidates", "lower_bound", "rows_of"]
+__all__ = ["Candidate", "CandidateStream", "candidates", "lower_bound", "rows_of"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Candidate:
     """Words by pattern name, and the counters' values they share.
 
@@ -26,6 +32,71 @@ class Candidate:
     bound: float = 0.0
 
 
+class CandidateStream:
+    """Candidates by growing lower bound, made only as far as they are asked for.
+
+    Patterns are decided one after the other; what is decided bounds J from below (`_Bounds`), and the
+    cheapest partial choice is taken further, so that of a million candidates only those are made that could
+    be the best.
+    """
+
+    def __init__(
+        self,
+        problem: AxisProblem,
+        words: Mapping[str, Sequence[Word]],
+        tolerance: float,
+        objective: Objective,
+        check: Callable[[], None] | None = None,
+    ) -> None:
+        self._problem, self._words, self._tolerance, self._check = problem, words, tolerance, check
+        self._names = [name for name, _ in problem.patterns]
+        self._above = _above(problem)
+        self._bounds = _Bounds(problem, tolerance, objective)
+        self._serial = count()
+        self._queue: list[tuple[float, int, int, dict[str, Word], dict[str, int]]] = []
+        heappush(self._queue, (0.0, 0, next(self._serial), {}, {}))
+        self._ahead: Candidate | None = None
+
+    @property
+    def bound(self) -> float:
+        """No candidate still to come costs less; infinite where none is."""
+        if self._ahead is None:
+            self._ahead = self._next()
+        return inf if self._ahead is None else self._ahead.bound
+
+    def take(self) -> Candidate | None:
+        """The next candidate, or None."""
+        candidate = self._ahead or self._next()
+        self._ahead = None
+        return candidate
+
+    def _next(self) -> Candidate | None:
+        while self._queue:
+            if self._check is not None:
+                self._check()
+            bound, depth, _, chosen, values = heappop(self._queue)
+            if -depth == len(self._names):
+                return Candidate(chosen, values, bound)
+            name = self._names[-depth]
+            for word in self._words[name]:
+                if any(values.get(counter, value) != value for counter, value in word.counters.items()):
+                    continue
+                more = {**chosen, name: word}
+                if not _long_enough(self._problem, name, more, self._above[name], self._tolerance):
+                    continue
+                least = self._bounds.of(more)
+                if least < inf:
+                    entry = (
+                        max(bound, least),
+                        depth - 1,
+                        next(self._serial),
+                        more,
+                        {**values, **word.counters},
+                    )
+                    heappush(self._queue, entry)
+        return None
+
+
 def candidates(
     problem: AxisProblem,
     words: Mapping[str, Sequence[Word]],
@@ -33,12 +104,7 @@ def candidates(
     objective: Objective,
     check: Callable[[], None] | None = None,
 ) -> Iterator[Candidate]:
-    """Every candidate whose words keep Eq. 7, in lexicographic order.
-
-    The lower bound of Eq. 7 is canvas − μ − Σ of the opaque letters of the patterns above in the same group,
-    because opaque
-    letters above may push the words below aside; unsized letters take whatever is left.
-    """
+    """Every candidate whose words keep Eq. 7, in lexicographic order, as the paper goes through them."""
     names = [name for name, _ in problem.patterns]
     above = _above(problem)
     bounds = _Bounds(problem, tolerance, objective)
@@ -56,25 +122,30 @@ def candidates(
             if any(values.get(counter, value) != value for counter, value in word.counters.items()):
                 continue
             chosen[name] = word
-            if not _long_enough(problem, name, chosen, above[name], tolerance):
-                continue
-            yield from descend(k + 1, chosen, {**values, **word.counters})
+            if _long_enough(problem, name, chosen, above[name], tolerance):
+                yield from descend(k + 1, chosen, {**values, **word.counters})
         chosen.pop(name, None)
 
-    yield from descend(0, {}, {})
+    return descend(0, {}, {})
 
 
 class _Bounds:
-    """Lower bounds of J, kept for each group and the words that it depends on."""
+    """Lower bounds of J for words chosen so far, kept for each group and the words that it depends on.
+
+    A group whose rows are only partly decided is bounded by those that are: more rows make no column
+    cheaper. The number of distinct words, which a row's share depends on, is not known then; it is at most
+    the number of patterns.
+    """
 
     def __init__(self, problem: AxisProblem, tolerance: float, objective: Objective) -> None:
         self._problem, self._tolerance, self._objective = problem, tolerance, objective
-        substituted = {name: pattern.substituted for name, pattern in problem.patterns}
         patterns = problem.pattern
         self._inputs: list[tuple[str, ...]] = []
+        self._rows: list[tuple[str, ...]] = []
         for _, rows in problem.groups:
             standing = {symbol for name in rows for symbol in patterns[name].placeholders}
-            givers = [name for name, symbols in substituted.items() if standing & set(symbols)]
+            givers = [name for name, pattern in problem.patterns if standing & set(pattern.substituted)]
+            self._rows.append(tuple(dict.fromkeys(rows)))
             self._inputs.append(tuple(dict.fromkeys([*rows, *givers])))
         self._known: dict[tuple[int, ...], float] = {}
 
@@ -82,11 +153,13 @@ class _Bounds:
         """Sum over the groups."""
         total = 0.0
         for g, names in enumerate(self._inputs):
-            key = (g, *(id(words[name]) for name in names))
+            key = (g, *(id(words.get(name)) for name in names))
             bound = self._known.get(key)
             if bound is None:
-                rows = rows_of(self._problem, words, g)[0]
-                bound = lower_bound(rows, self._problem.canvas, self._tolerance, self._objective)
+                rows = [name for name in self._rows[g] if name in words]
+                most = len(self._rows[g]) if len(rows) < len(self._rows[g]) else None
+                letters = rows_of(self._problem, words, rows)
+                bound = lower_bound(letters, self._problem.canvas, self._tolerance, self._objective, most)
                 self._known[key] = bound
             total += bound
             if total == inf:
@@ -124,39 +197,48 @@ def _long_enough(
 
 
 def rows_of(
-    problem: AxisProblem, words: Mapping[str, Word], only: int | None = None
-) -> list[list[tuple[Letter, ...]]]:
-    """The rows of every group (or of the one numbered `only`), topmost first.
+    problem: AxisProblem, words: Mapping[str, Word], names: Sequence[str]
+) -> list[tuple[Letter, ...]]:
+    """The words of some patterns, ready to be aligned.
 
     An unsized symbol that is substituted in one pattern and left standing in another gets the size of its
-    content, so
-    that both fill the same part of the canvas (supplement 2.2).
+    content, so that both fill the same part of the canvas (supplement 2.2).
     """
     extent: dict[str, float] = {}
-    for name, _ in problem.patterns:
-        total: dict[tuple[str, int], float] = {}
-        for letter in words[name].letters:
-            if letter.origin is not None:
-                total[letter.origin] = total.get(letter.origin, 0.0) + (letter.size or 0.0)
-        for (symbol, _), size in total.items():
-            extent.setdefault(symbol, size)
-    groups = problem.groups if only is None else problem.groups[only : only + 1]
+    for name, pattern in problem.patterns:
+        if pattern.substitutions and name in words:
+            total: dict[tuple[str, int], float] = {}
+            for letter in words[name].letters:
+                if letter.origin is not None:
+                    total[letter.origin] = total.get(letter.origin, 0.0) + (letter.size or 0.0)
+            for (symbol, _), size in total.items():
+                extent.setdefault(symbol, size)
     made: dict[str, tuple[Letter, ...]] = {}
-    for name in dict.fromkeys(name for _, rows in groups for name in rows):
-        letters = words[name].letters
-        if extent and any(a.size is None and a.symbol in extent for a in letters):
-            letters = tuple(
-                replace(a, size=extent[a.symbol]) if a.size is None and a.symbol in extent else a
-                for a in letters
-            )
-        made[name] = letters
-    return [[made[name] for name in rows] for _, rows in groups]
+    for name in names:
+        if name not in made:
+            letters = words[name].letters
+            if extent and any(a.size is None and a.symbol in extent for a in letters):
+                letters = tuple(
+                    replace(a, size=extent[a.symbol]) if a.size is None and a.symbol in extent else a
+                    for a in letters
+                )
+            made[name] = letters
+    return [made[name] for name in names]
 
 
 def lower_bound(
-    rows: Sequence[Sequence[Letter]], canvas: float, tolerance: float, objective: Objective
+    rows: Sequence[Sequence[Letter]],
+    canvas: float,
+    tolerance: float,
+    objective: Objective,
+    most: int | None = None,
 ) -> float:
-    """J of a group is at least this, whatever the alignment (`network.shortfall`). Infinity: no fit."""
+    """J of a group is at least this, whatever the alignment (`network.shortfall`). Infinity: no fit.
+
+    `most` is the number of distinct words there may be in the end, where `rows` are not all.
+    """
+    if not rows:
+        return 0.0
     distinct = list(dict.fromkeys(tuple(row) for row in rows))
     totals: list[tuple[float, float]] = []
     longest = 0.0
@@ -165,7 +247,9 @@ def lower_bound(
         longest = max(longest, size)
         open_ended = any(a.size is None for a in word)
         soft = not objective.plain and any(not a.opaque and not a.transparent for a in word)
-        weight = (min(objective.empty, objective.loose) if soft else objective.empty) / len(distinct)
+        weight = (min(objective.empty, objective.loose) if soft else objective.empty) / (
+            most or len(distinct)
+        )
         totals.append((inf if open_ended else size, weight))
     if longest > canvas + tolerance + EPS:
         return inf

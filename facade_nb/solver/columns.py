@@ -1,12 +1,10 @@
 """The columns of an alignment: what may stand in one, and what it costs (SPEC 3, *Columns*; the paper's 5.2).
 
-A group of an axis has rows; equal words are one `Band`, because they are cut alike. A column takes from each
-band an
-*element*: nothing, a run of solid letters, or a run of transparent letters whose first and last may be
-pieces of cut
-ones. An `Option` is such an element as seen from the band's position, with everything the constraints and
-the cost
-ask about it computed once; a column is a tuple of options, one a band.
+A group of an axis has rows; equal words are one `Band`, because they are cut alike. A column takes from
+each band an *element*: nothing, a run of solid letters, or a run of transparent letters whose first and
+last may be pieces of cut ones. An `Option` is such an element as seen from the band's position, with
+everything the constraints and the cost ask about it computed once; a column is a tuple of options, one a
+band.
 
 Constraints, by the numbers of SPEC 3:
 
@@ -32,11 +30,10 @@ EPS = 1e-9
 """Costs and sizes closer than this are equal."""
 
 Position = int
-"""Where a band stands: ``8·i + 4·mid + 2·gap + held``: the next letter i; `mid`: letter i is cut and its
-rest is still
-to come; `gap`: the column before was empty here and letter i is attached, so it may not begin the next (C4);
-`held`:
-the last element ended with an attached letter, so the next column may not be empty here (C4)."""
+"""Where a band stands: ``8·i + 4·mid + 2·gap + held``: the next letter i; `mid`: letter i is cut and its rest
+is still to come; `gap`: the column before was empty here and letter i is attached, so it may not begin the
+next (C4); `held`: the last element ended with an attached letter, so the next column may not be empty here
+(C4)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,13 +83,19 @@ class Band:
     """The rows of a group that have one word.
 
     `rest_min` and `rest_max` bound the total size still to come at each letter index, from sized letters
-    alone and
-    with unsized ones counted as unbounded.
+    alone and with unsized ones counted as unbounded.
     """
 
     def __init__(
-        self, letters: Sequence[Letter], rows: Sequence[int], *, cuts: bool, free: frozenset[str]
+        self,
+        letters: Sequence[Letter],
+        rows: Sequence[int],
+        *,
+        cuts: bool,
+        free: frozenset[str],
+        origins: tuple[tuple[tuple[str, int] | None, ...], ...],
     ) -> None:
+        self.origins = origins
         self.letters = tuple(letters)
         self.rows = tuple(rows)
         self.top, self.bottom = min(rows), max(rows)
@@ -118,10 +121,8 @@ class Band:
         """Fill `soft_rest`: least Σ (column − element) over the runs with non-opaque letters still to come.
 
         Behind a non-opaque letter stands something opaque (C1), which is no narrower than the thinnest
-        opaque letter;
-        however a run of solid letters is split into elements, the one with the letter falls short of that by
-        at least
-        what the whole rest of the run does.
+        opaque letter; however a run of solid letters is split into elements, the one with the letter falls
+        short of that by at least what the whole rest of the run does.
         """
         run = 0.0
         after = 0.0  # what the runs behind this one cost
@@ -270,6 +271,8 @@ class Group:
     """Per band: the bands with a row above one of its rows (C3), itself among them where it has several rows."""
     weights: tuple[float, ...]
     """Per band: what a metre that it falls short of W costs at least (see `network.shortfall`)."""
+    identity: object = None
+    """Groups with the same identity are aligned and sized alike."""
     edges: dict[Any, Any] = field(default_factory=dict)
     """Edges of the network already made, by node (see `network.edges`)."""
 
@@ -306,9 +309,16 @@ def make_group(
     words: dict[tuple[Letter, ...], list[int]] = {}
     for index, row in enumerate(rows):
         words.setdefault(tuple(row), []).append(index)
+    origins = [
+        tuple(dict.fromkeys(tuple(letter.origin for letter in rows[i]) for i in own))
+        for own in words.values()
+    ]
     if free is None:
         free = lone_unsized(words)
-    bands = tuple(Band(word, indices, cuts=cuts, free=free) for word, indices in words.items())
+    bands = tuple(
+        Band(word, indices, cuts=cuts, free=free, origins=own)
+        for (word, indices), own in zip(words.items(), origins, strict=True)
+    )
     band_of = [0] * len(rows)
     for b, band in enumerate(bands):
         for i in band.rows:
@@ -341,6 +351,12 @@ def make_group(
         ),
         guards=tuple(tuple(o for o, other in enumerate(bands) if other.top < band.bottom) for band in bands),
         weights=tuple(weights),
+        identity=(
+            tuple(band.letters for band in bands),
+            tuple(band.origins for band in bands),
+            tuple(band_of),
+            free,
+        ),
     )
 
 

@@ -35,8 +35,8 @@ class WordJudged(Event):
 class CandidateJudged(Event):
     """A candidate and its fate.
 
-    ``best``, ``tied``, ``dearer``, ``no alignment``, ``no sizes``, or ``bound``: not aligned to the end, because its
-    lower bound is no better than what is known.
+    ``best``, ``tied``, ``dearer``, ``no alignment``, ``no sizes``, or ``bound``: not aligned to the end,
+    because its lower bound is no better than what is known.
     """
 
     words: Mapping[str, str]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 
 from ..design.errors import NoLayout
 from ..design.model import Axis, Design, Symbol
@@ -44,7 +45,7 @@ def explain(
 
 
 def _values(walk: AxisSearch, names: Sequence[str]) -> str:
-    found = sorted({tuple(c.counters[n] for n in names) for c in walk.candidates})
+    found = sorted({tuple(c.counters[n] for n in names) for c in islice(walk.in_order(), 200)})
     shown = ", ".join("/".join(map(str, v)) for v in found[:8])
     return (shown + (", …" if len(found) > 8 else "")) or "nothing"
 
@@ -71,7 +72,7 @@ def _short(word: object) -> str:
 def _no_words(walk: AxisSearch) -> NoLayout | None:
     """A pattern whose longest word cannot fill the canvas, whatever the others add."""
     problem = walk.problem
-    if walk.candidates:
+    if _any(walk):
         return None
     for name, found in walk.found.items():
         if any(letter.size is None for word in found.words for letter in word.letters):
@@ -91,6 +92,10 @@ def _no_words(walk: AxisSearch) -> NoLayout | None:
     return None
 
 
+def _any(walk: AxisSearch) -> bool:
+    return next(walk.in_order(), None) is not None
+
+
 def _bounded(problem: AxisProblem, counter: str) -> bool:
     own = dict(problem.counters).get(counter)
     return own is not None and (own.max is not None or own.value is not None)
@@ -103,7 +108,7 @@ def _pushed(walk: AxisSearch, name: str) -> bool:
 
 def _no_candidate(walk: AxisSearch) -> NoLayout | None:
     problem = walk.problem
-    if walk.candidates:
+    if _any(walk):
         return None
     shared = [c for c, _ in problem.counters if sum(c in p.counters for _, p in problem.patterns) > 1]
     patterns = tuple(n for n, p in problem.patterns if any(c in p.counters for c in shared)) or tuple(
@@ -140,7 +145,7 @@ def _constraint(design: Design, walk: AxisSearch, best: Best) -> NoLayout:
             patterns=tuple(walk.found),
             symbols=tuple(n for n, s in problem.symbols if s.min is not None or s.max is not None),
         )
-    shortest = min((c for c in walk.candidates), key=lambda c: c.bound, default=None)
+    shortest = next(walk.in_order(), None)
     words = ""
     if shortest is not None:
         words = " Nearest: " + ", ".join(f"{n} = {_short(w)}" for n, w in shortest.words.items()) + "."
@@ -181,5 +186,5 @@ def _solvable(walk: AxisSearch, problem: AxisProblem, name: str, symbol: Symbol)
     changed = replace(problem, symbols=tuple((n, symbol if n == name else s) for n, s in problem.symbols))
     trial = AxisSearch(changed, walk.objective, walk.tolerance, walk.method, walk.check)
     trial.enumerate()
-    likely = sorted(trial.candidates, key=lambda c: c.bound)[:8]
-    return any(trial.solve(candidate) is not None for candidate in likely)
+    likely = (trial.stream.take() for _ in range(8)) if trial.stream else ()
+    return any(c is not None and trial.solve(trial.case(c)) is not None for c in likely)

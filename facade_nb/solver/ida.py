@@ -2,10 +2,9 @@
 1994).
 
 Depth first, so that no global ranking of edges is needed: each node ranks the edges that leave it, by their
-lower
-bound and then by the fewer symbols, which favours more columns. What exceeds the threshold is not made; if
-nothing was
-found, the distance of the threshold from the lower bound doubles and the search begins again.
+lower bound and then by the fewer symbols, which favours more columns. What exceeds the threshold is not
+made; if nothing was found, the distance of the threshold from the lower bound doubles and the search begins
+again.
 """
 
 from __future__ import annotations

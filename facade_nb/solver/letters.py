@@ -28,8 +28,8 @@ class Letter:
     mirrored
         Whether a reflection reversed it.
     origin
-        ``(symbol, n)`` where it came into the word as content of the n-th instance of a substituted symbol. Two
-        words that differ in nothing else are the same word.
+        ``(symbol, n)`` where it came into the word as content of the n-th instance of a substituted symbol.
+        Two words that differ in nothing else are the same word.
     """
 
     symbol: str

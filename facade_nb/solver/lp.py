@@ -1,12 +1,10 @@
 """Small linear programmes, solved exactly by a sequence of quadratic ones.
 
-The alignment search prices hundreds of structures with ten to fifty variables each. A general LP code spends
-a
-millisecond on any of them before it begins; daqp, a dual active-set QP code, answers in hundredths of one.
-Adding
-``ρ/2·‖x − x_k‖²`` to a linear objective and solving again from the answer is the proximal-point method; on a
-linear
-programme it ends after finitely many rounds (Ferris 1991), here nearly always two, with the exact vertex.
+The alignment search prices hundreds of structures with ten to fifty variables each. A general LP code
+spends a millisecond on any of them before it begins; daqp, a dual active-set QP code, answers in hundredths
+of one. Adding ``ρ/2·‖x − x_k‖²`` to a linear objective and solving again from the answer is the
+proximal-point method; on a linear programme it ends after finitely many rounds (Ferris 1991), here nearly
+always two, with the exact vertex.
 """
 
 from __future__ import annotations

@@ -45,8 +45,7 @@ def merge(design: Design, x: AxisLayout, y: AxisLayout) -> tuple[PlacedShape, ..
     """Visible shapes, bottom layer first.
 
     Letters that are transparent, masked out by the layer or hidden by their pattern make no shape; nor do
-    shapes that are
-    not `visible`, nor those wholly behind a visible shape both of whose symbols are opaque.
+    shapes that are not `visible`, nor those wholly behind a visible shape both of whose symbols are opaque.
     """
     shapes: list[PlacedShape] = []
     covers: list[Rect] = []

@@ -1,21 +1,18 @@
 """The alignment decision network, made as it is walked (the paper's 5.2, supplement 3.3).
 
-A node is a position in every word of a group; an edge is a column; a path from the first node to the last is
-an
-alignment. Groups that share an unsized symbol are walked one after the other on one path. Nothing of the
-network is
-stored: `Network.children` makes the edges that leave a path's end, and only those within a budget.
+A node is a position in every word of a group; an edge is a column; a path from the first node to the last
+is an alignment. Groups that share an unsized symbol are walked one after the other on one path. Nothing of
+the network is stored: `Network.children` makes the edges that leave a path's end, and only those within a
+budget.
 
 Lower bounds, both exact where nothing is elastic:
 
 *Elastic letters cost nothing at first.* A column is charged for its solid and its whole sized letters alone,
-whatever
-lengths the pieces of cut letters will get. A complete path is priced exactly by a linear programme
+whatever lengths the pieces of cut letters will get. A complete path is priced exactly by a linear programme
 (`pricing`).
 
 *Shortfall.* Whatever comes, W will be at least what has been laid plus the longest word still to come, and
-every
-metre that a shorter word falls short of W is paid for, as ω, as looseness or as empty columns.
+every metre that a shorter word falls short of W is paid for, as ω, as looseness or as empty columns.
 """
 
 from __future__ import annotations
@@ -49,8 +46,8 @@ class Path:
     owed
         No letter ended at the last boundary, so one must begin there.
     spans
-        Per band: least and greatest size that the pieces of the letter it stands in have taken so far, at no
-        cost.
+        Per band: least and greatest size that the pieces of the letter it stands in have taken so far, at
+        no cost.
     learnt
         Unsized symbols that have stood as a whole: ``(symbol, least, greatest)`` size at no cost.
     trail
@@ -91,24 +88,17 @@ class Edge:
 def shortfall(group: Group, path: Path) -> float:
     """Least cost still to come at the end of a path.
 
-    With rests R_b and W ≥ `path.width` + max R_b, band b is short of W by at least d_b = W − width − R_b. In
-    each column
-    it is short by ω_j, or it is empty there and pays for it, or it holds a non-opaque letter and pays Λ. As
-    ω is
-    shared by all bands and Σ weights ≤ 1, Σ weight_b·d_b + fit·|W − canvas| is a lower bound, convex in W,
-    so that its
-    least is where it turns. Non-opaque letters to come are loose before whatever stands behind them, which a
-    band pays
-    if it is more than its part of that sum.
+    With rests R_b and W ≥ `path.width` + max R_b, band b is short of W by at least d_b = W − width − R_b.
+    In each column it is short by ω_j, or it is empty there and pays for it, or it holds a non-opaque letter
+    and pays Λ. As ω is shared by all bands and Σ weights ≤ 1, Σ weight_b·d_b + fit·|W − canvas| is a lower
+    bound, convex in W, so that its least is where it turns. Non-opaque letters to come are loose before
+    whatever stands behind them, which a band pays if it is more than its part of that sum.
 
     Columns already laid could be made wider than they are charged for: a firm one at 1 > fit a metre, which
-    never pays,
-    another one at `under` a metre. Rests of cut and of unsized letters follow from what their pieces have
-    taken so far;
-    they are soft, because a piece may leave its range at 1 a metre of ω. So W may stay below the longest
-    soft rest at
-    that price, which is the same ω that pays for what bands are short of.
-    Returns infinity where no W within the tolerance can be reached.
+    never pays, another one at `under` a metre. Rests of cut and of unsized letters follow from what their
+    pieces have taken so far; they are soft, because a piece may leave its range at 1 a metre of ω. So W may
+    stay below the longest soft rest at that price, which is the same ω that pays for what bands are short
+    of. Returns infinity where no W within the tolerance can be reached.
     """
     width, canvas, objective = path.width, group.canvas, group.objective
     longest = soft_longest = 0.0
@@ -177,8 +167,8 @@ def most_sized(band: Band, i: int, span: tuple[float, float]) -> float:
 
 
 def edges(group: Group, state: State, owed: bool, made: float, limit: float) -> list[Edge]:
-    """Every column that may come next, keeps the constraints and the tolerance, and costs more than `made` and at most
-    `limit`, cheapest first.
+    """Every column that may come next, keeps the constraints and the tolerance, and costs more than `made` and at
+    most `limit`, cheapest first.
 
     The edges of a node are kept with the group, as other paths lead to it too.
     """
@@ -201,9 +191,8 @@ def _make_edges(group: Group, state: State, owed: bool, limit: float) -> list[Ed
     """The edges that leave a node.
 
     Elements are chosen band by band. What is chosen already bounds ω, E and Λ from below, so that a column
-    that has
-    become too dear is given up; runs of solid letters only grow, so that the rest of a band's runs go with
-    it.
+    that has become too dear is given up; runs of solid letters only grow, so that the rest of a band's runs
+    go with it.
     """
     objective, mu, share = group.objective, group.tolerance + EPS, group.share
     limit += EPS
@@ -472,10 +461,8 @@ class Seen:
     """The transposition table: the best paths known at each node.
 
     Of two paths at one node, the one that is no cheaper, has no more columns and cannot become cheaper by
-    its W is
-    dropped. |W − canvas| changes by at most the difference of the two W, whatever comes; a narrower path may
-    replace a
-    wider one where it cannot end below canvas − μ.
+    its W is dropped. |W − canvas| changes by at most the difference of the two W, whatever comes; a
+    narrower path may replace a wider one where it cannot end below canvas − μ.
     """
 
     def __init__(self, network: Network, keep: int) -> None:

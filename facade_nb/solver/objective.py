@@ -21,16 +21,13 @@ class Objective:
         Price of a metre of column that a row leaves empty (E), weighted by the row's share.
     loose
         Price of a metre of looseness (Λ): letters that share an element, and non-opaque letters that do not
-        fill
-        their column.
+        fill their column.
     fit
         Price of a metre by which the columns' sum W misses the canvas. Below 1: then making a column wider
-        than its
-        letters, in order to fit, never pays, and J stays convex in the sizes (see `pricing`).
+        than its letters, in order to fit, never pays, and J stays convex in the sizes (see `pricing`).
     plain
         Eq. 9 as printed. Otherwise a row with a non-opaque letter counts in ω_j only as far as it is larger
-        than the
-        rest, because it need not fill the column (supplement 3.4).
+        than the rest, because it need not fill the column (supplement 3.4).
     """
 
     empty: float = 0.8

@@ -1,16 +1,12 @@
 """What a finished structure costs: the sizes of cut pieces and unsized letters that make its J least.
 
-A *structure* says which letters and pieces stand in which column, for every group that is searched together.
-With the
-sizes open, J is a maximum of linear functions of them: ω_j = M_j − m_j with M_j at least, m_j at most every
-size in
-the column; E and Λ grow with M_j; and with 0 ≤ fit < 1 both Ω + fit·(W − canvas) and Ω + fit·(canvas − W)
-grow with
-every M_j, so that their larger one is convex and M_j sits on the largest size at the optimum. One small
-linear
-programme gives the exact answer. Only the demand W ≥ canvas − μ is not convex (M_j could be blown up to meet
-it);
-where it is not met by itself, we branch on which row is the largest of a column.
+A *structure* says which letters and pieces stand in which column, for every group that is searched
+together. With the sizes open, J is a maximum of linear functions of them: ω_j = M_j − m_j with M_j at
+least, m_j at most every size in the column; E and Λ grow with M_j; and with 0 ≤ fit < 1 both Ω + fit·(W −
+canvas) and Ω + fit·(canvas − W) grow with every M_j, so that their larger one is convex and M_j sits on the
+largest size at the optimum. One small linear programme gives the exact answer. Only the demand W ≥ canvas −
+μ is not convex (M_j could be blown up to meet it); where it is not met by itself, we branch on which row is
+the largest of a column.
 
 Pieces may shrink to nothing in that optimum. If no equally good sizes keep every piece positive, the
 structure is

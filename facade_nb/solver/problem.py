@@ -1,8 +1,7 @@
 """What one axis of a design asks of the solver: nothing but what the answer depends on.
 
-Two designs with equal problems have equal answers on that axis, which is what lets an edit of one axis leave
-the other
-alone.
+Two designs with equal problems have equal answers on that axis, which is what lets an edit of one axis
+leave the other alone.
 """
 
 from __future__ import annotations

@@ -1,16 +1,12 @@
 """The default alignment search: best first, exact, and resumable.
 
 Paths leave a queue by their lower bound; a complete one is priced and goes back with its exact J. What
-leaves the
-queue priced is optimal, because everything else there has a bound that is no better.
+leaves the queue priced is optimal, because everything else there has a bound that is no better.
 
 The search advances to a limit and stops there, so that the searches of many candidates can take turns
-(`axis`): none
-is taken further than the best of them needs. Columns dearer than the limit allows are not made, which is
-what keeps
-the exponentially many bad ones from being looked at; a path whose columns were not all made is parked, and
-taken up
-again when the limit has grown.
+(`axis`): none is taken further than the best of them needs. Columns dearer than the limit allows are not
+made, which is what keeps the exponentially many bad ones from being looked at; a path whose columns were
+not all made is parked, and taken up again when the limit has grown.
 """
 
 from __future__ import annotations
@@ -180,9 +176,8 @@ def search(
     check
         Called now and then; may raise `Stopped`.
     accept
-        Says whether a structure will do; those that will not are passed over. As it may look at anything, no
-        path is
-        dropped for another then.
+        Says whether a structure will do; those that will not are passed over. As it may look at anything,
+        no path is dropped for another then.
     """
     run = BestFirst(groups, keep=keep, nodes=nodes, check=check, accept=accept)
     step = 0.01 * max(group.canvas for group in groups)

@@ -2,20 +2,14 @@
 supplement 3.4, 3.5).
 
 Variables are the size z of every symbol, every boundary between columns, and every boundary between letters
-inside an
-element. Stitched letters and columns share a boundary, which is how the paper's stitching constraints are
-kept; what
-remains are the rows named here: a letter's two bounds are its symbol's size apart, pieces of a cut letter
-add up to
-it, the gaps γ around a non-opaque element are equal in pairs, and a substituted symbol that is left standing
-elsewhere has the
-extent of its content.
+inside an element. Stitched letters and columns share a boundary, which is how the paper's stitching
+constraints are kept; what remains are the rows named here: a letter's two bounds are its symbol's size
+apart, pieces of a cut letter add up to it, the gaps γ around a non-opaque element are equal in pairs, and a
+substituted symbol that is left standing elsewhere has the extent of its content.
 
 Two rounds: the first minimises Σ (z − preferred)² over the sized symbols, which fixes their sizes (the
-objective is
-strictly convex in them); the second, with those sizes kept, brings unsized symbols and pieces as near as can
-be to
-their sizes in the alignment.
+objective is strictly convex in them); the second, with those sizes kept, brings unsized symbols and pieces
+as near as can be to their sizes in the alignment.
 """
 
 from __future__ import annotations
@@ -46,9 +40,8 @@ class System:
     ----------
     variables
         Names: ``|A|`` the size of a symbol, ``g:j`` the right edge of column j of group g, ``g:ijk.t`` the
-        upper
-        bound of letter k of row i in column j, ``g:ijk.s`` its lower bound where a gap parts it from the
-        column's edge.
+        upper bound of letter k of row i in column j, ``g:ijk.s`` its lower bound where a gap parts it from
+        the column's edge.
     rows
         Names of the equations and inequalities, then the matrix with its bounds.
     """
@@ -102,7 +95,7 @@ class _Builder:
         self.row_low: list[float] = []
         self.row_high: list[float] = []
         self.size_of: dict[str, int] = {}
-        self.extents: dict[tuple[int, int, str, int], dict[int, float]] = {}
+        self.extents: dict[tuple[int, int, int, str, int], dict[int, float]] = {}
 
     def variable(
         self, name: str, low: float, high: float, target: float, weight: float = 0.0, pull: float = 0.0
@@ -164,7 +157,7 @@ def size_axis(
     for g, (group, (priced, k)) in enumerate(zip(groups, parts, strict=True)):
         edges.append(_edges(build, g, priced, k))
         bounds.append(_letters(build, g, group, priced, k, edges[g]))
-    for (_, _, name, _), terms in build.extents.items():
+    for (_, _, _, name, _), terms in build.extents.items():
         z = build.size_of.get(name)
         if z is not None:
             build.row(f"extent of {name} = |{name}|", {**terms, z: terms.get(z, 0.0) - 1.0}, 0.0, 0.0)
@@ -251,12 +244,15 @@ def _letters(
                 to = end if last else build.variable(f"{names[i]}.t", 0.0, build.canvas, 0.0)
                 placed[j][row].append((at, to))
                 stands.setdefault(letter, []).append((names[i], at, to, size))
-                origin = band.letters[letter].origin
-                if origin is not None:  # the extent of a content takes in the gaps beside it
-                    left, right = edges[j] if i == 0 else at, edges[j + 1] if last else to
-                    extent = build.extents.setdefault((g, row, *origin), {})
-                    extent[right] = extent.get(right, 0.0) + 1.0
-                    extent[left] = extent.get(left, 0.0) - 1.0
+                for n, origins in enumerate(
+                    band.origins
+                ):  # equal words may owe their letters to other contents
+                    origin = origins[letter]
+                    if origin is not None:  # the extent of a content takes in the gaps beside it
+                        left, right = edges[j] if i == 0 else at, edges[j + 1] if last else to
+                        extent = build.extents.setdefault((g, row, n, *origin), {})
+                        extent[right] = extent.get(right, 0.0) + 1.0
+                        extent[left] = extent.get(left, 0.0) - 1.0
                 at = to
         for letter, own in stands.items():
             symbol = band.letters[letter].symbol

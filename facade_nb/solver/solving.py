@@ -5,13 +5,13 @@ from __future__ import annotations
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import product
 from math import inf
 from threading import Lock
 
 from ..design.errors import NoLayout
 from ..design.model import AXES, Axis, Design
 from .axis import AxisSearch, Best, Solved
-from .candidates import Candidate
 from .events import StageEnded, SystemSolved, Trace
 from .failure import explain
 from .layout import AxisLayout, GroupLayout, Layout, PlacedLetter, RowLayout
@@ -48,8 +48,8 @@ def solve(
         A valid design; without layers its layout is empty.
     objective
         Default `Objective()`: the least J over all candidates. `Objective.paper()` follows the paper:
-        tolerances one after
-        the other, candidates in lexicographic order, the first that aligns in all groups.
+        tolerances one after the other, candidates in lexicographic order, the first that aligns in all
+        groups.
     tolerances
         Fractions of the canvas, growing; the default objective uses the largest alone.
     search
@@ -157,34 +157,28 @@ class _Run:
     def _tied(self) -> Mapping[Axis, tuple[AxisSearch, Best]]:
         """Both axes together, where a counter ties them: least J of both, over the values of the shared counters."""
         walks = {axis: self._walk(axis, self.tolerances[-1]) for axis in AXES}
-        lots = {axis: self._lots(walks[axis].candidates) for axis in AXES}
-        common = [values for values in lots["x"] if values in lots["y"]]
-        if not common:
-            raise explain(self.design, walks["x"], Best(), other=walks["y"], shared=self.shared)
-
-        def floor(values: tuple[int, ...]) -> float:
-            return sum(min(c.bound for c in lots[axis][values]) for axis in AXES)
-
+        pairs = self._pairs(walks)
         best: Mapping[Axis, Best] | None = None
         rank = (inf, 0, inf)
         bound, complete = inf, True
-        for values in sorted(common, key=floor):
-            if floor(values) > rank[0] + 1e-9:
-                bound = min(bound, floor(values))
+        try:
+            floors = [(sum(side.floor for side in pair), n) for n, pair in enumerate(pairs)]
+        except Stopped:
+            raise NoLayout("The search was stopped before any layout was found.") from None
+        for floor, n in sorted(floors):
+            if floor > rank[0] + 1e-9 or floor == inf:
+                bound = min(bound, floor)
                 break
-            cap = rank[0]
-            x = walks["x"].best(lots["x"][values], cap)
-            y = walks["y"].best(lots["y"][values], cap) if x.solved else Best()
+            side_x, side_y = pairs[n]
+            x = side_x.best(rank[0] - side_y.floor)
+            y = side_y.best(rank[0] - x.cost) if x.solved else Best(bound=side_y.floor)
             complete = complete and x.complete and y.complete
-            bound = min(bound, x.bound + (y.bound if x.solved else min(c.bound for c in lots["y"][values])))
-            if x.solved is None or y.solved is None:
-                if not complete:
-                    break
-                continue
-            deviation = x.solved.sized.deviation + y.solved.sized.deviation
-            own = (x.solved.cost + y.solved.cost, -x.solved.columns - y.solved.columns, deviation)
-            if _less(own, rank):
-                best, rank = {"x": x, "y": y}, own
+            bound = min(bound, x.bound + y.bound)
+            if x.solved is not None and y.solved is not None:
+                deviation = x.solved.sized.deviation + y.solved.sized.deviation
+                own = (x.solved.cost + y.solved.cost, -x.solved.columns - y.solved.columns, deviation)
+                if _less(own, rank):
+                    best, rank = {"x": x, "y": y}, own
             if not complete:
                 break
         if best is None:
@@ -198,11 +192,17 @@ class _Run:
             own_best.bound = (own_best.solved.cost if own_best.solved else 0.0) - gap
         return {axis: (walks[axis], best[axis]) for axis in AXES}
 
-    def _lots(self, candidates: Sequence[Candidate]) -> dict[tuple[int, ...], list[Candidate]]:
-        lots: dict[tuple[int, ...], list[Candidate]] = {}
-        for candidate in candidates:
-            lots.setdefault(tuple(candidate.counters[c] for c in self.shared), []).append(candidate)
-        return lots
+    def _pairs(self, walks: Mapping[Axis, AxisSearch]) -> list[tuple[AxisSearch, AxisSearch]]:
+        """Both axes with the shared counters held at each of their possible values, in lexicographic order."""
+        possible = [
+            sorted(set.intersection(*(_values_in(walks[axis], counter) for axis in AXES)))
+            for counter in self.shared
+        ]
+        pairs: list[tuple[AxisSearch, AxisSearch]] = []
+        for combination in product(*possible):
+            values = dict(zip(self.shared, combination, strict=True))
+            pairs.append((walks["x"].restricted(values), walks["y"].restricted(values)))
+        return pairs
 
     def _by_tolerance(self) -> Mapping[Axis, tuple[AxisSearch, Best]]:
         """The paper's schedule: the first candidate, in lexicographic order, that aligns at the least tolerance."""
@@ -211,12 +211,14 @@ class _Run:
         for tolerance in self.tolerances:
             walks = {axis: self._walk(axis, tolerance) for axis in AXES if axis not in out}
             if self.shared:
-                pair = self._first_pair(walks)
-                if pair is not None:
-                    return pair
+                for side_x, side_y in self._pairs(walks):
+                    x = _first_aligned(side_x)
+                    y = _first_aligned(side_y) if x else None
+                    if x is not None and y is not None:
+                        return {"x": (walks["x"], x), "y": (walks["y"], y)}
                 continue
             for axis, walk in walks.items():
-                found = next(_aligned(walk, walk.candidates), None)
+                found = _first_aligned(walk)
                 if found is not None:
                     out[axis] = (walk, found)
             if len(out) == len(AXES):
@@ -224,16 +226,6 @@ class _Run:
         failed = next(axis for axis in AXES if axis not in out)
         other = walks["y"] if self.shared else None
         raise explain(self.design, walks[failed], Best(), other=other, shared=self.shared)
-
-    def _first_pair(self, walks: Mapping[Axis, AxisSearch]) -> Mapping[Axis, tuple[AxisSearch, Best]] | None:
-        lots = {axis: self._lots(walks[axis].candidates) for axis in AXES}
-        for values, candidates in lots["x"].items():
-            if values in lots["y"]:
-                x = next(_aligned(walks["x"], candidates), None)
-                y = next(_aligned(walks["y"], lots["y"][values]), None) if x else None
-                if x is not None and y is not None:
-                    return {"x": (walks["x"], x), "y": (walks["y"], y)}
-        return None
 
     def _assemble(self, solved: Mapping[Axis, tuple[AxisSearch, Best]]) -> Layout:
         warnings: list[str] = []
@@ -275,15 +267,26 @@ def _less(a: tuple[float, int, float], b: tuple[float, int, float]) -> bool:
     return a[1:] < b[1:]
 
 
-def _aligned(walk: AxisSearch, candidates: Sequence[Candidate]) -> Iterator[Best]:
-    """Candidates that align and can be sized, in the given order."""
-    for candidate in candidates:
-        try:
-            solved = walk.solve(candidate)
-        except Stopped:
-            raise NoLayout("The search was stopped before any layout was found.", walk.problem.axis) from None
-        if solved is not None:
-            yield Best(solved, solved.cost)
+def _values_in(walk: AxisSearch, counter: str) -> set[int]:
+    """Values of a counter that every pattern it stands in has a word for."""
+    sets = [
+        {word.counters[counter] for word in walk.found[name].words}
+        for name, pattern in walk.problem.patterns
+        if counter in pattern.counters
+    ]
+    return set.intersection(*sets)
+
+
+def _first_aligned(walk: AxisSearch) -> Best | None:
+    """The first candidate, in lexicographic order, that aligns and can be sized."""
+    try:
+        for candidate in walk.in_order():
+            solved = walk.solve(walk.case(candidate))
+            if solved is not None:
+                return Best(solved, solved.cost)
+    except Stopped:
+        raise NoLayout("The search was stopped before any layout was found.", walk.problem.axis) from None
+    return None
 
 
 def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solved) -> AxisLayout:

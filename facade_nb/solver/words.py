@@ -50,8 +50,7 @@ def instances(
     """Every word of a pattern whose sized letters measure at most `limit` metres.
 
     Counters are tried outwards from the value nearest to 0; a longer count never makes a word shorter, so
-    that each
-    direction ends where the shortest word has become too long.
+    that each direction ends where the shortest word has become too long.
     """
     names = pattern.counters
     nearest_zero = {name: _nearest_zero(counter(name)) for name in names}
@@ -154,16 +153,15 @@ def words(
         Pattern text.
     sizes
         Preferred sizes in metres. Symbols without one are unsized and may stand only as placeholders of a
-        control
-        pattern.
+        control pattern.
     canvas, tolerance
         Metres.
     counters
         Bounds ``(min, max)`` by name; default from 0 without an upper bound.
     unsized_step
         Sample unsized symbols at positive multiples of this many metres, as the paper's Figure 7 does.
-        Without it
-        a word with unsized letters is listed once, and kept where its sized letters leave them room.
+        Without it a word with unsized letters is listed once, and kept where its sized letters leave them
+        room.
 
     Returns
     -------

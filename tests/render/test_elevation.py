@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from time import perf_counter
+from time import process_time
 
 import pytest
 
@@ -104,11 +104,11 @@ def test_size_and_speed_suit_a_keystroke() -> None:
     for layout, limit, milliseconds in ((house(), 25_000, 3), (apartment(), 150_000, 25)):
         times = []
         for _ in range(9):
-            start = perf_counter()
+            start = process_time()
             text = elevation_svg(layout)
-            times.append((perf_counter() - start) * 1000)
+            times.append((process_time() - start) * 1000)
         assert len(text.encode()) < limit
-        assert min(times) < 4 * milliseconds  # the goal, with room for a busy machine
+        assert min(times) < 3 * milliseconds  # the goal, with room for a busy machine
 
 
 def test_a_projecting_box_throws_its_shadow_to_the_lower_right() -> None:
@@ -153,6 +153,16 @@ def _inside(point: tuple[float, float], polygon: list[tuple[float, float]]) -> b
         for p, q in zip(polygon, [*polygon[1:], polygon[0]], strict=True)
     ]
     return all(t >= 0 for t in turns) or all(t <= 0 for t in turns)
+
+
+def test_a_cornice_shades_the_wall_below_it() -> None:
+    wall = PlacedShape("base", "A", "P", (0, 0, 4, 2.5))
+    cornice = PlacedShape("base", "A", "Q", (0, 2.5, 4, 3), geometry="cornice", material="stone", offset=0.4)
+    shadows = Relief(build_scene(Layout("c", Canvas(4, 3), shapes=(wall, cornice)))).shadows()[0]
+    assert shadows
+    ys = [y for polygon in shadows for _, y in polygon]
+    assert max(ys) == pytest.approx(2.5)
+    assert 2.3 < min(ys) < 2.48
 
 
 def test_flush_walls_of_one_material_meet_without_a_line() -> None:

@@ -59,10 +59,19 @@ def test_a_picture_shows_something_and_is_written_whole(tmp_path: Path) -> None:
 
 
 def test_brick_is_redder_than_plaster() -> None:
-    pixels = picture(house(), (240, 150), Camera(azimuth=0, angle=20), samples=1, rays=8).astype(float)
-    ratio = pixels[..., 0] / np.maximum(pixels[..., 2], 1)
-    brick, plaster = ratio[106:126, 76:82], ratio[66:80, 76:82]
-    assert brick.mean() > plaster.mean() + 0.2
+    size, camera = (240, 150), Camera(azimuth=0, angle=20)
+    pixels = picture(house(), size, camera, samples=1, rays=8).astype(float)
+    canvas = [(0.0, 0.0, 0.0), (6.0, 4.3, 0.0)]
+    view = camera.look(np.concatenate([canvas, building(house()).positions.reshape(-1, 3)]), size)
+
+    def redness(x: float, y: float) -> float:
+        spot = view.matrix @ np.array([x, y, 0.0, 1.0])
+        column = int((spot[0] / spot[3] + 1) / 2 * size[0])
+        row = int((1 - spot[1] / spot[3]) / 2 * size[1])
+        red, _, blue = pixels[row - 2 : row + 3, column - 2 : column + 3].mean(axis=(0, 1))
+        return red / blue
+
+    assert redness(2.1, 0.8) > redness(2.1, 2.3) + 0.2
 
 
 @pytest.mark.parametrize("backend", [name for name, b in BACKENDS.items() if name != "egl" and b.available])
@@ -214,9 +223,10 @@ def test_verticals_stay_upright_and_everything_is_inside() -> None:
             assert low[0] / low[3] == pytest.approx(high[0] / high[3])
 
 
-def test_an_empty_canvas_makes_a_picture_of_the_ground() -> None:
-    pixels = picture(Layout("Nothing", Canvas(6, 3)), **SMALL)
+def test_an_empty_canvas_is_a_blank_panel() -> None:
+    pixels = picture(Layout("Nothing", Canvas(6, 3)), **SMALL).astype(float)
     assert pixels.std() > 3
+    assert pixels[40:60, 70:90].mean() > 200
 
 
 def test_the_body_closes_the_building() -> None:

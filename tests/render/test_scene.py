@@ -167,16 +167,20 @@ def test_glb_round_trip(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["house.glb"]
     back = trimesh.load(path)
     low, high = back.bounds
-    assert low == pytest.approx([-0.25, -0.0949, -0.2], abs=1e-3)
+    assert low == pytest.approx([-0.25, 0.0, -0.2], abs=1e-6)
     assert high == pytest.approx([6.25, 4.3, 0.3], abs=1e-6)
     nodes = set(back.graph.nodes_geometry)
     assert "columns/14 C P/body" in nodes
-    for index, shape in enumerate(layout.shapes):
-        assert any(node.startswith(f"{shape.layer}/{index} {shape.x} {shape.y}/") for node in nodes)
+    missing = [
+        index
+        for index, shape in enumerate(layout.shapes)
+        if not any(node.startswith(f"{shape.layer}/{index} {shape.x} {shape.y}/") for node in nodes)
+    ]
+    assert missing == [3]  # the window that the door of a higher layer covers altogether
     paints = {body.visual.material.name for body in back.geometry.values()}
     assert {"plaster", "brick", "glass", "stone", "oak", "tiles"} <= paints
     windows = sum(s.geometry == "window" for s in layout.shapes)
-    assert sum("glass" in node for node in nodes) >= windows
+    assert sum("glass" in node for node in nodes) >= windows - 1
     assert len(back.geometry) < len(nodes)  # equal windows share their geometry
 
 
