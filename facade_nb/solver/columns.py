@@ -23,6 +23,7 @@ from typing import Any
 
 from .letters import Letter
 from .objective import Objective
+from .pairs import PairTable
 
 __all__ = ["EPS", "Band", "Group", "Option", "Position", "lone_unsized", "make_group"]
 
@@ -104,6 +105,7 @@ class Band:
         self.end: Position = 8 * len(self.letters)
         self.soft = any(not a.opaque and not a.transparent for a in self.letters)
         self.elastic = any(a.transparent and (cuts or a.size is None) for a in self.letters)
+        self.rigid = not any(a.transparent for a in self.letters)
         self.tied = any(
             a.transparent and a.symbol not in free and (cuts or a.size is None) for a in self.letters
         )
@@ -271,6 +273,8 @@ class Group:
     """Per band: the bands with a row above one of its rows (C3), itself among them where it has several rows."""
     weights: tuple[float, ...]
     """Per band: what a metre that it falls short of W costs at least (see `network.shortfall`)."""
+    pairs: tuple[tuple[int, int, PairTable], ...] = ()
+    """For two bands of solid letters each: what they cost each other."""
     identity: object = None
     """Groups with the same identity are aligned and sized alike."""
     edges: dict[Any, Any] = field(default_factory=dict)
@@ -351,6 +355,12 @@ def make_group(
         ),
         guards=tuple(tuple(o for o, other in enumerate(bands) if other.top < band.bottom) for band in bands),
         weights=tuple(weights),
+        pairs=tuple(
+            (a, b, PairTable(bands[a].letters, bands[b].letters, objective, share))
+            for b in range(len(bands))
+            for a in range(b)
+            if bands[a].rigid and bands[b].rigid
+        ),
         identity=(
             tuple(band.letters for band in bands),
             tuple(band.origins for band in bands),

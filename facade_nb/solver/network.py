@@ -158,7 +158,18 @@ def shortfall(group: Group, path: Path) -> float:
         value += loose + (need if need > short else short)
         if value < best:
             best = value
-    return best
+    return max(best, _by_pairs(group, path, objective.fit * max(0.0, low - canvas))) if group.pairs else best
+
+
+def _by_pairs(group: Group, path: Path, fit: float) -> float:
+    """The bound that the dearest pair of rows gives; what other rows are loose by comes on top, as Λ is a sum."""
+    by_loose = group.objective.loose * group.share
+    loose = [by_loose * band.soft_rest[p >> 3] for band, p in zip(group.bands, path.state, strict=True)]
+    total = sum(loose)
+    return fit + max(
+        table.at(path.state[a] >> 3, path.state[b] >> 3) + total - loose[a] - loose[b]
+        for a, b, table in group.pairs
+    )
 
 
 def most_sized(band: Band, i: int, span: tuple[float, float]) -> float:
