@@ -170,6 +170,7 @@ class AxisSearch:
                 lambda c: counters.get(c) or Counter(c),
                 self.problem.canvas + self.tolerance,
                 self.check,
+                None if self.objective.plain else self.problem.canvas,
             )
             if self.trace is not None:
                 self._tell_words(self.trace, name)
@@ -278,9 +279,18 @@ class AxisSearch:
                     heappush(queue, (max(beyond, case.floor), n))
         except Stopped:
             best.complete = False
-        best.bound = min(best.bound, floor)
+        best.bound = min(best.bound, floor, self._left_out())
         self._tell_fates(best)
         return best
+
+    def _left_out(self) -> float:
+        """No candidate with a word that was left out, for there are too many, costs less than this."""
+        bound = inf
+        for _, names in self.problem.groups:
+            weight = min(self.objective.empty, self.objective.loose) / len(set(names))
+            left = min(self.found[name].left for name in names)
+            bound = min(bound, min(self.objective.fit, weight) * left)
+        return bound
 
     def _tell_fates(self, best: Best) -> None:
         if self.trace is None:

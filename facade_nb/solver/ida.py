@@ -30,7 +30,7 @@ def search_ida(
     accept: Callable[[Priced], bool] | None = None,
 ) -> Found:
     """Like `search.search`, and with the same result."""
-    network = Network(groups)
+    network = Network(groups, check)
     found = Found(bound=network.later[0])
     if found.bound > cap + EPS or found.bound == inf:
         return found

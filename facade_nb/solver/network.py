@@ -18,7 +18,7 @@ every metre that a shorter word falls short of W is paid for, as ω, as loosenes
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -177,7 +177,14 @@ def most_sized(band: Band, i: int, span: tuple[float, float]) -> float:
     return max(0.0, (band.letters[i].size or 0.0) - span[0]) + band.rest_min[i + 1]
 
 
-def edges(group: Group, state: State, owed: bool, made: float, limit: float) -> list[Edge]:
+def edges(
+    group: Group,
+    state: State,
+    owed: bool,
+    made: float,
+    limit: float,
+    check: Callable[[], None] | None = None,
+) -> list[Edge]:
     """Every column that may come next, keeps the constraints and the tolerance, and costs more than `made` and at
     most `limit`, cheapest first.
 
@@ -185,7 +192,7 @@ def edges(group: Group, state: State, owed: bool, made: float, limit: float) -> 
     """
     known = group.edges.get((state, owed))
     if known is None or known[0] < limit:
-        costs = _make_edges(group, state, owed, limit)
+        costs = _make_edges(group, state, owed, limit, check)
         costs.sort(key=_by_cost)
         known = group.edges[state, owed] = (limit, costs)
     costs = known[1]
@@ -198,7 +205,9 @@ def _by_cost(edge: Edge) -> float:
     return edge.cost
 
 
-def _make_edges(group: Group, state: State, owed: bool, limit: float) -> list[Edge]:
+def _make_edges(
+    group: Group, state: State, owed: bool, limit: float, check: Callable[[], None] | None
+) -> list[Edge]:
     """The edges that leave a node.
 
     Elements are chosen band by band. What is chosen already bounds ω, E and Λ from below, so that a column
@@ -276,6 +285,8 @@ def _make_edges(group: Group, state: State, owed: bool, limit: float) -> list[Ed
         soft_sizes: float,
         elastic: bool,
     ) -> None:
+        if check is not None and b == 2:
+            check()
         for option in choices[b]:
             if option.empty:
                 if by_empty * (empties + 1) * high + by_loose * loose > limit:
@@ -333,8 +344,9 @@ def _make_edges(group: Group, state: State, owed: bool, limit: float) -> list[Ed
 class Network:
     """The network of one group, or of several that share unsized symbols, with lower bounds for what is to come."""
 
-    def __init__(self, groups: Sequence[Group]) -> None:
+    def __init__(self, groups: Sequence[Group], check: Callable[[], None] | None = None) -> None:
         self.groups = tuple(groups)
+        self.check = check
         self.later = [0.0] * (len(groups) + 1)
         for g in range(len(groups) - 1, -1, -1):
             group = groups[g]
@@ -382,7 +394,7 @@ class Network:
         later = self.later[path.group + 1]
         laid = path.cost + later
         out: list[tuple[float, Path]] = []
-        for edge in edges(group, path.state, path.owed, made - laid, limit - laid):
+        for edge in edges(group, path.state, path.owed, made - laid, limit - laid, self.check):
             cost = path.cost + edge.cost
             width = path.width + edge.width
             firm = path.firm and edge.firm

@@ -88,7 +88,7 @@ class BestFirst:
         check: Callable[[], None] | None = None,
         accept: Callable[[Priced], bool] | None = None,
     ) -> None:
-        self.network = Network(groups)
+        self.network = Network(groups, check)
         self.keep, self.nodes, self.check, self.accept = keep, nodes, check, accept
         self.found = Found(bound=self.network.later[0])
         self.done = self.found.bound == inf

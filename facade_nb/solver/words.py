@@ -5,18 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from math import floor, inf
+from math import floor, inf, prod
 
 from ..design.errors import DesignError, Fault, nearest
 from ..design.model import Counter, Symbol
 from ..design.pattern import Glyph, Pattern, parse
 from .columns import EPS
+from .counting import nearest_values
 from .letters import Letter, Word
 
-__all__ = ["MAX_COPIES", "Instances", "instances", "words"]
+__all__ = ["MAX_COPIES", "MAX_WORDS", "Instances", "instances", "words"]
 
 MAX_COPIES = 16
 """A counter that repeats only letters without a size could go on for ever; it is tried up to this count."""
+
+MAX_WORDS = 2000
+"""A pattern with three counters or more is left with about so many words, those nearest to the canvas."""
 
 SymbolOf = Callable[[str], Symbol]
 
@@ -33,11 +37,14 @@ class Instances:
         The shortest word of the pattern, whether or not it is within the limit.
     endless
         Counters that repeat nothing with a size, cut off at `MAX_COPIES`.
+    left
+        Words that were left out, as there are too many, miss the canvas by at least so many metres.
     """
 
     words: tuple[Word, ...]
     shortest: Word
     endless: tuple[str, ...] = ()
+    left: float = inf
 
 
 def instances(
@@ -46,11 +53,13 @@ def instances(
     counter: Callable[[str], Counter],
     limit: float,
     check: Callable[[], None] | None = None,
+    canvas: float | None = None,
 ) -> Instances:
     """Every word of a pattern whose sized letters measure at most `limit` metres.
 
     Counters are tried outwards from the value nearest to 0; a longer count never makes a word shorter, so
-    that each direction ends where the shortest word has become too long.
+    that each direction ends where the shortest word has become too long. With `canvas`, a pattern of three counters or
+    more that has more than `MAX_WORDS` words is left with those nearest to the canvas.
     """
     names = pattern.counters
     nearest_zero = {name: _nearest_zero(counter(name)) for name in names}
@@ -103,9 +112,28 @@ def instances(
         return sorted(fits)
 
     shortest = min(spell(nearest_zero), key=lambda word: word.size)
+    left = inf
     if shortest.size <= limit + EPS:
-        descend(0, {})
-    return Instances(tuple(found), shortest, tuple(sorted(endless)))
+        many = _many(
+            names, {name: _fitting(counter(name), name, {}) for name in names} if len(names) > 2 else {}
+        )
+        if canvas is None or not many or len(spell(nearest_zero)) > 1:
+            descend(0, {})
+        else:
+            base = shortest.size
+            added = {
+                name: [(v, spell({**nearest_zero, name: v})[0].size - base) for v in values]
+                for name, values in many.items()
+            }
+            chosen, left = nearest_values(added, base, canvas, limit, MAX_WORDS, check)
+            for values in sorted(chosen, key=lambda own: [own[name] for name in names]):
+                found += spell(values)
+    return Instances(tuple(found), shortest, tuple(sorted(endless)), left)
+
+
+def _many(names: Sequence[str], fits: Mapping[str, Sequence[int]]) -> Mapping[str, Sequence[int]]:
+    """The counters' values, where there are more combinations than `MAX_WORDS`; else nothing."""
+    return fits if fits and prod(len(fits[name]) for name in names) > MAX_WORDS else {}
 
 
 def _letter(glyph: Glyph, symbol: SymbolOf) -> Letter:
