@@ -1,0 +1,116 @@
+"""Designs that ship with the package; docs/gallery.md tells where each comes from and what it shows.
+
+>>> from facade_nb import gallery
+>>> gallery.load("residential-house").canvas.width
+6.0
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from importlib import resources
+from types import MappingProxyType
+from typing import Any
+
+from ..design import edit
+from ..design.errors import DesignError, Fault, nearest
+from ..design.model import Design
+
+__all__ = ["load", "names", "step_titles", "steps"]
+
+_EDITS: Mapping[str, Callable[..., Design]] = MappingProxyType(
+    {name: getattr(edit, name) for name in edit.__all__}
+)
+"""What a step may do: the helpers of `facade_nb.design.edit`, by name."""
+
+
+def names() -> list[str]:
+    """Names of all designs, in alphabetical order."""
+    return _listed("")
+
+
+def load(name: str) -> Design:
+    """Return the design of that name.
+
+    Raises
+    ------
+    DesignError
+        For an unknown name, with the nearest valid one.
+    """
+    _known(name, names(), "a design of the gallery")
+    return _load(name)
+
+
+def steps(name: str) -> list[Design]:
+    """Return the making of a design: what there is to begin with, then the design after each step.
+
+    The last is the design that `load` gives. `step_titles` says what each step does.
+
+    Raises
+    ------
+    DesignError
+        For an unknown name, and for a design without steps; says which have them.
+    """
+    return list(_steps(_stepped(name))[1])
+
+
+def step_titles(name: str) -> list[str]:
+    """Return a title for each of the designs of `steps`, in their order. Raises `DesignError` as `steps` does."""
+    return list(_steps(_stepped(name))[0])
+
+
+@lru_cache(maxsize=64)
+def _load(name: str) -> Design:
+    return Design.from_json(_text(f"{name}.json"))
+
+
+@lru_cache(maxsize=16)
+def _steps(name: str) -> tuple[tuple[str, ...], tuple[Design, ...]]:
+    document = json.loads(_text("steps", f"{name}.json"))
+    titles: list[str] = [document["title"]]
+    designs = [Design.from_dict(document["start"])]
+    for step in document["steps"]:
+        design = designs[-1]
+        for edited in step["edits"]:
+            design = _apply(design, *edited)
+        titles.append(step["title"])
+        designs.append(design)
+    return tuple(titles), tuple(designs)
+
+
+def _apply(
+    design: Design, verb: str, values: list[Any], fields: Mapping[str, Any] = MappingProxyType({})
+) -> Design:
+    """Do one edit of a step: the helper's name, its arguments in order and, where there are any, its fields."""
+    return _EDITS[verb](design, *values, **fields)
+
+
+def _stepped(name: str) -> str:
+    _known(name, names(), "a design of the gallery")
+    have = _listed("steps")
+    if name not in have:
+        message = (
+            f"expected a design with steps ({', '.join(have)}); {name!r} has none, only the finished design"
+        )
+        raise DesignError(Fault("gallery", message))
+    return name
+
+
+def _known(name: str, valid: list[str], what: str) -> None:
+    if name not in valid:
+        message = (
+            f"expected the name of {what} ({', '.join(valid)}); found {name!r}{nearest(str(name), valid)}"
+        )
+        raise DesignError(Fault("gallery", message))
+
+
+def _listed(folder: str) -> list[str]:
+    root = resources.files(__name__)
+    place = root.joinpath(folder) if folder else root
+    return sorted(file.name.removesuffix(".json") for file in place.iterdir() if file.name.endswith(".json"))
+
+
+def _text(*path: str) -> str:
+    return resources.files(__name__).joinpath(*path).read_text(encoding="utf-8")

@@ -1,0 +1,61 @@
+"""The notebooks as a product: each runs from a fresh kernel, is small, and shows something where no widget can be."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+ROOT = Path(__file__).resolve().parents[2]
+NOTEBOOKS = sorted(path for folder in ("notebooks", "tutorials") for path in (ROOT / folder).glob("*.ipynb"))
+LARGEST = 500_000  # bytes
+WIDGET = "application/vnd.jupyter.widget-view+json"
+
+every_notebook = pytest.mark.parametrize(
+    "path", NOTEBOOKS, ids=lambda path: f"{path.parent.name}/{path.stem}"
+)
+
+
+def outputs(notebook: nbformat.NotebookNode) -> list[nbformat.NotebookNode]:
+    return [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+
+
+def test_there_are_notebooks() -> None:
+    assert ROOT / "notebooks" / "studio.ipynb" in NOTEBOOKS
+
+
+@every_notebook
+def test_runs_from_a_fresh_kernel(path: Path) -> None:
+    notebook = nbformat.read(path, as_version=4)
+    client = NotebookClient(
+        notebook, timeout=120, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
+    )
+    client.execute()  # raises at the first cell that fails
+    assert outputs(notebook)
+    # A warning is the first thing a reader would see.
+    assert not [output.text for output in outputs(notebook) if output.get("name") == "stderr"]
+
+
+@every_notebook
+def test_is_small(path: Path) -> None:
+    assert path.stat().st_size <= LARGEST
+
+
+@every_notebook
+def test_opens_with_what_it_is_for(path: Path) -> None:
+    first = nbformat.read(path, as_version=4).cells[0]
+    assert first.cell_type == "markdown"
+    for words in ("you will", "learn", "need"):
+        assert words in first.source.lower()
+
+
+@every_notebook
+def test_is_saved_with_pictures_where_a_widget_would_be_blank(path: Path) -> None:
+    saved = outputs(nbformat.read(path, as_version=4))
+    assert saved, "saved without outputs"
+    assert not [output for output in saved if output.output_type == "error"]
+    shown = [output.data for output in saved if "data" in output]
+    blank = [data for data in shown if WIDGET in data and not any(kind.startswith("image/") for kind in data)]
+    assert not blank
