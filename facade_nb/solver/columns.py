@@ -23,7 +23,7 @@ from typing import Any
 
 from .letters import Letter
 from .objective import Objective
-from .pairs import PairTable
+from .pairs import PairTable, choose_reference
 
 __all__ = ["EPS", "Band", "Group", "Option", "Position", "lone_unsized", "make_group"]
 
@@ -105,7 +105,6 @@ class Band:
         self.end: Position = 8 * len(self.letters)
         self.soft = any(not a.opaque and not a.transparent for a in self.letters)
         self.elastic = any(a.transparent and (cuts or a.size is None) for a in self.letters)
-        self.rigid = not any(a.transparent for a in self.letters)
         self.tied = any(
             a.transparent and a.symbol not in free and (cuts or a.size is None) for a in self.letters
         )
@@ -273,8 +272,10 @@ class Group:
     """Per band: the bands with a row above one of its rows (C3), itself among them where it has several rows."""
     weights: tuple[float, ...]
     """Per band: what a metre that it falls short of W costs at least (see `network.shortfall`)."""
-    pairs: tuple[tuple[int, int, PairTable], ...] = ()
-    """For two bands of solid letters each: what they cost each other."""
+    reference: int | None = None
+    """The band that `pairs` compares with every other."""
+    pairs: tuple[PairTable | None, ...] = ()
+    """Per band: what it and the reference cost each other; None for the reference itself."""
     identity: object = None
     """Groups with the same identity are aligned and sized alike."""
     edges: dict[Any, Any] = field(default_factory=dict)
@@ -332,6 +333,7 @@ def make_group(
     if solids and not objective.plain:
         for band in bands:
             band.back(min(solids))
+    reference = choose_reference(bands) if len(bands) > 1 else None
     weights = [
         (min(objective.empty, objective.loose) if band.soft and not objective.plain else objective.empty)
         * share
@@ -355,11 +357,12 @@ def make_group(
         ),
         guards=tuple(tuple(o for o, other in enumerate(bands) if other.top < band.bottom) for band in bands),
         weights=tuple(weights),
-        pairs=tuple(
-            (a, b, PairTable(bands[a].letters, bands[b].letters, objective, share))
-            for b in range(len(bands))
-            for a in range(b)
-            if bands[a].rigid and bands[b].rigid
+        reference=reference,
+        pairs=()
+        if reference is None
+        else tuple(
+            None if b == reference else PairTable(bands[reference], band, objective, share, len(bands) - 1)
+            for b, band in enumerate(bands)
         ),
         identity=(
             tuple(band.letters for band in bands),

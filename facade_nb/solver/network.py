@@ -45,6 +45,8 @@ class Path:
         No column so far could be widened without cost.
     owed
         No letter ended at the last boundary, so one must begin there.
+    ahead
+        What the rows still cost each other, by pairs.
     spans
         Per band: least and greatest size that the pieces of the letter it stands in have taken so far, at
         no cost.
@@ -65,6 +67,7 @@ class Path:
     trail: tuple[object, ...] = ()
     parent: Path | None = None
     column: tuple[Option, ...] = ()
+    ahead: float = 0.0
     spans: tuple[tuple[float, float], ...] = ()
     learnt: tuple[tuple[str, float, float], ...] = ()
     dropped: bool = False
@@ -72,7 +75,21 @@ class Path:
 
 @dataclass(slots=True, eq=False)
 class Edge:
-    """A column that may come next. `cost` = ω + empty·E + loose·Λ of its solid and whole letters."""
+    """A column that may come next.
+
+    Attributes
+    ----------
+    cost, omega
+        ω + empty·E + loose·Λ of its solid and whole letters; ω of them.
+    width, least
+        Largest size in it; least size of a row that has to fill it.
+    rise
+        By how much it makes the bound by pairs rise: `cost` + what is ahead after it − what was ahead before it.
+    ahead
+        What the rows still cost each other after it, by pairs.
+    firm, owed, tied
+        It cannot be widened without cost; no letter ends at its right edge; its price depends on the lengths of pieces.
+    """
 
     column: tuple[Option, ...]
     state: State
@@ -80,6 +97,8 @@ class Edge:
     omega: float
     width: float
     least: float
+    rise: float
+    ahead: float
     firm: bool
     owed: bool
     tied: bool
@@ -158,18 +177,15 @@ def shortfall(group: Group, path: Path) -> float:
         value += loose + (need if need > short else short)
         if value < best:
             best = value
-    return max(best, _by_pairs(group, path, objective.fit * max(0.0, low - canvas))) if group.pairs else best
+    return max(best, path.ahead + objective.fit * max(0.0, low - canvas))
 
 
-def _by_pairs(group: Group, path: Path, fit: float) -> float:
-    """The bound that the dearest pair of rows gives; what other rows are loose by comes on top, as Λ is a sum."""
-    by_loose = group.objective.loose * group.share
-    loose = [by_loose * band.soft_rest[p >> 3] for band, p in zip(group.bands, path.state, strict=True)]
-    total = sum(loose)
-    return fit + max(
-        table.at(path.state[a] >> 3, path.state[b] >> 3) + total - loose[a] - loose[b]
-        for a, b, table in group.pairs
-    )
+def ahead(group: Group, state: State) -> float:
+    """What the rows still cost each other, by pairs with the reference (see `pairs`)."""
+    if group.reference is None:
+        return 0.0
+    place = state[group.reference]
+    return sum(table.at(place, p) for table, p in zip(group.pairs, state, strict=True) if table is not None)
 
 
 def most_sized(band: Band, i: int, span: tuple[float, float]) -> float:
@@ -185,46 +201,77 @@ def edges(
     limit: float,
     check: Callable[[], None] | None = None,
 ) -> list[Edge]:
-    """Every column that may come next, keeps the constraints and the tolerance, and costs more than `made` and at
-    most `limit`, cheapest first.
+    """Every column that may come next and keeps the constraints and the tolerance, by how much the bound rises with it.
 
-    The edges of a node are kept with the group, as other paths lead to it too.
+    Only those that make it rise by more than `made` and at most `limit`, the least first. The edges of a node are kept
+    with the group, as other paths lead to it too.
     """
     known = group.edges.get((state, owed))
     if known is None or known[0] < limit:
-        costs = _make_edges(group, state, owed, limit, check)
-        costs.sort(key=_by_cost)
-        known = group.edges[state, owed] = (limit, costs)
-    costs = known[1]
-    return costs[
-        bisect_right(costs, made + EPS, key=_by_cost) : bisect_right(costs, limit + EPS, key=_by_cost)
+        fresh = _Maker(group, state, owed, limit, check).make()
+        fresh.sort(key=_by_rise)
+        known = group.edges[state, owed] = (limit, fresh)
+    found = known[1]
+    return found[
+        bisect_right(found, made + EPS, key=_by_rise) : bisect_right(found, limit + EPS, key=_by_rise)
     ]
 
 
-def _by_cost(edge: Edge) -> float:
-    return edge.cost
+def _by_rise(edge: Edge) -> float:
+    return edge.rise
 
 
-def _make_edges(
-    group: Group, state: State, owed: bool, limit: float, check: Callable[[], None] | None
-) -> list[Edge]:
-    """The edges that leave a node.
+class _Maker:
+    """Makes the edges that leave a node.
 
-    Elements are chosen band by band. What is chosen already bounds ω, E and Λ from below, so that a column
-    that has become too dear is given up; runs of solid letters only grow, so that the rest of a band's runs
-    go with it.
+    Elements are chosen band by band, the reference first. What is chosen bounds ω, E and Λ from below, and
+    so do the pairs of the reference's next position with those of the other bands; a column that has become
+    too dear is given up. Runs of solid letters only grow, so that the rest of a band's runs goes with one
+    whose ω is too large.
     """
-    objective, mu, share = group.objective, group.tolerance + EPS, group.share
-    limit += EPS
-    plain = objective.plain
-    by_empty, by_loose = objective.empty * share, objective.loose * share
-    guards, waived = group.guards, group.waived
-    choices = [band.options(position) for band, position in zip(group.bands, state, strict=True)]
-    last = len(choices) - 1
-    chosen: list[Option] = []
-    made: list[Edge] = []
 
-    def close(
+    def __init__(
+        self, group: Group, state: State, owed: bool, limit: float, check: Callable[[], None] | None
+    ) -> None:
+        self.group, self.owed, self.check = group, owed, check
+        self.before = ahead(group, state)
+        self.limit = limit + EPS + self.before
+        self.mu = group.tolerance + EPS
+        objective, share = group.objective, group.share
+        self.plain = objective.plain
+        self.by_empty, self.by_loose = objective.empty * share, objective.loose * share
+        self.choices = [band.options(position) for band, position in zip(group.bands, state, strict=True)]
+        bands = range(len(group.bands))
+        self.order = (
+            list(bands) if group.reference is None else sorted(bands, key=lambda b: b != group.reference)
+        )
+        self.rows: list[list[float] | None] = [None] * len(group.bands)
+        self.rest = [0.0] * (len(group.bands) + 1)
+        self.chosen: list[Option] = [options[0] for options in self.choices if options]
+        self.made: list[Edge] = []
+
+    def make(self) -> list[Edge]:
+        """All of them, in no order."""
+        if len(self.chosen) < len(self.choices):
+            return []  # an attached letter that ends its word forbids any further column (C4)
+        self._descend(0, 0.0, inf, inf, 0, 0.0, 0, 0.0, False, 0.0)
+        return self.made
+
+    def _enter(self, option: Option) -> None:
+        """Take the reference's element: look the pairs up that its next position is part of."""
+        group = self.group
+        total = 0.0
+        for n in range(len(self.order) - 1, 0, -1):
+            b = self.order[n]
+            table = group.pairs[b]
+            assert table is not None
+            row = self.rows[b] = table.row(option.target)
+            total += min([row[o.target >> 2] for o in self.choices[b]], default=inf)
+            self.rest[n] = total
+
+    def _descend(
+        self,
+        n: int,
         high: float,
         low: float,
         low_all: float,
@@ -233,16 +280,77 @@ def _make_edges(
         softs: int,
         soft_sizes: float,
         elastic: bool,
+        ahead_so_far: float,
+    ) -> None:
+        if n == len(self.order):
+            self._close(high, low, low_all, empties, loose, softs, soft_sizes, elastic, ahead_so_far)
+            return
+        if n == 2 and self.check is not None:
+            self.check()
+        b = self.order[n]
+        by_empty, by_loose, limit = self.by_empty, self.by_loose, self.limit
+        paired = self.group.reference is not None
+        for option in self.choices[b]:
+            high_, low_, low_all_, empties_, loose_, softs_, sizes_, elastic_ = (
+                high, low, low_all, empties, loose, softs, soft_sizes, elastic,
+            )  # fmt: skip
+            if paired and n == 0:
+                self._enter(option)
+            row = self.rows[b]
+            ahead_ = ahead_so_far + row[option.target >> 2] if row is not None and n else ahead_so_far
+            size = option.size
+            if option.empty:
+                empties_ += 1
+            elif size is None:
+                elastic_ = True
+            else:
+                if size > high:
+                    high_ = size
+                if size < low_all:
+                    low_all_ = size
+                if size < low and (self.plain or not option.soft):
+                    low_ = size
+                loose_ += option.loose
+                if option.soft:
+                    softs_ += 1
+                    sizes_ += size
+            omega = high_ - low_ if low_ < inf else 0.0
+            bound = (
+                omega
+                + by_empty * empties_ * high_
+                + by_loose * loose_
+                + ahead_
+                + (self.rest[n + 1] if paired else 0.0)
+            )
+            if omega > self.mu or bound > limit:
+                if size is not None and size > low and omega > min(self.mu, limit) and not option.transparent:
+                    break  # longer runs are dearer still
+                continue
+            self.chosen[b] = option
+            self._descend(n + 1, high_, low_, low_all_, empties_, loose_, softs_, sizes_, elastic_, ahead_)
+
+    def _close(
+        self,
+        high: float,
+        low: float,
+        low_all: float,
+        empties: int,
+        loose: float,
+        softs: int,
+        soft_sizes: float,
+        elastic: bool,
+        after: float,
     ) -> None:
         rested = low < inf
         if not rested:
             low = high if elastic else low_all
         omega = high - low if high > low else 0.0
-        cost = omega + by_empty * empties * high + by_loose * (loose + softs * high - soft_sizes)
-        if cost > limit or omega > mu:
+        cost = omega + self.by_empty * empties * high + self.by_loose * (loose + softs * high - soft_sizes)
+        if cost + after > self.limit or omega > self.mu:
             return
         some = backed = begun = ended = tied = guarded = False
         needy = empties > 0
+        chosen = self.chosen
         for option in chosen:
             if option.empty:
                 continue
@@ -253,14 +361,14 @@ def _make_edges(
             guarded = guarded or option.guarded
             backed = backed or option.opaque
             needy = needy or option.soft
-        if not some or (owed and not begun) or (needy and not backed and not waived):  # C1
+        if not some or (self.owed and not begun) or (needy and not backed and not self.group.waived):  # C1
             return
         if guarded:  # C3
             for b, option in enumerate(chosen):
-                if option.guarded and any(chosen[o].soft for o in guards[b]):
+                if option.guarded and any(chosen[o].soft for o in self.group.guards[b]):
                     return
         firm = rested or not elastic
-        made.append(
+        self.made.append(
             Edge(
                 tuple(chosen),
                 tuple([option.target for option in chosen]),
@@ -268,77 +376,13 @@ def _make_edges(
                 omega,
                 high,
                 low,
+                cost + after - self.before,
+                after,
                 firm,
                 not ended,
                 tied or not firm,
             )
         )
-
-    def descend(
-        b: int,
-        high: float,
-        low: float,
-        low_all: float,
-        empties: int,
-        loose: float,
-        softs: int,
-        soft_sizes: float,
-        elastic: bool,
-    ) -> None:
-        if check is not None and b == 2:
-            check()
-        for option in choices[b]:
-            if option.empty:
-                if by_empty * (empties + 1) * high + by_loose * loose > limit:
-                    continue
-                chosen.append(option)
-                if b == last:
-                    close(high, low, low_all, empties + 1, loose, softs, soft_sizes, elastic)
-                else:
-                    descend(b + 1, high, low, low_all, empties + 1, loose, softs, soft_sizes, elastic)
-                chosen.pop()
-                continue
-            size = option.size
-            if size is None:
-                chosen.append(option)
-                if b == last:
-                    close(high, low, low_all, empties, loose, softs, soft_sizes, True)
-                else:
-                    descend(b + 1, high, low, low_all, empties, loose, softs, soft_sizes, True)
-                chosen.pop()
-                continue
-            high_ = size if size > high else high
-            counts = plain or not option.soft
-            low_ = size if counts and size < low else low
-            if low_ < inf:
-                omega = high_ - low_
-                if omega > mu or omega + by_empty * empties * high_ + by_loose * loose > limit:
-                    if size > low and not option.transparent:
-                        break  # longer runs are dearer still
-                    continue
-            chosen.append(option)
-            low_all_ = size if size < low_all else low_all
-            if option.soft:
-                args = (
-                    high_,
-                    low_,
-                    low_all_,
-                    empties,
-                    loose + option.loose,
-                    softs + 1,
-                    soft_sizes + size,
-                    elastic,
-                )
-            else:
-                args = (high_, low_, low_all_, empties, loose + option.loose, softs, soft_sizes, elastic)
-            if b == last:
-                close(*args)
-            else:
-                descend(b + 1, *args)
-            chosen.pop()
-
-    descend(0, 0.0, inf, inf, 0, 0.0, 0, 0.0, False)
-    return made
 
 
 class Network:
@@ -370,7 +414,9 @@ class Network:
 
     def _enter(self, g: int) -> Path:
         group = self.groups[g]
-        return Path(g, group.start, 0.0, 0.0, 0, spans=((0.0, 0.0),) * len(group.bands))
+        path = Path(g, group.start, 0.0, 0.0, 0, spans=((0.0, 0.0),) * len(group.bands))
+        path.ahead = ahead(group, group.start)
+        return path
 
     def complete(self, path: Path) -> bool:
         """Whether every group is aligned."""
@@ -392,7 +438,7 @@ class Network:
         """
         group = self.groups[path.group]
         later = self.later[path.group + 1]
-        laid = path.cost + later
+        laid = path.cost + path.ahead + later
         out: list[tuple[float, Path]] = []
         for edge in edges(group, path.state, path.owed, made - laid, limit - laid, self.check):
             cost = path.cost + edge.cost
@@ -413,6 +459,7 @@ class Network:
                 state = self.groups[g].start if g < len(self.groups) else ()
                 child = Path(g, state, cost, 0.0, path.columns + 1, True, False, trail, path, edge.column)
                 child.spans = ((0.0, 0.0),) * len(state)
+                child.ahead = ahead(self.groups[g], state) if state else 0.0
                 child.learnt = self._learn(group, path, edge)[1] if group.tied else path.learnt
             else:
                 child = Path(
@@ -430,6 +477,7 @@ class Network:
                 child.spans, child.learnt = (
                     self._learn(group, path, edge) if group.tied else (path.spans, path.learnt)
                 )
+                child.ahead = edge.ahead
                 bound = cost + shortfall(group, child) + later
                 if bound == inf:
                     continue

@@ -1,98 +1,125 @@
-"""What two rows cost each other: a lower bound for alignments of many rows (the paper's pairwise hierarchy, 5.2).
+"""What two rows cost each other: lower bounds for alignments of many rows (the paper's pairwise hierarchy, 5.2).
 
-Leave all rows but two out of an alignment, and the columns that are empty then: what remains aligns the
-two, and every column costs no more than before. ω is a maximum over rows, and E and Λ are sums over them
-with the same shares. So the least cost of aligning the rests of two rows, found once for each pair of
-positions, bounds what any path has still to pay.
+Leave all rows but two out of an alignment, and the columns that are empty then: what remains aligns the two, and every
+column costs no more than before. So the least cost of aligning the rests of two rows, found once for each pair of
+positions by dynamic programming, bounds what any path has still to pay.
 
-The constraints are left out, which only makes the bound smaller. Values are worked out when they are asked for.
+One row, the *reference*, is paired with every other, and the bounds are added up. That is allowed because E and Λ
+are sums over rows: each other row brings its own, the reference's are divided among the pairs, and so is ω, which is a
+maximum and thus at least the mean of what the pairs see of it. The constraints are left out, and elastic elements cost
+nothing, which only makes the bound smaller.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import inf
+from typing import TYPE_CHECKING
 
-from .letters import Letter
 from .objective import Objective
 
-__all__ = ["PairTable"]
+if TYPE_CHECKING:
+    from .columns import Band, Position
+
+__all__ = ["PairTable", "choose_reference"]
+
+_Move = tuple[int, float, float, bool]
+"""Next place, size (negative: elastic), price of letters that share the element, holds a soft letter."""
 
 
 class PairTable:
-    """Least ω + empty·E + loose·Λ of aligning the rests of two words of solid letters.
+    """Least cost of aligning the rests of the reference and one other word.
+
+    Places are ``position >> 2``: twice the letter's index, and one more where that letter is cut and begun.
 
     Parameters
     ----------
-    a, b
-        The words; every letter has a size and none is transparent.
+    reference, other
+        The reference has no transparent letters.
     share
         A row's share in E and Λ.
+    pairs
+        Among how many pairs ω and the reference's own costs are divided.
     """
 
-    def __init__(self, a: Sequence[Letter], b: Sequence[Letter], objective: Objective, share: float) -> None:
+    def __init__(self, reference: Band, other: Band, objective: Objective, share: float, pairs: int) -> None:
+        self._part = 1.0 / pairs
         self._empty, self._loose = objective.empty * share, objective.loose * share
         self._plain = objective.plain
-        self._runs = (_runs(a, self._loose), _runs(b, self._loose))
-        self._ends = (len(a), len(b))
-        self._known: dict[tuple[int, int], float] = {(len(a), len(b)): 0.0}
+        self._moves = (_moves(reference, self._loose), _moves(other, self._loose))
+        self._rows: list[list[float] | None] = [None] * len(self._moves[0])
 
-    def at(self, i: int, j: int) -> float:
-        """The bound where letters i and j come next. Works from the end, so that it needs no recursion."""
-        found = self._known.get((i, j))
+    def at(self, reference: Position, other: Position) -> float:
+        """The bound where the two words stand at these positions."""
+        return self.row(reference)[other >> 2]
+
+    def row(self, reference: Position) -> list[float]:
+        """Bounds for all places of the other word. Works from the end, and only as far as it is asked to."""
+        place = reference >> 2
+        found = self._rows[place]
         if found is None:
-            for p in range(self._ends[0], i - 1, -1):
-                for q in range(self._ends[1], j - 1, -1):
-                    if (p, q) not in self._known:
-                        self._known[p, q] = self._least(p, q)
-            found = self._known[i, j]
+            for p in range(len(self._rows) - 1, place - 1, -1):
+                if self._rows[p] is None:
+                    self._rows[p] = self._fill(p)
+            found = self._rows[place]
+            assert found is not None
         return found
 
-    def _least(self, i: int, j: int) -> float:
-        known, by_empty, by_loose, plain = self._known, self._empty, self._loose, self._plain
-        runs_a, runs_b = self._runs[0][i], self._runs[1][j]
-        best = float("inf")
-        for end, size, own, _ in runs_a:  # b is empty
-            value = by_empty * size + own
-            if value >= best:
-                break
-            best = min(best, value + known[end, j])
-        for end, size, own, _ in runs_b:
-            value = by_empty * size + own
-            if value >= best:
-                break
-            best = min(best, value + known[i, end])
-        for end_a, size_a, own_a, soft_a in runs_a:
-            if own_a >= best:
-                break
-            for end_b, size_b, own_b, soft_b in runs_b:
-                over = size_b - size_a
-                value = own_a + own_b
-                if over > 0:  # a is the shorter: it is short by ω, or loose if it need not fill the column
-                    value += over * by_loose if soft_a and not plain else over
-                    if value >= best and not soft_a:
-                        break
-                elif over < 0:
-                    value += -over * by_loose if soft_b and not plain else -over
+    def _fill(self, p: int) -> list[float]:
+        moves_a, all_b = self._moves[0][p], self._moves[1]
+        by_empty, by_loose, part, plain = self._empty, self._loose, self._part, self._plain
+        last = len(all_b) - 1
+        row = [inf] * (last + 1)
+        reach = [(size, own * part, soft and not plain, self._rows[end]) for end, size, own, soft in moves_a]
+        for q in range(last, -1, -1):
+            best = 0.0 if q == last and not reach else inf
+            moves_b = all_b[q]
+            for end, size, own, _ in moves_b:  # the reference is empty
+                if end != q:
+                    value = row[end] + own + (by_empty * part * size if size > 0 else 0.0)
+                    if value < best:
+                        best = value
+            for size_a, own_a, soft_a, after in reach:
+                if own_a >= best or after is None:
+                    continue
+                value = own_a + by_empty * size_a + after[q]  # the other is empty
                 if value < best:
-                    rest = value + known[end_a, end_b]
-                    if rest < best:
-                        best = rest
-        return best
+                    best = value
+                for end, size, own, soft in moves_b:
+                    value = own_a + own + after[end]
+                    if size >= 0:
+                        over = size - size_a
+                        if over > 0:  # the reference is short: by ω, or loose if it need not fill the column
+                            value += over * part * (by_loose if soft_a else 1.0)
+                        else:
+                            value -= over * (by_loose if soft and not plain else part)
+                    if value < best:
+                        best = value
+            row[q] = best
+        return row
 
 
-def _runs(word: Sequence[Letter], by_loose: float) -> list[list[tuple[int, float, float, bool]]]:
-    """Per position the runs from there: (end, size, price of letters that share the element, holds a soft letter)."""
-    out: list[list[tuple[int, float, float, bool]]] = []
-    for i in range(len(word) + 1):
-        runs: list[tuple[int, float, float, bool]] = []
-        size = loose = 0.0
-        soft = False
-        for j in range(i, len(word)):
-            own = word[j].size or 0.0
-            if j > i:
-                loose += min(own, word[j - 1].size or 0.0)
-            size += own
-            soft = soft or not word[j].opaque
-            runs.append((j + 1, size, by_loose * loose, soft))
-        out.append(runs)
+def _moves(band: Band, by_loose: float) -> list[list[_Move]]:
+    """Per place: the elements that may come next, ε left out, one for each place it may lead to."""
+    out: list[list[_Move]] = []
+    for place in range(2 * len(band.letters) + 1):
+        i, mid = place >> 1, place & 1
+        if mid and not band.letters[i].transparent:
+            out.append([])
+            continue
+        out.append(
+            [
+                (o.target >> 2, -1.0 if o.size is None else o.size, by_loose * o.loose, o.soft)
+                for o in band.options(8 * i + 4 * mid)
+                if not o.empty
+            ]
+        )
     return out
+
+
+def choose_reference(bands: Sequence[Band]) -> int | None:
+    """The band with the most letters of those without transparent ones, opaque ones first; None where there is none."""
+    rigid = [
+        b for b, band in enumerate(bands) if band.letters and not any(a.transparent for a in band.letters)
+    ]
+    return max(rigid, key=lambda b: (not bands[b].soft, len(bands[b].letters)), default=None)
