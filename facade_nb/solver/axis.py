@@ -17,7 +17,7 @@ from .letters import Word
 from .objective import Objective
 from .pricing import Priced
 from .problem import AxisProblem
-from .search import BestFirst, Stopped
+from .search import BestFirst, Stopped, plunge
 from .sizing import Sized, size_axis
 from .words import Instances, instances
 
@@ -154,6 +154,7 @@ class AxisSearch:
     method: str = "best"
     check: Callable[[], None] | None = None
     trace: Trace | None = None
+    late: Callable[[], None] | None = None
     found: dict[str, Instances] = field(default_factory=dict)
     cases: list[_Case] = field(default_factory=list)
     runs: dict[object, _Run] = field(default_factory=dict)
@@ -201,6 +202,7 @@ class AxisSearch:
             self.method,
             self.check,
             self.trace,
+            self.late,
             found,
             runs=self.runs,
         )
@@ -215,6 +217,15 @@ class AxisSearch:
     def case(self, candidate: Candidate) -> _Case:
         """A candidate to be solved."""
         return _Case(candidate, candidate.bound)
+
+    def forget(self) -> None:
+        """Let go of what only searching needs, so that a kept answer is small."""
+        for case in self.cases:
+            for group in case.groups:
+                group.edges.clear()
+        self.cases.clear()
+        self.runs.clear()
+        self.stream = None
 
     def in_order(self) -> Iterator[Candidate]:
         """Candidates in lexicographic order, as the paper takes them."""
@@ -277,10 +288,35 @@ class AxisSearch:
                     # where the limit was the best answer's cost, nothing as good is left in this candidate
                     beyond = top + 2 * EPS if limit >= top else own
                     heappush(queue, (max(beyond, case.floor), n))
-        except Stopped:
+        except Stopped as stop:
             best.complete = False
+            if best.solved is None and not stop.asked:
+                best.solved = self._hasty()
         best.bound = min(best.bound, floor, self._left_out())
         self._tell_fates(best)
+        return best
+
+    def _hasty(self) -> Solved | None:
+        """Any layout of one of the likeliest candidates, for when the time is up and there is none yet."""
+        best: Solved | None = None
+        likely = sorted(self.cases, key=lambda case: case.floor)[:3]
+        try:
+            if not likely:
+                stream = CandidateStream(
+                    self.problem, self.words(), self.tolerance, self.objective, self.late
+                )
+                candidate = stream.take()
+                likely = [] if candidate is None else [self.case(candidate)]
+            for case in likely:
+                if not case.runs:
+                    self._open(case)
+                parts = [plunge([case.groups[g] for g in cluster], self.late) for cluster in case.clusters]
+                found = [[priced] for priced in parts if priced is not None]
+                solved = self._size(case, found) if len(found) == len(parts) else None
+                if solved is not None and solved.beats(best):
+                    best = solved
+        except Stopped:
+            pass  # what was found until now is all there is
         return best
 
     def _left_out(self) -> float:

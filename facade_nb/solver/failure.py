@@ -8,6 +8,7 @@ from itertools import islice
 
 from ..design.errors import NoLayout
 from ..design.model import Axis, Design, Symbol
+from .analysis import analyse
 from .axis import AxisSearch, Best
 from .problem import AxisProblem
 
@@ -30,6 +31,9 @@ def explain(
     if not best.complete:
         return NoLayout("The search was stopped before any layout was found.", problem.axis)
     for side in (walk, *([other] if other else [])):
+        proof = analyse(side.problem).blame("binding")
+        if proof is not None:
+            return NoLayout(proof, side.problem.axis, patterns=tuple(side.found))
         reason = _too_long(side) or _no_words(side) or _no_candidate(side)
         if reason is not None:
             return reason
@@ -151,10 +155,16 @@ def _constraint(design: Design, walk: AxisSearch, best: Best) -> NoLayout:
         words = " Nearest: " + ", ".join(f"{n} = {_short(w)}" for n, w in shortest.words.items()) + "."
     return NoLayout(
         f"No alignment of {', '.join(map(repr, walk.found))} {_along(problem.axis)} keeps within the canvas "
-        f"of {problem.canvas:.4g} m with something opaque behind every gap.{words}",
+        f"of {problem.canvas:.4g} m with something opaque behind every gap.{words}{_advice(problem)}",
         problem.axis,
         patterns=tuple(walk.found),
     )
+
+
+def _advice(problem: AxisProblem) -> str:
+    """What pattern analysis finds odd."""
+    blame = analyse(problem).blame("exact")
+    return f" {blame}" if blame else ""
 
 
 def _canvas(problem: AxisProblem) -> str:

@@ -10,14 +10,28 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from ..design.model import Counter
-from ..design.pattern import Alt, Concat, Count, Empty, Mirror, Node, Pattern, Sym
+from ..design.pattern import Alt, Concat, Count, Empty, Mirror, Node, Sym
 from ..design.text import spell
 from .linear import Bounds, form_text
 
-__all__ = ["Counters", "Exponent", "Run", "Term", "Tricky", "Variable", "counts", "flatten", "terms", "trim"]
+__all__ = [
+    "Counters",
+    "Exponent",
+    "Run",
+    "Runs",
+    "Term",
+    "Tricky",
+    "Variable",
+    "check_ways",
+    "counts",
+    "flatten",
+    "terms",
+    "trim",
+]
 
 MAX_VARIANTS = 32
 """Most ways to choose the alternatives of a pattern that are looked at."""
@@ -29,7 +43,10 @@ Exponent = Mapping[str, int]
 """A number of times: coefficients by variable, ``""`` the constant."""
 
 
-class Tricky(Exception):  # noqa: N818: no fault, a pattern whose size is not linear in its counters
+_COUNT = Bounds(0)
+
+
+class Tricky(Exception):
     """Why the size of a pattern cannot be told from its counters by a linear form."""
 
 
@@ -54,7 +71,7 @@ class Variable:
     counter: str = ""
     symbol: str = ""
     indicator: bool = False
-    bounds: Bounds = Bounds(Fraction(0))
+    bounds: Bounds = _COUNT
 
     def value(self, counters: Mapping[str, int], sizes: Mapping[str, Fraction]) -> Fraction:
         """Its value for values of counters and sizes of symbols."""
@@ -124,11 +141,11 @@ class Counters:
             return _number(abs(low)), -turn if low < 0 else turn
         name = own.name if own.name.isidentifier() else f"{{{own.name}}}"
         if low >= 0:
-            bounds, sign = Bounds(Fraction(low), None if high is None else Fraction(high)), 1
+            bounds, sign = Bounds(low, high), 1
         elif high is not None and high <= 0:
-            bounds, sign = Bounds(Fraction(-high), Fraction(-low)), -1
+            bounds, sign = Bounds(-high, -low), -1
         else:
-            bounds, sign = Bounds(Fraction(0), None if high is None else Fraction(max(-low, high))), 0
+            bounds, sign = Bounds(0, None if high is None else max(-low, high)), 0
         name = name if sign == 1 else f"abs({name})"
         self.variables.setdefault(name, Variable(name, own.name, bounds=bounds))
         return {name: 1}, turn * sign
@@ -141,7 +158,7 @@ class Counters:
             return _number(1)
         (variable,) = times
         name = f"[{variable} ≥ 1]"
-        unit = Bounds(Fraction(0), Fraction(1))
+        unit = Bounds(0, 1)
         self.variables.setdefault(name, Variable(name, self.variables[variable].counter, "", True, unit))
         return {name: 1}
 
@@ -185,7 +202,7 @@ def flatten(node: Node, counters: Counters, contents: Mapping[str, Runs]) -> lis
             found: list[Runs] = []
             for option in options:
                 found += (own for own in flatten(option, counters, contents) if own not in found)
-                _check_variants(len(found))
+                check_ways(len(found))
             return found
         case Mirror(body=body):
             return [_mirrored(own) for own in flatten(body, counters, contents)]
@@ -194,15 +211,16 @@ def flatten(node: Node, counters: Counters, contents: Mapping[str, Runs]) -> lis
 
 
 def _choices(parts: Sequence[Sequence[Runs]]) -> list[Runs]:
-    _check_variants(max(1, *(len(own) for own in parts)))
+    check_ways(max(1, *(len(own) for own in parts)))
     found: list[Runs] = [[]]
     for own in parts:
         found = [_join(before, after) for before in found for after in own]
-        _check_variants(len(found))
+        check_ways(len(found))
     return found
 
 
-def _check_variants(ways: int) -> None:
+def check_ways(ways: int) -> None:
+    """Refuse a pattern with too many ways to choose its alternatives (`Tricky`)."""
     if ways > MAX_VARIANTS:
         raise Tricky(f"there are more than {MAX_VARIANTS} ways to choose its alternatives")
 
@@ -248,10 +266,7 @@ def _repeated(runs: Runs, times: Exponent) -> Runs:
         if len(runs) == 1:
             return [Run(runs[0].letters, {name: copies * value for name, value in runs[0].exponent.items()})]
         _check_terms(copies * len(runs))
-        out: Runs = []
-        for _ in range(copies):
-            out = _join(out, runs)
-        return out
+        return _join([], runs * copies)
     letters = _expanded(runs)
     root = _root(letters)
     return [Run(root, {name: value * (len(letters) // len(root)) for name, value in times.items()})]
@@ -316,13 +331,15 @@ def _added(a: Exponent, b: Exponent, times: int = 1) -> Exponent:
     return {name: value for name, value in out.items() if value}
 
 
-def counts(runs: Runs) -> dict[str, Exponent]:
+def counts(runs: Runs) -> dict[str, dict[str, int]]:
     """How often each symbol stands in the terms."""
-    out: dict[str, Exponent] = {}
-    for run in runs:
-        for symbol, _ in run.letters:
-            out[symbol] = _added(out.get(symbol, {}), run.exponent)
-    return {symbol: exponent for symbol, exponent in out.items() if exponent}
+    out: dict[str, dict[str, int]] = {}
+    for letters, exponent in runs:
+        for symbol, _ in letters:
+            own = out.setdefault(symbol, {})
+            for name, value in exponent.items():
+                own[name] = own.get(name, 0) + value
+    return {symbol: {name: value for name, value in own.items() if value} for symbol, own in out.items()}
 
 
 def trim(sequences: Sequence[Runs]) -> tuple[Runs, list[Runs], Runs]:
@@ -330,17 +347,18 @@ def trim(sequences: Sequence[Runs]) -> tuple[Runs, list[Runs], Runs]:
 
     Letters are the same where their symbols are: a mirrored instance is as large as any other.
     """
-    prefix, rests = _trim_start(sequences)
-    suffix, rests = _trim_start([rest[::-1] for rest in rests])
+    prefix, rests = _trim_start(sequences, 1)
+    suffix, rests = _trim_start([rest[::-1] for rest in rests], -1)
     return prefix, [rest[::-1] for rest in rests], suffix[::-1]
 
 
-def _trim_start(sequences: Sequence[Runs]) -> tuple[Runs, list[Runs]]:
+def _trim_start(sequences: Sequence[Runs], step: int) -> tuple[Runs, list[Runs]]:
+    """The terms that all begin with; `step` −1: terms, not the letters in them, come last one first."""
     rests = [list(own) for own in sequences]
     common: Runs = []
     while all(rests):
         heads = [rest[0] for rest in rests]
-        if len({tuple(symbol for symbol, _ in head.letters) for head in heads}) > 1:
+        if any(not _alike(head.letters, heads[0].letters) for head in heads[1:]):
             break
         shared = _shared([head.exponent for head in heads])
         if not shared:
@@ -348,8 +366,14 @@ def _trim_start(sequences: Sequence[Runs]) -> tuple[Runs, list[Runs]]:
         common.append(Run(heads[0].letters, shared))
         for rest, head in zip(rests, heads, strict=True):
             left = _added(head.exponent, shared, -1)
-            rest[:1] = [Run(head.letters, left)] if left else []
+            singles = left.keys() == {""} and len(head.letters) > 1
+            bases = [(letter,) for letter in head.letters[::step]] * left[""] if singles else [head.letters]
+            rest[:1] = [Run(base, _number(1) if singles else left) for base in bases] if left else []
     return common, rests
+
+
+def _alike(p: tuple[tuple[str, bool], ...], q: tuple[tuple[str, bool], ...]) -> bool:
+    return p == q or (len(p) == len(q) and all(a[0] == b[0] for a, b in zip(p, q, strict=True)))
 
 
 def _shared(exponents: Sequence[Exponent]) -> Exponent:
@@ -364,15 +388,20 @@ def terms(runs: Runs) -> tuple[Term, ...]:
     """The terms as a view shows them."""
     out: list[Term] = []
     for letters, exponent in runs:
-        spelled = tuple(spell(symbol) + ("'" if flag else "") for symbol, flag in letters)
+        spelled = tuple(_spelled(symbol, flag) for symbol, flag in letters)
         base = spelled[0] if len(spelled) == 1 else f"({''.join(spelled)})"
         out.append(Term(base + _power(exponent), spelled, dict(exponent)))
     return tuple(out)
 
 
+@lru_cache(maxsize=256)
+def _spelled(symbol: str, mirrored: bool) -> str:
+    return spell(symbol) + ("'" if mirrored else "")
+
+
 def _power(exponent: Exponent) -> str:
-    if exponent == {"": 1}:
-        return ""
+    if exponent.keys() == {""}:
+        return "" if exponent[""] == 1 else f"^{exponent['']}"
     text = form_text({name: Fraction(value) for name, value in exponent.items()})
     text = text.replace(" + ", "+").replace(" − ", "-")
-    return f"^{text}" if text.isdecimal() or spell(text) == text else f"^{{{text}}}"
+    return f"^{text}" if spell(text) == text else f"^{{{text}}}"

@@ -12,7 +12,16 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Literal
 
-__all__ = ["Bounds", "Elimination", "Form", "Refusal", "equation_text", "form_text", "number", "solved_text"]
+__all__ = [
+    "Bounds",
+    "Elimination",
+    "Form",
+    "Refusal",
+    "equation_text",
+    "form_text",
+    "number",
+    "primitive",
+]
 
 Form = Mapping[str, Fraction]
 
@@ -25,8 +34,8 @@ numbers satisfy them all; none within the bounds do."""
 class Bounds:
     """Where a variable may lie. None: unbounded. `above`: it is more than `low`, not equal to it."""
 
-    low: Fraction | None = None
-    high: Fraction | None = None
+    low: Fraction | int | None = None
+    high: Fraction | int | None = None
     above: bool = False
 
 
@@ -48,8 +57,8 @@ class Elimination:
 
     def __init__(self, columns: Sequence[str], bounds: Mapping[str, Bounds], whole: Iterable[str]) -> None:
         self.columns, self.bounds = tuple(columns), bounds
-        self.rows: dict[str, dict[str, Fraction]] = {}
-        """By pivot: a form with coefficient 1 at the pivot and 0 at all other pivots."""
+        # Rows are kept in whole numbers without a common factor, which is much faster than in fractions.
+        self._rows: dict[str, dict[str, int]] = {}
         self.sources: dict[str, frozenset[int]] = {}
         """By pivot: numbers of the equations its row is made of."""
         self._whole = frozenset(whole)
@@ -57,60 +66,66 @@ class Elimination:
         self._point: dict[str, int] = dict.fromkeys(self._whole, 0)
         self._basis: list[dict[str, int]] = [{name: 1} for name in sorted(self._whole)]
 
-    def add(self, form: Form, source: int) -> tuple[Refusal | None, frozenset[int]]:
-        """Add ``form = 0``.
+    def add(self, form: Form, sources: frozenset[int]) -> tuple[Refusal | None, frozenset[int]]:
+        """Add ``form = 0``, which follows from the equations of these numbers.
 
         Returns
         -------
         Why it is refused (None: it is not), and the numbers of the equations that take part in it.
         """
-        rest = {name: value for name, value in form.items() if value}
-        sources = frozenset((source,))
-        for name in [name for name in rest if name in self.rows]:
-            _subtract(rest, rest[name], self.rows[name])
+        row = given = primitive(form)
+        for name in [name for name in given if name in self._rows]:
+            row = _eliminated(row, name, self._rows[name])
             sources |= self.sources[name]
-        pivot = next((name for name in self.columns if name in rest), None)
+        pivot = next((name for name in self.columns if name in row), None)
         if pivot is None:
-            return ("constant" if rest else None), sources
-        if not _reachable(form, self.bounds) or not _reachable(rest, self.bounds):
+            return ("constant" if row else None), sources
+        if not _reachable(given, self.bounds) or not _reachable(row, self.bounds):
             return "bounds", sources
-        lead = rest[pivot]
-        row = {name: value / lead for name, value in rest.items()}
         changed = {pivot: (row, sources)}
-        for other, own in self.rows.items():
+        for other, own in self._rows.items():
             if pivot in own:
-                new = dict(own)
-                _subtract(new, own[pivot], row)
+                new = _eliminated(own, pivot, row)
                 changed[other] = (new, self.sources[other] | sources)
                 if not _reachable(new, self.bounds):
                     return "bounds", changed[other][1]
         if all(name in self._whole for name in row if name):
             solutions = self._lattice(row)
             if solutions is None:
-                whole = (self.sources[p] for p, own in self.rows.items() if self._whole.issuperset(own.keys() - {""}))
+                whole = (self.sources[p] for p, own in self._rows.items() if self._whole >= own.keys() - {""})
                 return "whole", sources.union(*whole)
             self._point, self._basis = solutions
         for name, (new, own_sources) in changed.items():
-            self.rows[name], self.sources[name] = new, own_sources
+            self._rows[name], self.sources[name] = new, own_sources
         return None, sources
+
+    @property
+    def rows(self) -> dict[str, dict[str, Fraction]]:
+        """By pivot: a form with coefficient 1 at the pivot and 0 at all other pivots."""
+        return {
+            pivot: {name: Fraction(value, row[pivot]) for name, value in row.items()}
+            for pivot, row in self._rows.items()
+        }
 
     @property
     def free(self) -> tuple[str, ...]:
         """Variables that no row expresses by others."""
-        return tuple(name for name in self.columns if name not in self.rows)
+        return tuple(name for name in self.columns if name not in self._rows)
 
     @property
     def resolved(self) -> dict[str, Fraction]:
         """Variables that have one value."""
-        return {p: -row.get("", Fraction(0)) for p, row in self.rows.items() if row.keys() <= {p, ""}}
+        return {
+            pivot: Fraction(-row.get("", 0), row[pivot])
+            for pivot, row in self._rows.items()
+            if row.keys() <= {pivot, ""}
+        }
 
-    def _lattice(self, row: Form) -> tuple[dict[str, int], list[dict[str, int]]] | None:
+    def _lattice(self, row: Mapping[str, int]) -> tuple[dict[str, int], list[dict[str, int]]] | None:
         """The whole solutions that satisfy a row too, or None: Euclid's algorithm on the vectors of the basis."""
-        scale = lcm(*(value.denominator for value in row.values()))
-        weights = {name: int(value * scale) for name, value in row.items()}
-        missing = -weights.pop("", 0) - sum(w * self._point[name] for name, w in weights.items())
+        missing = -sum(value * (self._point[name] if name else 1) for name, value in row.items())
         basis = [dict(vector) for vector in self._basis]
-        along = [sum(w * vector.get(name, 0) for name, w in weights.items()) for vector in basis]
+        along = [sum(row.get(name, 0) * value for name, value in vector.items()) for vector in basis]
         step = gcd(*along)
         if step == 0 or missing % step:
             return None
@@ -128,28 +143,41 @@ class Elimination:
         return point, basis
 
 
-def _subtract(form: dict[str, Fraction], times: Fraction, row: Form) -> None:
+def primitive(form: Mapping[str, Fraction | int]) -> dict[str, int]:
+    """The form times a positive number, in whole numbers without a common factor and without zeros."""
+    kept = {name: value for name, value in form.items() if value}
+    scale = lcm(*(value.denominator for value in kept.values()))
+    whole = {name: value.numerator * (scale // value.denominator) for name, value in kept.items()}
+    factor = gcd(*whole.values())
+    return {name: value // factor for name, value in whole.items()} if factor > 1 else whole
+
+
+def _eliminated(form: Mapping[str, int], pivot: str, row: Mapping[str, int]) -> dict[str, int]:
+    """A positive multiple of the form, without the pivot."""
+    up, down = row[pivot], form[pivot]
+    if up < 0:
+        up, down = -up, -down
+    out = {name: up * value for name, value in form.items()}
     for name, value in row.items():
-        new = form.get(name, 0) - times * value
-        if new:
-            form[name] = Fraction(new)
-        else:
-            form.pop(name, None)
+        out[name] = out.get(name, 0) - down * value
+    return primitive(out)
 
 
-def _reachable(form: Form, bounds: Mapping[str, Bounds]) -> bool:
+def _reachable(form: Mapping[str, int], bounds: Mapping[str, Bounds]) -> bool:
     """Whether the form can be 0 with every variable within its own bounds."""
     for sign in (1, -1):
-        least: Fraction = sign * form.get("", Fraction(0))
+        least: Fraction | int = 0
         above = False
         for name, value in form.items():
-            if not name or not value:
+            if not name:
+                least += sign * value
                 continue
             own = bounds[name]
             end = own.low if sign * value > 0 else own.high
             if end is None:
                 break
-            least += sign * value * end
+            if end:
+                least += sign * value * end
             above = above or (own.above and sign * value > 0)
         else:
             if least > 0 or (above and least == 0):
@@ -159,15 +187,15 @@ def _reachable(form: Form, bounds: Mapping[str, Bounds]) -> bool:
 
 def number(value: Fraction) -> str:
     """``2``, ``1.7``; ``5/3`` where decimals do not end."""
-    sign = "−" if value < 0 else ""
-    value = abs(value)
-    places, rest = 0, value.denominator
-    while places < 9 and 10**places % rest:
-        places += 1
-    if 10**places % rest:
-        return f"{sign}{value.numerator}/{value.denominator}"
-    digits = f"{value.numerator * 10**places // rest:0{places + 1}d}"
-    return sign + (f"{digits[:-places]}.{digits[-places:]}" if places else digits)
+    sign = "−" if value.numerator < 0 else ""
+    whole, rest = abs(value.numerator), value.denominator
+    if rest == 1:
+        return f"{sign}{whole}"
+    places = next((n for n in range(1, 10) if 10**n % rest == 0), 0)
+    if not places:
+        return f"{sign}{whole}/{rest}"
+    digits = f"{whole * 10**places // rest:0{places + 1}d}"
+    return f"{sign}{digits[:-places]}.{digits[-places:]}"
 
 
 def form_text(form: Form) -> str:
@@ -176,12 +204,13 @@ def form_text(form: Form) -> str:
     parts += [("", form[""])] if form.get("") else []
     text = ""
     for name, value in parts:
-        size = number(abs(value))
-        own = size if not name else name if size == "1" else f"{size} {name}" if "/" in size else size + name
+        size = number(value).removeprefix("−")
+        blank = " " if "/" in size or (len(name) > 1 and name[:2].isalpha()) else ""
+        own = size if not name else name if size == "1" else f"{size}{blank}{name}"
         if text:
-            text += f" − {own}" if value < 0 else f" + {own}"
+            text += f" − {own}" if value.numerator < 0 else f" + {own}"
         else:
-            text = f"−{own}" if value < 0 else own
+            text = f"−{own}" if value.numerator < 0 else own
     return text or "0"
 
 
@@ -199,15 +228,11 @@ def equation_text(form: Form, leading: frozenset[str] = frozenset()) -> str:
     if lead:
         sign = 1 if any(value > 0 for value in lead.values()) else -1
         left = {name: sign * value for name, value in lead.items() if sign * value > 0}
-        right = {name: -sign * value for name, value in form.items() if name not in left}
-        return f"{form_text(left)} = {form_text(right)}"
+        rest = {name: -sign * value for name, value in form.items() if name not in left}
+        order = sorted(rest, key=lambda name: (name not in lead, rest[name] < 0))
+        return f"{form_text(left)} = {form_text({name: rest[name] for name in order})}"
     left = {name: value for name, value in form.items() if value > 0}
     right = {name: -value for name, value in form.items() if value < 0}
-    if not left:
+    if not left.keys() - {""}:
         left, right = right, left
     return f"{form_text(left)} = {form_text(right)}"
-
-
-def solved_text(pivot: str, row: Form) -> str:
-    """``|e| = 1.7k − 0.1``: a reduced row, solved for its pivot."""
-    return f"{pivot} = " + form_text({name: -value for name, value in row.items() if name != pivot})

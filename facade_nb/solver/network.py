@@ -200,12 +200,15 @@ def edges(
     made: float,
     limit: float,
     check: Callable[[], None] | None = None,
+    most: float = inf,
 ) -> list[Edge]:
     """Every column that may come next and keeps the constraints and the tolerance, by how much the bound rises with it.
 
-    Only those that make it rise by more than `made` and at most `limit`, the least first. The edges of a node are kept
-    with the group, as other paths lead to it too.
+    Only those that make it rise by more than `made` and at most `limit`, the least first. The edges of a node
+    are kept with the group, as other paths lead to it too. With `most`, only so many, whichever come first.
     """
+    if most < inf:
+        return _Maker(group, state, owed, limit, check, most).make()
     known = group.edges.get((state, owed))
     if known is None or known[0] < limit:
         fresh = _Maker(group, state, owed, limit, check).make()
@@ -231,9 +234,15 @@ class _Maker:
     """
 
     def __init__(
-        self, group: Group, state: State, owed: bool, limit: float, check: Callable[[], None] | None
+        self,
+        group: Group,
+        state: State,
+        owed: bool,
+        limit: float,
+        check: Callable[[], None] | None,
+        most: float = inf,
     ) -> None:
-        self.group, self.owed, self.check = group, owed, check
+        self.group, self.owed, self.check, self.most = group, owed, check, most
         self.before = ahead(group, state)
         self.limit = limit + EPS + self.before
         self.mu = group.tolerance + EPS
@@ -249,6 +258,7 @@ class _Maker:
         self.rest = [0.0] * (len(group.bands) + 1)
         self.chosen: list[Option] = [options[0] for options in self.choices if options]
         self.made: list[Edge] = []
+        self.calls = 0
 
     def make(self) -> list[Edge]:
         """All of them, in no order."""
@@ -285,8 +295,12 @@ class _Maker:
         if n == len(self.order):
             self._close(high, low, low_all, empties, loose, softs, soft_sizes, elastic, ahead_so_far)
             return
-        if n == 2 and self.check is not None:
-            self.check()
+        if self.check is not None:
+            self.calls += 1
+            if not self.calls & 255:
+                self.check()
+        if len(self.made) >= self.most:
+            return
         b = self.order[n]
         by_empty, by_loose, limit = self.by_empty, self.by_loose, self.limit
         paired = self.group.reference is not None
@@ -388,9 +402,12 @@ class _Maker:
 class Network:
     """The network of one group, or of several that share unsized symbols, with lower bounds for what is to come."""
 
-    def __init__(self, groups: Sequence[Group], check: Callable[[], None] | None = None) -> None:
+    def __init__(
+        self, groups: Sequence[Group], check: Callable[[], None] | None = None, most: float = inf
+    ) -> None:
         self.groups = tuple(groups)
         self.check = check
+        self.most = most
         self.later = [0.0] * (len(groups) + 1)
         for g in range(len(groups) - 1, -1, -1):
             group = groups[g]
@@ -440,7 +457,7 @@ class Network:
         later = self.later[path.group + 1]
         laid = path.cost + path.ahead + later
         out: list[tuple[float, Path]] = []
-        for edge in edges(group, path.state, path.owed, made - laid, limit - laid, self.check):
+        for edge in edges(group, path.state, path.owed, made - laid, limit - laid, self.check, self.most):
             cost = path.cost + edge.cost
             width = path.width + edge.width
             firm = path.firm and edge.firm

@@ -21,11 +21,15 @@ from .columns import EPS, Group
 from .network import Network, Path, Seen
 from .pricing import Priced, price
 
-__all__ = ["BestFirst", "Found", "Stopped", "search"]
+__all__ = ["BestFirst", "Found", "Stopped", "plunge", "search"]
 
 
 class Stopped(Exception):
-    """The time is up, or the caller asked to stop."""
+    """The time is up, or, `asked`, the caller wants no answer any more."""
+
+    def __init__(self, asked: bool = False) -> None:
+        super().__init__()
+        self.asked = asked
 
 
 @dataclass(slots=True)
@@ -187,3 +191,41 @@ def search(
             break
         step *= 1.6
     return run.found
+
+
+def plunge(groups: Sequence[Group], check: Callable[[], None] | None, nodes: int = 3000) -> Priced | None:
+    """Some alignment, soon: paths that have come far go first, whatever they may cost.
+
+    For when there is no time to look for the best one.
+    """
+    network = Network(groups, check, most=50)
+    if network.later[0] == inf:
+        return None
+    canvas = max(group.canvas for group in groups)
+    ceiling = network.ceiling()
+    serial = count()
+    queue: list[tuple[float, int, float, Path]] = [(0.0, next(serial), network.later[0], network.root())]
+    for _ in range(nodes):
+        if not queue:
+            return None
+        if check is not None:
+            check()
+        _, _, bound, path = heappop(queue)
+        if network.complete(path):
+            priced = price(network.groups, network.structure(path))
+            if priced is not None:
+                return priced
+            continue
+        step = 1e-4 * canvas
+        children = network.children(path, -inf, bound + step)
+        while not children and bound + step < ceiling:
+            step *= 3.0
+            children = network.children(path, -inf, bound + step)
+        for least, child in children:
+            bands = groups[child.group].bands if child.group < len(groups) else ()
+            done = sum(
+                (p >> 3) / max(1, len(band.letters)) for band, p in zip(bands, child.state, strict=True)
+            )
+            far = child.group + (done / len(bands) if bands else 0.0)
+            heappush(queue, (least - far * canvas, next(serial), least, child))
+    return None

@@ -11,6 +11,7 @@ from threading import Lock
 
 from ..design.errors import NoLayout
 from ..design.model import AXES, Axis, Design
+from .analysis import AnalysisDone, analyse
 from .axis import AxisSearch, Best, Solved
 from .events import StageEnded, SystemSolved, Trace
 from .failure import explain
@@ -75,21 +76,35 @@ def solve(
     log = Trace() if trace else None
     if not design.stack:
         return Layout(design.name, design.canvas, design=design, trace=log)
-    check = _stopper(time_limit, should_stop)
-    run = _Run(design, objective or Objective(), tuple(tolerances), search, check, log)
+    clock = _Clock(time_limit, should_stop)
+    run = _Run(design, objective or Objective(), tuple(tolerances), search, clock, log)
     return run.layout()
 
 
-def _stopper(time_limit: float | None, should_stop: Callable[[], bool] | None) -> Callable[[], None] | None:
-    if time_limit is None and should_stop is None:
-        return None
-    end = inf if time_limit is None else time.monotonic() + time_limit
+class _Clock:
+    """The time that a search may take, and whether it is still wanted. The axes share it: half, then the rest."""
 
-    def check() -> None:
-        if time.monotonic() > end or (should_stop is not None and should_stop()):
+    def __init__(self, limit: float | None, should_stop: Callable[[], bool] | None) -> None:
+        self._begin, self._limit, self._should_stop = time.monotonic(), limit, should_stop
+        self._part = 1.0
+
+    def allot(self, part: float) -> None:
+        """From now on the search may go on until this part of the time has passed."""
+        self._part = part
+
+    def check(self) -> None:
+        """Raise `Stopped` where the search has to end."""
+        self._ask(0.85 * self._part)
+
+    def late(self) -> None:
+        """The same for the last attempt that follows a search without an answer."""
+        self._ask(self._part)
+
+    def _ask(self, part: float) -> None:
+        if self._should_stop is not None and self._should_stop():
+            raise Stopped(asked=True)
+        if self._limit is not None and time.monotonic() > self._begin + part * self._limit:
             raise Stopped
-
-    return check
 
 
 class _Run:
@@ -101,22 +116,28 @@ class _Run:
         objective: Objective,
         tolerances: tuple[float, ...],
         search: str,
-        check: Callable[[], None] | None,
+        clock: _Clock,
         trace: Trace | None,
     ) -> None:
         self.design, self.objective, self.tolerances = design, objective, tolerances
-        self.search, self.check, self.trace = search, check, trace
+        self.search, self.trace = search, trace
+        self.clock = clock
         self.problems: Mapping[Axis, AxisProblem] = {axis: axis_problem(design, axis) for axis in AXES}
         used = [{name for name, _ in self.problems[axis].counters} for axis in AXES]
         self.shared = sorted(used[0] & used[1])
+        self.analysed: set[Axis] = set()
 
     def layout(self) -> Layout:
+        solved: dict[Axis, tuple[AxisSearch, Best]]
         if self.objective.plain:
             solved = self._by_tolerance()
         elif self.shared:
             solved = self._tied()
         else:
-            solved = {axis: self._axis(axis, self.tolerances[-1]) for axis in AXES}
+            solved = {}
+            for axis, part in zip(AXES, (0.5, 1.0), strict=True):
+                self.clock.allot(part)
+                solved[axis] = self._axis(axis, self.tolerances[-1])
         return self._assemble(solved)
 
     def _axis(self, axis: Axis, tolerance: float) -> tuple[AxisSearch, Best]:
@@ -135,6 +156,7 @@ class _Run:
         if best.solved is None:
             raise explain(self.design, walk, best)
         if best.complete and self.trace is None:
+            walk.forget()
             with _lock:
                 _cache[key] = (walk, best)
                 while len(_cache) > _KEEP:
@@ -146,15 +168,30 @@ class _Run:
     def _walk(self, axis: Axis, tolerance: float) -> AxisSearch:
         problem = self.problems[axis]
         walk = AxisSearch(
-            problem, self.objective, tolerance * problem.canvas, self.search, self.check, self.trace
+            problem,
+            self.objective,
+            tolerance * problem.canvas,
+            self.search,
+            self.clock.check,
+            self.trace,
+            self.clock.late,
         )
+        self._analyse(problem)
         try:
             walk.enumerate()
         except Stopped:
             raise NoLayout("The search was stopped before any layout was found.", axis) from None
         return walk
 
-    def _tied(self) -> Mapping[Axis, tuple[AxisSearch, Best]]:
+    def _analyse(self, problem: AxisProblem) -> None:
+        """Pattern analysis (supplement 3.1): report its systems, and stop where they prove that nothing fits."""
+        if self.trace is None:
+            return
+        if problem.axis not in self.analysed:
+            self.analysed.add(problem.axis)
+            self.trace.events.append(AnalysisDone(problem.axis, analyse(problem).to_dict()))
+
+    def _tied(self) -> dict[Axis, tuple[AxisSearch, Best]]:
         """Both axes together, where a counter ties them: least J of both, over the values of the shared counters."""
         walks = {axis: self._walk(axis, self.tolerances[-1]) for axis in AXES}
         pairs = self._pairs(walks)
@@ -204,7 +241,7 @@ class _Run:
             pairs.append((walks["x"].restricted(values), walks["y"].restricted(values)))
         return pairs
 
-    def _by_tolerance(self) -> Mapping[Axis, tuple[AxisSearch, Best]]:
+    def _by_tolerance(self) -> dict[Axis, tuple[AxisSearch, Best]]:
         """The paper's schedule: the first candidate, in lexicographic order, that aligns at the least tolerance."""
         out: dict[Axis, tuple[AxisSearch, Best]] = {}
         walks: dict[Axis, AxisSearch] = {}
