@@ -1,0 +1,30 @@
+"""Widgets: one shared observable design, and parts that show and edit it live (docs/widgets.md)."""
+
+from .model import Draft, FacadeModel, Selection
+from .parts import (
+    CanvasEditor,
+    CounterEditor,
+    ElevationView,
+    LayerEditor,
+    Part,
+    PatternEditor,
+    SymbolEditor,
+    Toolbar,
+)
+from .studio import MassingView, Studio
+
+__all__ = [
+    "CanvasEditor",
+    "CounterEditor",
+    "Draft",
+    "ElevationView",
+    "FacadeModel",
+    "LayerEditor",
+    "MassingView",
+    "Part",
+    "PatternEditor",
+    "Selection",
+    "Studio",
+    "SymbolEditor",
+    "Toolbar",
+]

@@ -1,0 +1,82 @@
+"""Undo and redo: snapshots of what is edited, with a run of keystrokes in one field kept as one step."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import Generic, TypeVar
+
+__all__ = ["History"]
+
+T = TypeVar("T")
+
+
+class History(Generic[T]):
+    """A line of states with a present one.
+
+    Parameters
+    ----------
+    present
+        The state to begin with.
+    limit
+        How many states are kept to go back to.
+    pause
+        Seconds after which the next keystroke in the same field begins a step of its own.
+    """
+
+    def __init__(self, present: T, *, limit: int = 200, pause: float = 1.0) -> None:
+        self._past: list[T] = []
+        self._future: list[T] = []
+        self._present = present
+        self._limit = limit
+        self._pause = pause
+        self._key: Hashable | None = None
+        self._when = 0.0
+
+    @property
+    def present(self) -> T:
+        """The state that holds now."""
+        return self._present
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a state to go back to."""
+        return bool(self._past)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is an undone state to go forward to."""
+        return bool(self._future)
+
+    def record(self, state: T, *, key: Hashable | None, now: float) -> None:
+        """Make `state` the present one.
+
+        Parameters
+        ----------
+        key
+            What was edited. Records with one key, none of them later than `pause` after the one before, are one step;
+            with None a record is always a step of its own.
+        now
+            Time of the edit in seconds, by a clock that only goes forward.
+        """
+        if state == self._present:
+            return
+        goes_on = key is not None and key == self._key and now - self._when <= self._pause
+        if not goes_on:
+            self._past.append(self._present)
+            del self._past[: -self._limit]
+        self._future.clear()
+        self._present, self._key, self._when = state, key, now
+
+    def undo(self) -> T:
+        """Go one step back; the state that holds then. Raises IndexError where there is none."""
+        state = self._past.pop()
+        self._future.append(self._present)
+        self._present, self._key = state, None
+        return state
+
+    def redo(self) -> T:
+        """Go one step forward again; the state that holds then. Raises IndexError where there is none."""
+        state = self._future.pop()
+        self._past.append(self._present)
+        self._present, self._key = state, None
+        return state

@@ -1,0 +1,77 @@
+// Making elements. Text is only ever set as text.
+
+type Child = Node | string | null | undefined | false;
+type Attributes = Record<string, string | number | boolean | null | undefined>;
+
+function fill<E extends Element>(element: E, attributes: Attributes, children: Child[]): E {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === true) element.setAttribute(name, "");
+    else if (value !== false && value !== null && value !== undefined) element.setAttribute(name, String(value));
+  }
+  element.append(...children.filter((child): child is Node | string => !!child));
+  return element;
+}
+
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = fill(document.createElement(tag), attributes, children);
+  // JupyterLab takes keys from focused buttons and fields in command mode unless the element itself says so.
+  if (["input", "button", "select", "textarea", "summary"].includes(tag) || "tabindex" in attributes)
+    element.setAttribute("data-lm-suppress-shortcuts", "true");
+  return element;
+}
+
+export function svg<K extends keyof SVGElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): SVGElementTagNameMap[K] {
+  return fill(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
+}
+
+/** Set an attribute only where it differs: fewer style recalculations, and tests see honest mutations. */
+export function mark(element: Element, name: string, value: string | boolean | null): void {
+  const next = value === false || value === null ? null : value === true ? "" : value;
+  if (element.getAttribute(name) === next) return;
+  if (next === null) element.removeAttribute(name);
+  else element.setAttribute(name, next);
+}
+
+export function setText(element: Element, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+export interface Row<T> {
+  el: HTMLElement;
+  update(item: T): void;
+}
+
+/** Keep one row per item, by key, in the items' order; rows that stay keep their element, focus and caret. */
+export function keyed<T>(parent: HTMLElement, keyOf: (item: T) => string, make: (item: T) => Row<T>) {
+  const rows = new Map<string, Row<T>>();
+  return (items: T[]): void => {
+    const keys = new Set(items.map(keyOf));
+    for (const [key, row] of rows)
+      if (!keys.has(key)) {
+        row.el.remove();
+        rows.delete(key);
+      }
+    const focused = document.activeElement;
+    let at = parent.firstElementChild;
+    for (const item of items) {
+      let row = rows.get(keyOf(item));
+      if (!row) {
+        row = make(item);
+        rows.set(keyOf(item), row);
+      }
+      if (row.el === at) at = at.nextElementSibling;
+      else parent.insertBefore(row.el, at);
+      row.update(item);
+    }
+    if (focused instanceof HTMLElement && focused !== document.activeElement && parent.contains(focused))
+      focused.focus({ preventScroll: true });
+  };
+}

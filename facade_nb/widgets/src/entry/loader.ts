@@ -1,0 +1,49 @@
+// All the code that a part carries: it finds the channel its model shares with other parts, and runs the bundle that
+// lies there once (see docs/widgets.md).
+
+import type { Mount, WidgetModel } from "../types.ts";
+
+type Bundle = { mount(mount: Mount): () => void };
+type Shared = { [bundles]?: Map<string, Promise<Bundle>> };
+
+const bundles = Symbol.for("facade_nb.bundles");
+const shared = globalThis as Shared;
+shared[bundles] ??= new Map();
+const loaded = shared[bundles];
+
+function load(source: string): Promise<Bundle> {
+  let bundle = loaded.get(source);
+  if (!bundle) {
+    const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+    bundle = import(/* @vite-ignore */ url).finally(() => URL.revokeObjectURL(url)) as Promise<Bundle>;
+    loaded.set(source, bundle);
+  }
+  return bundle;
+}
+
+/** The model behind a reference. While a page is restored, it may come a little later than the part. */
+async function resolve(manager: WidgetModel["widget_manager"], reference: string): Promise<WidgetModel> {
+  const id = reference.replace("IPY_MODEL_", "");
+  for (let tries = 0; ; tries++) {
+    try {
+      return await manager.get_model(id);
+    } catch (error) {
+      if (tries === 50) throw error;
+      await new Promise((done) => setTimeout(done, 100));
+    }
+  }
+}
+
+export default {
+  async render({ model, el }: { model: WidgetModel; el: HTMLElement }) {
+    const channel = await resolve(model.widget_manager, model.get<string>("channel"));
+    if (!channel.get("module")) {
+      // Nobody has looked for a while, and the channel has put its large traits away.
+      const woken = new Promise<void>((done) => channel.on("change:module", done));
+      channel.send({ op: "wake" });
+      await woken;
+    }
+    const bundle = await load(channel.get<string>("module"));
+    return bundle.mount({ model, el, channel });
+  },
+};

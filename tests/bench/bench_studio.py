@@ -1,0 +1,167 @@
+"""The Studio's latency, sizes and cold starts, measured in a real JupyterLab.
+
+The keystroke is timed in the page: from the `input` event to the first animation frame after the new elevation has
+been put in the page. An empty widget, in the same notebook and taking turns with it, sends as much each way and draws
+nothing: what no widget of this set-up can be quicker than.
+"""
+
+from __future__ import annotations
+
+import json
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import nbformat
+from nbclient import NotebookClient
+from playwright.sync_api import expect
+
+from tests.browser.jupyter import Notebook, browse, serve
+
+__all__ = ["main"]
+
+ROOT = Path(__file__).resolve().parents[2]
+ROUNDS = 40
+
+CODE = """
+import anywidget, json, traitlets
+from facade_nb import gallery
+from facade_nb.widgets import Studio
+from IPython.display import display
+
+class Empty(anywidget.AnyWidget):
+    _esm = '''export default { render({ model, el }) {
+        const out = document.createElement("output");
+        el.append(out);
+        model.on("change:reply", () => { out.textContent = model.get("reply").slice(0, 20); });
+        window.askEmpty = (text) => { model.set("text", text); model.save_changes(); };
+        window.emptyOutput = out;
+    } }'''
+    text = traitlets.Unicode().tag(sync=True)
+    reply = traitlets.Unicode().tag(sync=True)
+
+studio = Studio(gallery.load("residential-house"))
+channel = studio.channel
+size = len(channel.svg) + len(json.dumps(channel.design)) + len(json.dumps(channel.status))
+empty = Empty()
+empty.observe(lambda change: setattr(empty, "reply", f"{change['new'][:10]} " + "x" * size), "text")
+display(studio, empty)
+"""
+
+TIMED = """([start, watched]) => new Promise((resolve, reject) => {
+    const timer = setTimeout(() => reject(new Error("nothing was repainted in 5 s")), 5000);
+    const observer = new MutationObserver(() => {
+        observer.disconnect();
+        clearTimeout(timer);
+        requestAnimationFrame(() => resolve(performance.now() - began));
+    });
+    observer.observe(eval(watched), { childList: true, characterData: true, subtree: true });
+    const began = performance.now();
+    eval(start);
+})"""
+
+
+def main() -> None:
+    """Print the table."""
+    print_latency()
+    print_sizes()
+    print_cold()
+
+
+def print_latency() -> None:
+    """Time keystrokes beside the empty widget."""
+    with (
+        tempfile.TemporaryDirectory() as name,
+        serve(Path(name), "lab") as (address, token),
+        browse() as chromium,
+        chromium.new_page(viewport={"width": 1400, "height": 1000}) as page,
+    ):
+        lab = Notebook(page, address, token, Path(name), "lab")
+        lab.open(CODE)
+        lab.run()
+        expect(page.locator("[data-shape]")).to_have_count(17)
+        page.wait_for_timeout(1000)
+        rows: dict[str, list[float]] = {
+            "empty widget, same payload": [],
+            "pattern text": [],
+            "canvas width": [],
+        }
+        solving: dict[str, list[float]] = {label: [] for label in rows}
+        for turn in range(-5, ROUNDS):  # the first few warm up and do not count
+            actions = {
+                "empty widget, same payload": _ask_empty(turn),
+                "pattern text": _type("Pattern Bx", f"A(BA)^{'k2'[turn % 2]}"),
+                "canvas width": _type("Canvas width in metres", f"{6 + (turn + 6) / 50:.2f}"),
+            }
+            for label, action in actions.items():
+                milliseconds = float(page.evaluate(TIMED, action))
+                solved = 0.0 if label.startswith("empty") else 1000 * lab.python("studio.model.seconds")
+                if turn >= 0:
+                    rows[label].append(milliseconds)
+                    solving[label].append(solved)
+    floor = statistics.median(next(iter(rows.values())))
+    print(
+        f"{'keystroke to repaint, ms':34} {'median':>8} {'p95':>8} {'ratio':>8} {'solver':>8}   goal: ratio 1.6"
+    )
+    for label, times in rows.items():
+        median, late = statistics.median(times), sorted(times)[int(0.95 * len(times))]
+        print(
+            f"{label:34} {median:8.1f} {late:8.1f} {median / floor:8.2f} {statistics.median(solving[label]):8.1f}"
+        )
+
+
+def _ask_empty(turn: int) -> list[str]:
+    """What starts a round trip of the empty widget, and what to watch for its end."""
+    text = json.dumps(f"{turn:08}" + "y" * 140)
+    return [f"window.askEmpty({text})", "window.emptyOutput"]
+
+
+def _type(label: str, text: str) -> list[str]:
+    """What types into a field, and what to watch for the new elevation."""
+    field = f"document.querySelector({json.dumps(f'[aria-label={json.dumps(label)}]')})"
+    start = f"{field}.value = {json.dumps(text)}; {field}.dispatchEvent(new Event('input'))"
+    return [start, "document.querySelector('.fnb-sheet')"]
+
+
+def print_sizes() -> None:
+    """Run the studio notebook and print what its widgets send, and what it weighs saved."""
+    notebook = nbformat.read(ROOT / "notebooks" / "studio.ipynb", as_version=4)
+    NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(ROOT / "notebooks")}}).execute()
+    states: dict[str, Any] = notebook.metadata["widgets"]["application/vnd.jupyter.widget-state+json"][
+        "state"
+    ]
+    sent = {key: len(json.dumps(state, ensure_ascii=False).encode()) for key, state in states.items()}
+    saved = len(nbformat.writes(notebook).encode())
+    print(f"\n{'studio notebook, kB':34} {'':8} {'':8} {'goal':>8}")
+    print(f"{f'sent by {len(sent)} front-end instances':34} {sum(sent.values()) / 1000:8.1f} {'':8} {300:8}")
+    print(f"{'saved with widget state':34} {saved / 1000:8.1f} {'':8} {500:8}")
+
+
+def print_cold() -> None:
+    """Print how long a fresh process takes to import, and to solve the house for the first time."""
+    code = """
+import time; a = time.perf_counter()
+import facade_nb; b = time.perf_counter()
+design = facade_nb.gallery.load("residential-house"); c = time.perf_counter()
+facade_nb.solve(design); d = time.perf_counter()
+print(1000 * (b - a), 1000 * (d - c))
+"""
+
+    def run() -> list[float]:
+        done = subprocess.run(
+            [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+        )
+        return [float(value) for value in done.stdout.split()]
+
+    runs = [run() for _ in range(5)]
+    imported, solved = (statistics.median(column) for column in zip(*runs, strict=True))
+    print(f"\n{'cold start, ms (median of 5)':34}")
+    print(f"{'import facade_nb':34} {imported:8.1f}")
+    print(f"{'solve the residential house':34} {solved:8.1f}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,242 @@
+"""Start Jupyter servers and drive them in headless Chromium."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import secrets
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Literal
+
+import nbformat
+from playwright.sync_api import Browser, Locator, Page, sync_playwright
+
+__all__ = ["App", "Notebook", "browse", "serve"]
+
+App = Literal["lab", "notebook", "voila"]
+
+_FLAGS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--enable-unsafe-swiftshader",  # WebGL2 in software
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",  # no network: what works here works offline
+]
+
+_HARMLESS = (
+    "t.on is not a function",  # pythreejs, for every light
+    "schema",  # Notebook 7.6.5, for every notebook
+    "fontawesome",  # Voilà asks a CDN for it
+    "font-awesome",
+    "ERR_NAME_NOT_RESOLVED",
+    "federation",  # Voilà
+    "favicon",
+)
+
+_PANEL = "window.jupyterapp.shell.currentWidget"
+
+
+@contextlib.contextmanager
+def serve(root: Path, app: App) -> Iterator[tuple[str, str]]:
+    """Serve the notebooks under `root`; gives the address and the token."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    token = secrets.token_hex(8)
+    with tempfile.TemporaryDirectory() as name:
+        home = Path(name)
+        (home / "labconfig").mkdir()
+        quiet = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
+        (home / "labconfig" / "page_config.json").write_text(json.dumps(quiet), encoding="utf-8")
+        command = {
+            "voila": ["voila", str(root), "--no-browser", f"--port={port}", "--Voila.ip=127.0.0.1"],
+            "lab": ["jupyterlab", *_server(root, port, token), "--LabApp.expose_app_in_browser=True"],
+            "notebook": [
+                "notebook",
+                *_server(root, port, token),
+                "--JupyterNotebookApp.expose_app_in_browser=True",
+            ],
+        }[app]
+        environment = {
+            **os.environ,
+            "JUPYTER_CONFIG_DIR": name,
+            "JUPYTER_DATA_DIR": f"{name}/data",
+            "JUPYTER_RUNTIME_DIR": f"{name}/runtime",
+            "IPYTHONDIR": f"{name}/ipython",
+        }
+        log = home / "server.log"
+        with log.open("w") as out:
+            server = subprocess.Popen(
+                [sys.executable, "-m", *command],
+                stdout=out,
+                stderr=out,
+                env=environment,
+                start_new_session=True,
+            )
+        address = f"http://127.0.0.1:{port}"
+        try:
+            _await_server(address + ("/" if app == "voila" else "/api"), server, log)
+            yield address, token
+        finally:
+            os.killpg(server.pid, signal.SIGTERM)  # the kernels with it
+            server.wait(20)
+
+
+def _server(root: Path, port: int, token: str) -> list[str]:
+    return [
+        "--allow-root",
+        "--no-browser",
+        "--ip=127.0.0.1",
+        f"--port={port}",
+        "--ServerApp.port_retries=0",
+        f"--ServerApp.root_dir={root}",
+        f"--IdentityProvider.token={token}",
+    ]
+
+
+def _await_server(address: str, server: subprocess.Popen[bytes], log: Path) -> None:
+    for _ in range(240):
+        if server.poll() is not None:
+            break
+        try:
+            urllib.request.urlopen(address, timeout=2)
+        except OSError:
+            time.sleep(0.25)
+        else:
+            return
+    raise RuntimeError(f"the server did not start:\n{log.read_text()[-2000:]}")
+
+
+@contextlib.contextmanager
+def browse() -> Iterator[Browser]:
+    """A browser, that of the system where there is one."""
+    system = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=system, args=_FLAGS)
+        try:
+            yield chromium
+        finally:
+            chromium.close()
+
+
+class Notebook:
+    """A notebook with one cell, open in an application; `run` gives it new code."""
+
+    def __init__(self, page: Page, address: str, token: str, root: Path, app: App) -> None:
+        self.page = page
+        self.app = app
+        self._address = address
+        self._token = token
+        self._root = root
+        self._errors: list[str] = []
+        self._offsite: list[str] = []
+        page.on("console", lambda m: self._errors.append(m.text) if m.type == "error" else None)
+        page.on("pageerror", lambda error: self._errors.append(str(error)))
+        page.on("request", lambda r: self._offsite.append(r.url) if _is_offsite(r.url) else None)
+
+    def open(self, code: str, name: str = "test.ipynb") -> None:
+        """Write a notebook with that code and open it; Voilà runs it, too."""
+        notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(code)])
+        notebook.metadata.kernelspec = {"name": "python3", "display_name": "Python 3", "language": "python"}
+        nbformat.write(notebook, self._root / name)
+        self.visit(name)
+
+    def visit(self, name: str) -> None:
+        """Open a notebook that is there."""
+        path = {
+            "lab": f"/lab/workspaces/{secrets.token_hex(4)}/tree/{name}?reset&token={self._token}",
+            "notebook": f"/notebooks/{name}?token={self._token}",
+            "voila": f"/voila/render/{name}",
+        }[self.app]
+        self.page.goto(self._address + path)
+        if self.app != "voila":
+            self.page.wait_for_function(
+                f"""() => {{
+                    const panel = window.jupyterapp?.shell.currentWidget;
+                    return panel?.context?.isReady
+                        && {_PANEL}.sessionContext?.session?.kernel?.connectionStatus === "connected"
+                        && {_PANEL}.sessionContext.kernelDisplayStatus === "idle";
+                }}""",
+                timeout=60_000,
+            )
+
+    def run(self, code: str | None = None) -> None:
+        """Run all cells, the first one with new code if some is given; raises what the code raises."""
+        if code is not None:
+            self.page.evaluate(
+                f"code => {_PANEL}.content.model.sharedModel.cells[0].setSource(code)",
+                code,
+            )
+        self.page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells')")
+        outputs = self.page.evaluate(
+            f"""() => [...{_PANEL}.content.model.cells]
+                .filter(cell => cell.type === "code").flatMap(cell => cell.outputs.toJSON())"""
+        )
+        errors = [f"{o['ename']}: {o['evalue']}" for o in outputs if o["output_type"] == "error"]
+        if errors:
+            raise AssertionError(errors)
+
+    def python(self, expression: str) -> Any:
+        """The value of a JSON-like expression in the kernel."""
+        code = f"import json as _json; _value = _json.dumps({expression})"
+        text = self.page.evaluate(
+            f"""async code => {{
+                const kernel = {_PANEL}.sessionContext.session.kernel;
+                const future = kernel.requestExecute({{code, user_expressions: {{value: "_value"}}}});
+                const reply = await future.done;
+                if (reply.content.status !== "ok") throw new Error(reply.content.evalue);
+                return reply.content.user_expressions.value.data["text/plain"];
+            }}""",
+            code,
+        )
+        return json.loads(eval(text))  # the repr of a str of our own making
+
+    def trust(self) -> None:
+        """Trust the notebook's saved outputs."""
+        self.page.evaluate(
+            f"() => {{ for (const cell of {_PANEL}.content.model.cells) cell.trusted = true; }}"
+        )
+
+    def theme(self, name: Literal["JupyterLab Light", "JupyterLab Dark"]) -> None:
+        """Switch the theme."""
+        self.page.evaluate(
+            "theme => window.jupyterapp.commands.execute('apputils:change-theme', {theme})", name
+        )
+
+    def shapes(self) -> int:
+        """How many shapes the elevation shows."""
+        return self.page.locator(".fnb-elevation [data-shape]").count()
+
+    def field(self, label: str) -> Locator:
+        """The field of that name."""
+        return self.page.get_by_label(label, exact=True)
+
+    def button(self, name: str) -> Locator:
+        """The button of that name."""
+        return self.page.get_by_role("button", name=name, exact=True)
+
+    def take_problems(self) -> list[str]:
+        """Errors in the console since the last call, without those known to be harmless, and requests offsite."""
+        found = [e for e in self._errors if not any(word in e for word in _HARMLESS)]
+        found += [url for url in self._offsite if self.app != "voila"]
+        self._errors.clear()
+        self._offsite.clear()
+        return found
+
+
+def _is_offsite(url: str) -> bool:
+    return url.startswith("http") and not url.startswith("http://127.0.0.1")

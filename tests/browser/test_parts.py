@@ -1,0 +1,154 @@
+"""Each part alone, several over one model, and the parts in Notebook 7 and Voilà."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from .conftest import HOUSE
+from .jupyter import App, Notebook, serve
+
+Show = Callable[[str], Notebook]
+
+
+def test_parts_over_one_model_follow_each_other(show: Show) -> None:
+    lab = show("""
+        from IPython.display import display
+        display(PatternEditor(model), ElevationView(model), CounterEditor(model))
+    """)
+    page = lab.page
+    expect(page.locator(".fnb")).to_have_count(3)
+    expect(page.locator("[data-shape]")).to_have_count(17)
+    lab.field("Pattern Bx").fill("A(BA)^k A")
+    expect(page.locator(".fnb-elevation [data-layer=base][data-x=A][data-y=Q]")).to_have_count(5)
+    expect(page.locator(".fnb-counter[data-counter=k] .fnb-solved")).to_have_text("3")
+    # One bundle for all of them, and one message for each change however many look on.
+    sizes = lab.python(
+        "[sum(len(str(v)) for v in w.get_state().values()) for w in __import__('ipywidgets').Widget.widgets.values()"
+        " if type(w).__name__ in ('PatternEditor', 'ElevationView', 'CounterEditor') and w.model is model]"
+    )
+    assert len(sizes) == 3
+    assert max(sizes) < 2500
+
+
+@pytest.mark.parametrize(
+    ("part", "label"),
+    [
+        ("PatternEditor", "Pattern Bx"),
+        ("SymbolEditor", "Preferred size of A in metres"),
+        ("CounterEditor", "Fixed value of counter k"),
+        ("LayerEditor", "The vertical pattern of door"),
+        ("CanvasEditor", "Canvas height in metres"),
+        ("Toolbar", "Undo (Ctrl+Z)"),
+        ("ElevationView", "Elevation: arrow keys go from shape to shape"),
+        ("MassingView", "3D view: drag to orbit, scroll to zoom, click to pick"),
+    ],
+)
+def test_each_part_shows_alone(show: Show, part: str, label: str) -> None:
+    lab = show(f"{part}(model)")
+    expect(lab.field(label)).to_be_visible()
+
+
+def test_edits_from_python_are_shown(show: Show) -> None:
+    lab = show("CanvasEditor(model)")
+    lab.python("model.enter(('canvas', 'width'), 7.25)")
+    expect(lab.field("Canvas width in metres")).to_have_value("7.25")
+
+
+def test_every_control_has_a_name_and_keeps_its_keys(show: Show) -> None:
+    lab = show("Studio(model)")
+    nameless = lab.page.evaluate(
+        """() => [...document.querySelectorAll('.fnb :is(button, input, select, textarea, [tabindex])')]
+            .filter(e => !(e.ariaLabel || e.textContent.trim()) || e.dataset.lmSuppressShortcuts !== 'true')
+            .map(e => e.outerHTML)"""
+    )
+    assert nameless == []
+
+
+def test_keys_do_not_reach_the_notebook_in_command_mode(show: Show) -> None:
+    lab = show("Studio(model)")
+    grip = lab.button("Move layer door")
+    grip.focus()
+    for key in ("d", "d", "x", "b", "m"):
+        lab.page.keyboard.press(key)
+    expect(lab.page.locator(".jp-Notebook-cell")).to_have_count(1)
+    expect(grip).to_be_focused()
+
+
+def test_a_busy_kernel_is_told_and_nothing_typed_is_lost(show: Show) -> None:
+    lab = show("Studio(model)")
+    lab.page.evaluate(
+        "() => { window.jupyterapp.shell.currentWidget.sessionContext.session.kernel"
+        ".requestExecute({code: 'import time; time.sleep(3)'}) }"
+    )
+    field = lab.field("Pattern Bx")
+    field.fill("A(BA)^2")
+    expect(lab.page.locator(".fnb-status-line")).to_contain_text("kernel is busy")
+    field.fill("A(BA)^1")
+    expect(lab.page.locator(".fnb-counter[data-counter=k]")).to_have_count(0)
+    assert lab.python("model.design.patterns['Bx'].text") == "A(BA)^1"
+    assert field.input_value() == "A(BA)^1"
+
+
+def test_a_fault_of_ours_is_shown_under_the_widget(show: Show) -> None:
+    lab = show("""
+        def broken(*_, **__): raise ZeroDivisionError("a fault of ours")
+        model._solver._solve = broken
+        Studio(model)
+    """)
+    lab.field("Canvas width in metres").fill("7")
+    expect(lab.page.locator(".fnb-trouble summary")).to_contain_text("a fault of ours")
+    lab.run("from facade_nb import solve; model._solver._solve = solve; Studio(model)")
+
+
+def test_closing_the_output_ends_the_listeners(show: Show) -> None:
+    lab = show("Studio(model)")
+    lab.run("0")
+    expect(lab.page.locator(".fnb")).to_have_count(0)
+    assert lab.python("model.enter(('canvas', 'width'), 7.0) or model.wait(5)")
+    # Nobody looks: the channel has put its large traits away.
+    assert (
+        lab.python("len(__import__('facade_nb.widgets.channel').widgets.channel.Channel.of(model).module)")
+        == 0
+    )
+
+
+@pytest.mark.parametrize("app", ["notebook", "voila"])
+def test_the_studio_works_in_other_applications(browser: Browser, tmp_path: Path, app: App) -> None:
+    with serve(tmp_path, app) as (address, token), browser.new_page() as page:
+        notebook = Notebook(page, address, token, tmp_path, app)
+        notebook.open(HOUSE + "Studio(model)")
+        if app == "notebook":
+            notebook.run()
+        expect(page.locator("[data-shape]")).to_have_count(17, timeout=60_000)
+        field = notebook.field("Pattern Bx")
+        field.fill("A(BA)^")
+        expect(page.locator(".fnb-fault-text:visible")).to_have_count(1)
+        field.press("End")
+        field.press_sequentially("2")
+        expect(page.locator(".fnb-elevation [data-layer=base]")).to_have_count(10)
+        notebook.button("Both").click()
+        expect(page.locator(".fnb-massing canvas")).to_be_visible(timeout=20_000)
+        assert notebook.take_problems() == []
+
+
+def test_the_studio_notebook_shows_its_saved_state_and_then_runs(browser: Browser, tmp_path: Path) -> None:
+    shutil.copy(Path(__file__).resolve().parents[2] / "notebooks" / "studio.ipynb", tmp_path)
+    with serve(tmp_path, "lab") as (address, token), browser.new_page() as page:
+        notebook = Notebook(page, address, token, tmp_path, "lab")
+        notebook.visit("studio.ipynb")
+        picture = page.get_by_alt_text("Elevation of Residential house")
+        expect(picture).to_be_visible()  # before the notebook is trusted
+        assert picture.evaluate("image => image.naturalWidth") > 100
+        notebook.trust()
+        expect(page.locator("[data-shape]").first).to_be_attached()
+        expect(page.locator(".fnb-status-line")).to_contain_text("read only")
+        expect(page.locator(".fnb")).to_have_attribute("inert", "")
+        notebook.run()
+        expect(page.locator(".fnb-status-line")).to_contain_text("Solved in")
+        expect(notebook.field("Canvas width in metres")).to_have_value("8")
+        assert notebook.take_problems() == []
