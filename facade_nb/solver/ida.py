@@ -38,6 +38,7 @@ def search_ida(
     limit = min(cap, network.ceiling())
     while True:
         threshold = min(limit, network.later[0] + step)
+        network.gather = threshold <= min(group.tolerance for group in groups)
         dive = _Dive(network, threshold, found, keep, nodes, check, accept)
         dive.visit(network.root())
         if found.nodes >= nodes:

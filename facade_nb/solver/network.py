@@ -29,6 +29,11 @@ __all__ = ["Edge", "Network", "Path", "Seen", "State", "edges", "shortfall"]
 State = tuple[Position, ...]
 
 
+Range = tuple[tuple[int, int, int], float, float, float]
+"""What the pieces of a tied letter (group, band, letter) may add up to: least and greatest total at no cost, and the
+price of a metre more. A metre less costs 1."""
+
+
 @dataclass(slots=True, eq=False)
 class Path:
     """A partial alignment: linked columns, the newest at the end.
@@ -45,6 +50,8 @@ class Path:
         No column so far could be widened without cost.
     owed
         No letter ended at the last boundary, so one must begin there.
+    ranges
+        The tied letters that have pieces in columns of which only a range of lengths matters.
     ahead
         What the rows still cost each other, by pairs.
     spans
@@ -67,6 +74,7 @@ class Path:
     trail: tuple[object, ...] = ()
     parent: Path | None = None
     column: tuple[Option, ...] = ()
+    ranges: tuple[Range, ...] = ()
     ahead: float = 0.0
     spans: tuple[tuple[float, float], ...] = ()
     learnt: tuple[tuple[str, float, float], ...] = ()
@@ -88,7 +96,11 @@ class Edge:
     ahead
         What the rows still cost each other after it, by pairs.
     firm, owed, tied
-        It cannot be widened without cost; no letter ends at its right edge; its price depends on the lengths of pieces.
+        It cannot be widened without cost; no letter ends at its right edge; its price depends on the
+        lengths of pieces.
+    single
+        The band and letter of such a piece, where it is the only one, and the price of a metre by which it
+        widens the column.
     """
 
     column: tuple[Option, ...]
@@ -102,6 +114,7 @@ class Edge:
     firm: bool
     owed: bool
     tied: bool
+    single: tuple[int, int, float] | None
 
 
 def shortfall(group: Group, path: Path) -> float:
@@ -382,6 +395,10 @@ class _Maker:
                 if option.guarded and any(chosen[o].soft for o in self.group.guards[b]):
                     return
         firm = rested or not elastic
+        pieces = [(b, o.letters[0], len(o.letters)) for b, o in enumerate(chosen) if o.tied] if tied else []
+        single: tuple[int, int, float] | None = None
+        if firm and len(pieces) == 1 and pieces[0][2] == 1:
+            single = (pieces[0][0], pieces[0][1], 1.0 + self.by_empty * empties + self.by_loose * softs)
         self.made.append(
             Edge(
                 tuple(chosen),
@@ -395,8 +412,26 @@ class _Maker:
                 firm,
                 not ended,
                 tied or not firm,
+                single,
             )
         )
+
+
+def _gathered(ranges: tuple[Range, ...], g: int, group: Group, edge: Edge) -> tuple[Range, ...]:
+    """Add a piece's column to what is known of its letter; a letter that is complete and within its range is done."""
+    assert edge.single is not None
+    b, i, up = edge.single
+    low, high = edge.least, edge.width
+    others: list[Range] = []
+    for own in ranges:
+        if own[0] == (g, b, i):
+            low, high, up = low + own[1], high + own[2], min(up, own[3])
+        else:
+            others.append(own)
+    size = group.bands[b].letters[i].size
+    if edge.column[b].ends and size is not None and low - EPS <= size <= high + EPS:
+        return tuple(others)
+    return tuple(sorted([*others, ((g, b, i), low, high, up)]))
 
 
 class Network:
@@ -408,6 +443,7 @@ class Network:
         self.groups = tuple(groups)
         self.check = check
         self.most = most
+        self.gather = True
         self.later = [0.0] * (len(groups) + 1)
         for g in range(len(groups) - 1, -1, -1):
             group = groups[g]
@@ -461,13 +497,18 @@ class Network:
             cost = path.cost + edge.cost
             width = path.width + edge.width
             firm = path.firm and edge.firm
-            trail = (*path.trail, edge.column) if edge.tied else path.trail
+            trail, ranges = path.trail, path.ranges
+            if edge.tied:
+                if edge.single is not None and self.gather:
+                    ranges = _gathered(ranges, path.group, group, edge)
+                else:
+                    trail = (*trail, edge.column)
             if all(p >> 2 == band.end >> 2 for p, band in zip(edge.state, group.bands, strict=True)):
                 cost += self._closing(group, width, firm)
                 bound = cost + later
                 if bound == inf:
                     continue
-                if width < group.canvas - group.tolerance - EPS:
+                if ranges or width < group.canvas - group.tolerance - EPS:
                     trail = (
                         *trail,
                         path,
@@ -475,6 +516,7 @@ class Network:
                 g = path.group + 1
                 state = self.groups[g].start if g < len(self.groups) else ()
                 child = Path(g, state, cost, 0.0, path.columns + 1, True, False, trail, path, edge.column)
+                child.ranges = ranges
                 child.spans = ((0.0, 0.0),) * len(state)
                 child.ahead = ahead(self.groups[g], state) if state else 0.0
                 child.learnt = self._learn(group, path, edge)[1] if group.tied else path.learnt
@@ -495,6 +537,7 @@ class Network:
                     self._learn(group, path, edge) if group.tied else (path.spans, path.learnt)
                 )
                 child.ahead = edge.ahead
+                child.ranges = ranges
                 bound = cost + shortfall(group, child) + later
                 if bound == inf:
                     continue
@@ -551,6 +594,12 @@ class Seen:
     Of two paths at one node, the one that is no cheaper, has no more columns and cannot become cheaper by
     its W is dropped. |W − canvas| changes by at most the difference of the two W, whatever comes; a
     narrower path may replace a wider one where it cannot end below canvas − μ.
+
+    The price of a path also depends on the lengths of pieces that answer to an equation. Where a column holds one such
+    piece, all that matters of it is the range of lengths that cost nothing, and what a metre beyond costs;
+    the ranges of a letter's pieces add up, and of two paths the one with the wider ranges can only be
+    cheaper, as long as the tolerance on ω does not bind (`Network.gather`). Other columns with such pieces
+    have to be the same (`trail`).
     """
 
     def __init__(self, network: Network, keep: int) -> None:
@@ -560,7 +609,7 @@ class Seen:
 
     def drops(self, path: Path) -> bool:
         """Whether a known path makes this one needless; if not, it becomes known, and what it beats is dropped."""
-        key = (path.group, path.state, path.owed, path.trail)
+        key = (path.group, path.state, path.owed, path.trail, tuple([own[0] for own in path.ranges]))
         known = self._known.get(key)
         if known is None:
             self._known[key] = [path]
@@ -584,7 +633,12 @@ class Seen:
         """1: `a` makes `b` needless; 0: as good as it in every respect; -1: neither."""
         dw = a.width - b.width
         slack = 0.0
-        if abs(dw) > EPS:
+        wider = False
+        for (_, low, high, up), (_, low_b, high_b, up_b) in zip(a.ranges, b.ranges, strict=True):
+            if low > low_b + EPS or high < high_b - EPS or up > up_b + EPS:
+                return -1
+            wider = wider or low < low_b - EPS or high > high_b + EPS or up < up_b - EPS
+        if abs(dw) > EPS or wider:
             if a.group == len(self._network.groups):
                 return -1
             group = self._network.groups[a.group]
@@ -598,5 +652,6 @@ class Seen:
         if a.cost + slack < b.cost - EPS:
             return 1
         if a.cost + slack <= b.cost + EPS and a.columns >= b.columns:
-            return 0 if slack <= EPS and a.columns == b.columns and a.cost >= b.cost - EPS else 1
+            equal = slack <= EPS and a.columns == b.columns and a.cost >= b.cost - EPS
+            return 0 if equal and not wider else 1
         return -1

@@ -101,6 +101,7 @@ class BestFirst:
         self._seen = Seen(self.network, keep)
         self._queue: list[tuple[float, int, int, Path | Priced]] = []
         self._parked: list[tuple[float, Path]] = []
+        self._horizon = min((group.tolerance for group in groups), default=inf)
         if not self.done:
             self._push(self.found.bound, self.network.root())
 
@@ -112,6 +113,8 @@ class BestFirst:
         found, queue = self.found, self._queue
         if self.done or limit < found.bound - EPS:
             return
+        if self.network.gather and limit > self._horizon:
+            self._begin_again()
         parked, self._parked = self._parked, []
         for made, path in parked:
             if not path.dropped:
@@ -149,6 +152,14 @@ class BestFirst:
             found.bound = inf
         else:
             found.bound = max(found.bound, limit)
+
+    def _begin_again(self) -> None:
+        """From here on the tolerance may bind, and paths are not compared by the ranges of their pieces."""
+        self.network.gather = False
+        self._seen = Seen(self.network, self.keep)
+        self._queue.clear()
+        self._parked.clear()
+        self._push(self.found.bound, self.network.root())
 
     def _expand(self, path: Path, made: float, limit: float) -> None:
         """Make the columns that a limit allows and an earlier one, `made`, did not."""
