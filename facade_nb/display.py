@@ -19,7 +19,8 @@ def layout_bundle(layout: Layout) -> dict[str, str]:
 
 def design_bundle(design: Design) -> dict[str, str]:
     """The elevation of the solved design; for a design without a layout, the reason."""
-    text = f"<Design {design.name!r}: {design.canvas.width:g} × {design.canvas.height:g} m, {len(design.layers)} layers>"
+    canvas = f"{design.canvas.width:g} × {design.canvas.height:g} m"
+    text = f"<Design {design.name!r}: {canvas}, {len(design.layers)} layers>"
     try:
         layout = solve(design, time_limit=5.0)
     except NoLayout as error:

@@ -70,7 +70,7 @@ def _file_text(source: str | Path, place: str) -> str:
         ) from error
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        name = place if len(place) <= 80 else f"{place[:80]}…"
+        name = place if isinstance(source, Path) or len(place) <= 80 else f"{place[:80]}…"
         expected = "expected a design as JSON text, or the path of a file with one"
         raise DesignError(f"{expected}; {name!r} cannot be read as a file: {reason}") from error
 

@@ -28,7 +28,7 @@ _NODES = 1_000_000
 _TOLD = 2000
 """So many candidates that were never taken up are told in a trace."""
 _STEP = 0.004
-"""How far above the next lower bound a candidate goes first, as a fraction of the canvas."""
+"""How far above its lower bound a candidate goes first, as a fraction of the canvas."""
 _GROWTH = 1.5
 """Each turn takes it so many times further."""
 
@@ -248,10 +248,9 @@ class AxisSearch:
     def best(self, cap: float = inf) -> Best:
         """The best candidate; candidates take turns.
 
-        The one with the least lower bound goes on, up to a little above the next one's, and comes back into
-        the queue with what it has then been proven to cost at least. So no time is spent on the dear
-        alignments of one candidate while another may have a cheap one, and when the least lower bound is
-        above the best answer, that is optimal.
+        The one with the least lower bound goes on a little and comes back into the queue with what it has then
+        been proven to cost at least. So no time is spent on the dear alignments of one candidate while another
+        may have a cheap one, and when the least lower bound is above the best answer, that is optimal.
         """
         best = Best()
         stream = self.stream or self._stream()
@@ -272,8 +271,7 @@ class AxisSearch:
                 if not queue or queue[0][0] > top + EPS:
                     break
                 own, n = queue[0]
-                behind = min([stream.bound, *(item[0] for item in queue[1:3])])
-                limit = min(top, max(own, behind if behind < inf else own) + steps[n])
+                limit = min(top, own + steps[n])
                 steps[n] *= _GROWTH
                 case = self.cases[n]
                 solved = self.solve(case, limit)

@@ -106,7 +106,7 @@ class Band:
         self.soft = any(not a.opaque and not a.transparent for a in self.letters)
         self.elastic = any(a.transparent and (cuts or a.size is None) for a in self.letters)
         self.tied = any(
-            a.transparent and a.symbol not in free and (cuts or a.size is None) for a in self.letters
+            a.transparent and not self.is_free(a) and (cuts or a.size is None) for a in self.letters
         )
         self.rest_min = [0.0] * (len(self.letters) + 1)
         self.rest_max = [0.0] * (len(self.letters) + 1)
@@ -137,6 +137,10 @@ class Band:
             run += letter.size or 0.0
             soft = soft or not letter.opaque
             self.soft_rest[i] = after + (max(0.0, thinnest - run) if soft else 0.0)
+
+    def is_free(self, letter: Letter) -> bool:
+        """Whether nothing ties the letter's size."""
+        return letter.size is None and letter.symbol in self.free
 
     def unsized_from(self, i: int) -> tuple[tuple[str, int], ...]:
         """Unsized symbols from letter i on, with how often they stand there."""
@@ -213,7 +217,7 @@ class Band:
             if not letter.transparent:
                 return
             letters = tuple(range(i, j + 1))
-            bound = letter.symbol not in self.free
+            bound = not self.is_free(letter)
             if self.cuts:  # ends within letter j
                 yield Option(
                     8 * j + 4,

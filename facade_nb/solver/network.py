@@ -568,7 +568,7 @@ class Network:
                 letter = band.letters[i]
                 done = i != last or option.ends
                 new = letter.size is None and all(symbol != letter.symbol for symbol, _, _ in learnt)
-                if done and new and letter.symbol not in band.free:
+                if done and new and not band.is_free(letter):
                     learnt = (*learnt, (letter.symbol, *span))
             spans.append((0.0, 0.0) if option.ends else span)
         return tuple(spans), learnt

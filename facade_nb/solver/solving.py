@@ -21,7 +21,7 @@ from .objective import Objective
 from .problem import AxisProblem, axis_problem
 from .search import Stopped
 
-__all__ = ["TOLERANCES", "solve"]
+__all__ = ["TOLERANCES", "forget", "solve"]
 
 TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
 """Fractions of the canvas; the paper's schedule, and, by its last, what the default objective works within."""
@@ -79,6 +79,12 @@ def solve(
     clock = _Clock(time_limit, should_stop)
     run = _Run(design, objective or Objective(), tuple(tolerances), search, clock, log)
     return run.layout()
+
+
+def forget() -> None:
+    """Let go of all answers that are kept for unchanged axes."""
+    with _lock:
+        _cache.clear()
 
 
 class _Clock:

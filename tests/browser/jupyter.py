@@ -205,6 +205,15 @@ class Notebook:
         )
         return json.loads(eval(text))  # the repr of a str of our own making
 
+    def expect_python(self, expression: str, value: Any) -> None:
+        """Wait until an expression in the kernel has a value: what was typed last may still be on its way."""
+        for _ in range(50):
+            found = self.python(expression)
+            if found == value:
+                return
+            self.page.wait_for_timeout(100)
+        raise AssertionError(f"{expression} is {found!r}, expected {value!r}")
+
     def trust(self) -> None:
         """Trust the notebook's saved outputs."""
         self.page.evaluate(

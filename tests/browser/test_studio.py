@@ -48,7 +48,7 @@ def test_the_facade_follows_every_keystroke(studio: Notebook) -> None:
         expect(studio.page.locator(".fnb-elevation [data-layer=base]")).to_have_count(base)
     assert field.input_value() == "A(BA)^2|AB"
     expect(studio.page.locator(".fnb-fault:visible")).to_have_count(0)
-    assert studio.python("model.design.patterns['Bx'].text") == "A(BA)^2|AB"
+    studio.expect_python("model.design.patterns['Bx'].text", "A(BA)^2|AB")
 
 
 def test_fast_typing_loses_nothing(studio: Notebook) -> None:
@@ -58,7 +58,7 @@ def test_fast_typing_loses_nothing(studio: Notebook) -> None:
     field.press_sequentially(text)
     assert field.input_value() == text
     expect(studio.page.locator(".fnb-fault:visible")).to_have_count(0)
-    assert studio.python("model.design.patterns['Bx'].text") == text
+    studio.expect_python("model.design.patterns['Bx'].text", text)
     assert field.input_value() == text
 
 
@@ -74,7 +74,7 @@ def test_a_wider_canvas_has_more_bays(studio: Notebook) -> None:
     assert field.input_value() == "9.5"
     field.fill("wide")
     expect(studio.page.locator(".fnb-canvas .fnb-fault-text")).to_contain_text("number of metres")
-    assert studio.python("model.design.canvas.width") == 9.5
+    studio.expect_python("model.design.canvas.width", 9.5)
 
 
 @pytest.mark.parametrize(("side", "dx", "dy"), [("width", 120, 0), ("height", 0, -60)])
@@ -208,7 +208,7 @@ def test_the_looks_of_a_picked_cell_can_be_changed(studio: Notebook) -> None:
     studio.page.locator(".fnb-elevation [data-layer=door]").click()
     studio.field("material of D P in door").select_option("painted-blue")
     expect(studio.page.locator(".fnb-elevation [data-layer=door] title")).to_contain_text("painted-blue")
-    assert studio.python("model.design.layers[2].shapes['D P'].material") == "painted-blue"
+    studio.expect_python("model.design.layers[2].shapes['D P'].material", "painted-blue")
 
 
 def test_layers_are_reordered_hidden_and_masked_by_keyboard(studio: Notebook) -> None:
@@ -229,7 +229,7 @@ def test_layers_are_reordered_hidden_and_masked_by_keyboard(studio: Notebook) ->
     expect(page.locator(".fnb-layer").nth(3)).to_have_attribute("data-layer", "door")
     studio.button("Move layer door up").click()
     expect(page.locator(".fnb-layer").nth(2)).to_have_attribute("data-layer", "door")
-    assert studio.python("[layer.name for layer in model.design.stack]") == order()
+    studio.expect_python("[layer.name for layer in model.design.stack]", order())
 
     studio.button("Hide layer roof").press("Enter")
     expect(page.locator(".fnb-elevation [data-layer=roof]")).to_have_count(0)
@@ -266,7 +266,7 @@ def test_patterns_and_groups_of_a_layer_are_chosen(studio: Notebook) -> None:
     group.fill("own")
     group.press("Enter")
     expect(studio.page.locator("datalist").first.locator("option[value=own]")).to_have_count(1)
-    assert studio.python("model.design.layers[1].x.group") == "own"
+    studio.expect_python("model.design.layers[1].x.group", "own")
 
 
 def test_symbols_have_sizes_bounds_and_qualifiers(studio: Notebook) -> None:
@@ -276,7 +276,7 @@ def test_symbols_have_sizes_bounds_and_qualifiers(studio: Notebook) -> None:
     expect(studio.page.locator(".fnb-symbol[data-symbol=B] .fnb-solved")).to_have_text("0.5")
     studio.button("B is attached").press("Enter")
     expect(studio.button("B is attached")).to_have_attribute("aria-pressed", "true")
-    assert studio.python("[model.design.symbols['B'].attached, model.design.symbols['B'].max]") == [True, 0.5]
+    studio.expect_python("[model.design.symbols['B'].attached, model.design.symbols['B'].max]", [True, 0.5])
     studio.button("Placement of C: center").click()
     expect(studio.button("Placement of C: left")).to_be_visible()
 
