@@ -270,6 +270,8 @@ class AxisSearch:
                 floor = min(stream.bound, queue[0][0] if queue else inf)
                 if not queue or queue[0][0] > top + EPS:
                     break
+                if self.check is not None:
+                    self.check()
                 own, n = queue[0]
                 limit = min(top, own + steps[n])
                 steps[n] *= _GROWTH

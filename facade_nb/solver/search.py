@@ -215,28 +215,28 @@ def plunge(groups: Sequence[Group], check: Callable[[], None] | None, nodes: int
     canvas = max(group.canvas for group in groups)
     ceiling = network.ceiling()
     serial = count()
-    queue: list[tuple[float, int, float, Path]] = [(0.0, next(serial), network.later[0], network.root())]
+    queue: list[tuple[float, int, Path]] = [(0.0, next(serial), network.root())]
     for _ in range(nodes):
         if not queue:
             return None
         if check is not None:
             check()
-        _, _, bound, path = heappop(queue)
+        _, _, path = heappop(queue)
         if network.complete(path):
             priced = price(network.groups, network.structure(path))
             if priced is not None:
                 return priced
             continue
-        step = 1e-4 * canvas
-        children = network.children(path, -inf, bound + step)
-        while not children and bound + step < ceiling:
-            step *= 3.0
-            children = network.children(path, -inf, bound + step)
+        laid, step = path.cost + path.ahead + network.later[path.group + 1], 1e-5 * canvas
+        children = network.children(path, -inf, laid + step)
+        while not children and laid + step < ceiling:  # the columns that make the bound rise least
+            step *= 2.0
+            children = network.children(path, -inf, laid + step)
         for least, child in children:
             bands = groups[child.group].bands if child.group < len(groups) else ()
             done = sum(
                 (p >> 3) / max(1, len(band.letters)) for band, p in zip(bands, child.state, strict=True)
             )
             far = child.group + (done / len(bands) if bands else 0.0)
-            heappush(queue, (least - far * canvas, next(serial), least, child))
+            heappush(queue, (least - far * canvas, next(serial), child))
     return None
