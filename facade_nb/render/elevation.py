@@ -10,7 +10,7 @@ from typing import Any
 from ..solver.layout import Layout
 from .annotate import Frame, draw_dimensions, draw_empty, draw_holes, draw_survey
 from .ink import Defs, draw_parts, inline, polygon_path
-from .materials import find_material
+from .materials import DEFAULT_MATERIAL, find_material
 from .relief import Edges, Relief, Segment
 from .scene import Scene, Solid, build_scene
 from .style import FINE, HEAVY, MEDIUM, Style, find_style, num
@@ -130,11 +130,13 @@ def _shape(solid: Solid, defs: Defs, frame: Frame, *, ids: bool) -> str:
     if shape.geometry == "box" or not solid.parts:
         material = find_material(solid.materials["body"])
         fill = defs.paint(material)
-        seam = (
-            ""
-            if material.pattern == "glass"
-            else f' stroke="{defs.style.tone(material.fill)}" stroke-width=".5"'
-        )
+        seam = ""
+        if (
+            material.name == DEFAULT_MATERIAL
+        ):  # nothing was said yet: the grid of the layer is all there is to see
+            seam = f' stroke="{defs.style.tone(material.line)}" stroke-width=".8"'
+        elif material.pattern != "glass":
+            seam = f' stroke="{defs.style.tone(material.fill)}" stroke-width=".5"'
         return f'{head}{cell}"{fill}"{seam}/></g>'
     if inline(solid):
         drawn = draw_parts(solid, defs, (x, y + h))

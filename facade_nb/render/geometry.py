@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from ..design.errors import DesignError, Fault, nearest
+from .materials import DEFAULT_MATERIAL
 from .openings import archway, door, french_window, reveal, shop, window
 from .parts import Block, Moulding, Part, Ring, Turned
 from .roofs import gable, hip, pitched
@@ -178,7 +179,7 @@ class Geometry:
     slots
         Materials of the parts that do not have the shape's own: slot to material.
     own
-        The material of the shape where the design names one of `unsuited` (the default plaster, glass for a door).
+        The material of the shape where the design names one of `unsuited` (the default, plaster, glass for a door).
     """
 
     name: str
@@ -204,7 +205,7 @@ class Geometry:
         return self.own if material in self.unsuited else material
 
 
-_PLASTER = frozenset({"plaster"})
+_PLAIN = frozenset({DEFAULT_MATERIAL, "plaster"})
 _WINDOW = {"glass": "glass", "sill": "stone", "rail": "iron", "step": "stone", "shade": "shade"}
 _ROOF = {"gable": "wood", "frame": "painted-wood", "glass": "glass", "gutter": "metal"}
 
@@ -213,20 +214,20 @@ _TABLE = (
     Geometry("panel", panel, "wall with a sunk field", recess=lambda d: min(0.02, d / 2)),
     Geometry(
         "window", window, "frame, leaves, glazing bars by size, sill", "the sill comes 0.06 m forward",
-        recess=reveal, least=0.3, slots=_WINDOW, own="painted-wood", unsuited=_PLASTER | {"glass"},
+        recess=reveal, least=0.3, slots=_WINDOW, own="painted-wood", unsuited=_PLAIN | {"glass"},
     ),
     Geometry(
         "french-window", french_window, "glazed doors to the floor behind a low railing",
         "the railing comes 0.1 m forward",
-        recess=reveal, least=0.3, slots=_WINDOW, own="painted-wood", unsuited=_PLASTER | {"glass"},
+        recess=reveal, least=0.3, slots=_WINDOW, own="painted-wood", unsuited=_PLAIN | {"glass"},
     ),
     Geometry(
         "shop", shop, "shop window: stall riser, large panes, fanlights", "the sill comes 0.04 m forward",
-        recess=reveal, least=0.3, slots=_WINDOW, own="painted-green", unsuited=_PLASTER | {"glass"},
+        recess=reveal, least=0.3, slots=_WINDOW, own="painted-green", unsuited=_PLAIN | {"glass"},
     ),
     Geometry(
         "door", door, "frame, panelled leaves, step, fanlight where it is tall", "the step comes 0.3 m forward",
-        recess=reveal, least=0.3, slots=_WINDOW | {"metal": "bronze"}, own="oak", unsuited=_PLASTER | {"glass"},
+        recess=reveal, least=0.3, slots=_WINDOW | {"metal": "bronze"}, own="oak", unsuited=_PLAIN | {"glass"},
     ),
     Geometry(
         "arch", archway, "wall with an arched, glazed opening", "the keystone comes 0.03 m forward",
@@ -242,7 +243,7 @@ _TABLE = (
     Geometry("ledge", ledge, "string course with a weathered top", stand=ledge_stand),
     Geometry(
         "balcony", balcony, "slab with an iron railing; open above", full=False, least=0.3,
-        stand=lambda w, h: 0.9, slots={"rail": "iron"}, own="stone", unsuited=_PLASTER,
+        stand=lambda w, h: 0.9, slots={"rail": "iron"}, own="stone", unsuited=_PLAIN,
     ),
     Geometry(
         "railing", railing, "iron railing alone; open above", full=False, least=0.3,
@@ -251,15 +252,15 @@ _TABLE = (
     Geometry(
         "roof", gable, "gabled roof, its gable to the viewer",
         "eaves 0.25 m to the sides and below, verge 0.25 m forward",
-        full=False, slots=_ROOF, own="tiles", unsuited=_PLASTER,
+        full=False, slots=_ROOF, own="tiles", unsuited=_PLAIN,
     ),
     Geometry(
         "hip", hip, "hipped roof, its slope to the viewer", "eaves 0.3 m to the sides and forward, gutter 0.1 m below",
-        full=False, slots=_ROOF, own="tiles", unsuited=_PLASTER,
+        full=False, slots=_ROOF, own="tiles", unsuited=_PLAIN,
     ),
     Geometry(
         "pitched", pitched, "pitched roof, its slope to the viewer", "eaves 0.3 m forward, gutter 0.1 m below",
-        full=True, slots=_ROOF, own="tiles", unsuited=_PLASTER,
+        full=True, slots=_ROOF, own="tiles", unsuited=_PLAIN,
     ),
 )  # fmt: skip
 

@@ -12,8 +12,8 @@ from ..design.errors import DesignError, Fault, nearest
 
 __all__ = ["DEFAULT_MATERIAL", "MATERIALS", "Material", "find_material", "mix", "rgb"]
 
-DEFAULT_MATERIAL = "plaster"
-"""What a shape is made of where the design says nothing."""
+DEFAULT_MATERIAL = "card"
+"""What a shape is made of where the design says nothing: the paper's plain boxes, with every cell to be seen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +48,7 @@ class Material:
 
 
 _TABLE = (
+    Material("card", "#dcc9ab", "#9a7f57", "grain", "#d2b88f", 0.95, 0.0, "model board, each cell outlined"),
     Material("plaster", "#ece4d3", "#a89c85", "grain", "#e6dcc6", 0.95, 0.0, "lime render, warm white"),
     Material("plaster-white", "#f4f1e9", "#aaa598", "grain", "#eeeae0", 0.95, 0.0, "render, nearly white"),
     Material(

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 from ..solver.layout import Layout
+from .materials import DEFAULT_MATERIAL
 from .meshing import Mesh, mesh_parts
 from .parts import Block, Part
 from .scene import Solid, Triangles, build_scene, triangles_of
@@ -60,7 +61,7 @@ def _body(walls: Sequence[Solid], width: float, back: float, deep: float) -> dic
         for y0, y1 in pairwise(stops):
             here = [s for s in touching if s.rect[1] < (y0 + y1) / 2 < s.rect[3]]
             name = here[-1].materials["body"] if here else walls[0].materials["body"]
-            if name == "glass":
+            if name in ("glass", DEFAULT_MATERIAL):
                 name = "plaster"
             found.setdefault(name, []).append(Block(x0, y0, x1, y1, middle - deep / 2, back))
     return found

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..design.files import write_atomically
 from .geometry import GEOMETRIES
-from .materials import MATERIALS
+from .materials import DEFAULT_MATERIAL, MATERIALS
 
 __all__ = ["geometry_table", "material_table", "refresh"]
 
@@ -21,7 +21,7 @@ def geometry_table() -> str:
     for name, geometry in GEOMETRIES.items():
         full = "yes" if geometry.full else "no"
         rows.append(
-            f"| `{name}` | {geometry.summary} | {full} | {geometry.own or 'plaster'} | {geometry.overhang} |"
+            f"| `{name}` | {geometry.summary} | {full} | {geometry.own or DEFAULT_MATERIAL} | {geometry.overhang} |"
         )
     return "\n".join(rows)
 

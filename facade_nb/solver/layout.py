@@ -97,7 +97,7 @@ class PlacedShape:
     mirrored: tuple[bool, bool] = (False, False)
     kind: str = "wall"
     geometry: str = "box"
-    material: str = "plaster"
+    material: str = "card"
     offset: float = 0.0
     thickness: float = 0.2
 

@@ -11,7 +11,7 @@ from .layout import AxisLayout, PlacedLetter, PlacedShape, Rect
 
 __all__ = ["DEFAULT_SHAPE", "find_holes", "hole_warnings", "merge", "shape_of"]
 
-DEFAULT_SHAPE = Shape("wall", "box", "plaster", 0.0, 0.2, True)
+DEFAULT_SHAPE = Shape("wall", "box", "card", 0.0, 0.2, True)
 """What a shape is where nothing is said: a plain box, as in the paper."""
 
 _NEAR = 1e-6
@@ -76,7 +76,7 @@ def _placed(layer: Layer, h: PlacedLetter, v: PlacedLetter, rect: Rect, look: Sh
         (h.mirrored, v.mirrored),
         look.kind or "wall",
         look.geometry or "box",
-        look.material or "plaster",
+        look.material or "card",
         look.offset or 0.0,
         0.0 if look.thickness is None else look.thickness,
     )
