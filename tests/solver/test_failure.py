@@ -1,0 +1,194 @@
+"""Why there is no layout: each kind of `NoLayout`, its text and what it points at (SPEC 3, *Failure*)."""
+
+from __future__ import annotations
+
+import pytest
+from IPython.core.interactiveshell import InteractiveShell
+
+from facade_nb import Design, DesignError, NoLayout, solve
+from facade_nb.solver import Objective
+from tests.oracle.designs import design
+
+
+def refused(one: Design, **options: object) -> NoLayout:
+    """The reason why a design has no layout."""
+    with pytest.raises(NoLayout) as caught:
+        solve(one, **options)  # type: ignore[arg-type]
+    return caught.value
+
+
+CLEAR = {"size": 4.0, "opaque": False}
+
+
+class TestWords:
+    def test_shortest_word_too_long(self) -> None:
+        error = refused(
+            design({"A": 1.0, "B": 2.0}, {"wall": "A(BA)^k"}, ["wall"], counters={"k": {"min": 3}})
+        )
+        assert str(error) == (
+            "Pattern 'wall': its shortest word, A B A B A B A, measures 10 m, and the canvas is 4 m wide. "
+            "A width of 10 m would hold it."
+        )
+        assert (error.axis, error.patterns) == ("x", ("wall",))
+
+    def test_and_up(self) -> None:
+        error = refused(design({"A": 4.0, "P": 5.0}, {"a": "A", "floors": "P"}, [("a", "g", "floors")]))
+        assert "Pattern 'floors': its shortest word, P, measures 5 m, and the canvas is 2 m high." in str(
+            error
+        )
+        assert "A height of 5 m would hold it." in str(error)
+        assert error.axis == "y"
+
+    def test_very_long_words_are_cut_short(self) -> None:
+        error = refused(design({"A": 1.0}, {"a": "A^500"}, ["a"]))
+        assert "…" in str(error) and len(str(error)) < 250
+
+    def test_longest_word_too_short(self) -> None:
+        one = design({"A": 0.5}, {"wall": "A^k"}, ["wall"], counters={"k": {"max": 3}})
+        error = refused(one)
+        assert str(error) == (
+            "Pattern 'wall': its longest word, A A A, measures 1.5 m and cannot fill the canvas, which is 4 m wide. "
+            "Counter 'k' would have to go further. A width of 1.5 m would be filled."
+        )
+        assert (error.axis, error.patterns, error.counters) == ("x", ("wall",), ("k",))
+
+    def test_longest_word_too_short_without_a_counter(self) -> None:
+        error = refused(design({"A": 0.5}, {"wall": "AA"}, ["wall"]))
+        assert "cannot fill the canvas" in str(error) and "Counter" not in str(error)
+        assert error.counters == ()
+
+    def test_what_the_message_proposes_works(self) -> None:
+        assert solve(design({"A": 1.0, "B": 2.0}, {"w": "A(BA)^3"}, ["w"], width=10.0)).x.cost == 0.0
+        assert solve(design({"A": 0.5}, {"w": "A^3"}, ["w"], width=1.5)).x.cost == 0.0
+
+
+class TestCounters:
+    def test_shared_by_patterns(self) -> None:
+        """a fits with k of 2 to 6, b with 20 to 60."""
+        error = refused(design({"A": 1.0, "B": 0.1}, {"a": "A^k", "b": "B^k"}, [("a", "g"), ("b", "f")]))
+        assert "Patterns 'a', 'b' have no words that fit the canvas of 4 m together." in str(error)
+        assert "They share counter 'k'." in str(error)
+        assert error.counters == ("k",) and set(error.patterns) == {"a", "b"} and error.axis == "x"
+
+    def test_on_both_axes(self) -> None:
+        error = refused(design({"A": 1.0, "P": 1.0}, {"a": "A^k", "p": "P^k"}, [("a", "g", "p")], 10.0, 2.0))
+        assert str(error).startswith(
+            "Counter 'k' is used both across and up, and no value of it fits both: across it can be 5, 6, 7, 8, 9, "
+            "10, 11, 12, …, up 1, 2, 3."
+        )
+        assert error.counters == ("k",)
+
+    def test_on_both_axes_though_something_else_is_to_blame(self) -> None:
+        """Values of k fit both ways; that B is unoccludable behind P, which is not opaque, is the reason."""
+        symbols = {"A": 1.0, "C": {"size": 1.0, "opaque": False}, "B": {"size": 1.0, "unoccludable": True}}
+        one = design(
+            symbols, {"c": "C^k", "b": "B^k", "a": "A^k"}, [("c", "g", "a"), ("b", "g", "a")], 3.0, 3.0
+        )
+        error = refused(one)
+        assert "no value of it fits both" not in str(error)
+        assert error.symbols in {("B",), ("C",)}
+
+
+class TestConstraints:
+    def test_unoccludable(self) -> None:
+        error = refused(
+            design({"C": CLEAR, "B": {"size": 4.0, "unoccludable": True}}, {"c": "C", "b": "B"}, ["c", "b"])
+        )
+        text = str(error)
+        assert error.axis == "x"
+        # Either would do: B that may be covered, or C that is opaque.
+        assert error.symbols in {("B",), ("C",)}
+        assert "across" in text and "It would work if" in text
+
+    def test_unoccludable_alone(self) -> None:
+        """C of the top row must not be opaque for other reasons: making it so does not help, freeing B does."""
+        symbols = {
+            "C": CLEAR,
+            "D": {"size": 4.0, "opaque": False},
+            "B": {"size": 4.0, "unoccludable": True},
+        }
+        error = refused(design(symbols, {"c": "C", "d": "D", "b": "B"}, ["c", "d", "b"]))
+        assert str(error) == (
+            "'B' is unoccludable, and nothing that is not opaque may stand before it: every alignment across breaks "
+            "that. It would work if 'B' were not unoccludable."
+        )
+        assert error.symbols == ("B",)
+
+    def test_attached(self) -> None:
+        """C and A can stand side by side, or in one column; the latter is too wide for their sizes."""
+        symbols = {"C": {"size": 2.0, "max": 2.2}, "A": {"size": 2.0, "max": 2.2}}
+        assert len(solve(design(symbols, {"c": "C", "a": "A"}, ["c", "a"])).x.groups["g"].columns) == 3
+        symbols["A"] = {**symbols["A"], "attached": True}
+        error = refused(design(symbols, {"c": "C", "a": "A"}, ["c", "a"]))
+        assert str(error) == (
+            "'A' is attached, and no gap may open beside it: every alignment across breaks that. "
+            "It would work if 'A' were not attached."
+        )
+        assert error.symbols == ("A",)
+
+    def test_not_opaque(self) -> None:
+        """Behind C there is only B, which is not opaque either."""
+        clear = {"size": 2.0, "opaque": False}
+        error = refused(design({"C": clear, "D": 2.0, "B": clear}, {"c": "CD", "b": "B"}, ["c", "b"]))
+        assert str(error) == (
+            "'C' is not opaque, and something opaque must stand behind it: every alignment across breaks that. "
+            "It would work if 'C' were opaque."
+        )
+        assert error.symbols == ("C",)
+
+    def test_nothing_in_particular(self) -> None:
+        """No tolerance, no cut, no qualifier: the rows just do not meet."""
+        one = design({"A": 4.0, "B": 3.0}, {"a": "A", "b": "B"}, ["a", "b"])
+        error = refused(one, objective=Objective.paper(), tolerances=(0.0,))
+        assert str(error).startswith("No alignment of 'a', 'b' across keeps within the canvas of 4 m") or str(
+            error
+        ).startswith("Pattern 'b': its longest word")
+
+    def test_sizes(self) -> None:
+        one = design({"A": {"size": 1.9, "max": 1.95}}, {"wall": "AA"}, ["wall"])
+        error = refused(one)
+        assert "no sizes satisfy all of the alignment at once" in str(error)
+        assert error.symbols == ("A",) and error.axis == "x"
+        wider = Design.from_dict(
+            one.to_dict() | {"symbols": {**one.to_dict()["symbols"], "A": {"size": 1.9, "max": 2.0}}}
+        )
+        assert solve(wider).x.sizes["A"] == pytest.approx(2.0)
+
+    def test_patterns_that_can_never_be_of_one_length(self) -> None:
+        """|A| would have to be 2 m, and 2 m less half of |B|."""
+        one = design({"A": 1.8, "B": 0.8}, {"a": "ABA", "b": "AA"}, [("a", "g"), ("b", "f")])
+        error = refused(one)
+        assert error.axis == "x" and set(error.patterns) == {"a", "b"}
+        assert "'a'" in str(error) and "'b'" in str(error)
+
+
+class TestDisplay:
+    @staticmethod
+    def shown(code: str, monkeypatch: pytest.MonkeyPatch) -> str:
+        """What a notebook shows for a cell that fails."""
+        shell = InteractiveShell.instance()
+        lines: list[str] = []
+        monkeypatch.setattr(shell, "_showtraceback", lambda _type, _value, stb: lines.extend(stb))
+        shell.push({"solve": solve, "Design": Design, "design": design})
+        assert shell.run_cell(code).error_in_exec is not None
+        return "\n".join(lines)
+
+    def test_no_traceback_in_ipython(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        shown = self.shown("solve(design({'A': 9.0}, {'wall': 'A'}, ['wall']))", monkeypatch)
+        assert shown.startswith("NoLayout: Pattern 'wall': its shortest word, A, measures 9 m")
+        assert "Traceback" not in shown and "solving.py" not in shown
+
+    def test_nor_for_a_faulty_design(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        shown = self.shown("Design.from_dict({'format': 'facade-nb/design/1', 'symbols': 3})", monkeypatch)
+        assert shown.startswith("DesignError: symbols: expected") and "Traceback" not in shown
+
+    def test_text_of_the_error_is_its_message(self) -> None:
+        error = refused(design({"A": 9.0}, {"wall": "A"}, ["wall"]))
+        assert str(error) == error.message
+        assert error._render_traceback_() == [f"NoLayout: {error.message}"]
+
+    def test_words_that_cannot_be_listed(self) -> None:
+        """A count of thousands is the design's fault, and told as one."""
+        one = design({"A": 1.0}, {"wall": "A^k"}, ["wall"], counters={"k": {"value": 10**8}})
+        with pytest.raises(DesignError, match="a word would have 100,000,000 letters"):
+            solve(one)

@@ -1,0 +1,234 @@
+"""Limits of time and of everything else; the same answer twice; documents that come back as they went."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import tracemalloc
+from collections.abc import Callable
+
+import pytest
+
+from facade_nb import Design, Layout, NoLayout, gallery, solve
+from facade_nb.design import edit
+from facade_nb.solver import Objective, solving
+from tests.oracle.designs import design, make_design
+
+STOPPED = "The search was stopped before any layout was found."
+SIX = "A^a B^b C^c D^d E^e F^f"
+SIZES = {name: 0.3 + 0.07 * n for n, name in enumerate("ABCDEF")}
+
+
+@pytest.fixture(autouse=True)
+def nothing_kept() -> None:
+    """Solved axes are kept between calls; here each call does its own work."""
+    solving._cache.clear()
+
+
+class Stopper:
+    """A `should_stop` that turns true after so many calls, and counts them."""
+
+    def __init__(self, after: int) -> None:
+        self.after, self.calls = after, 0
+
+    def __call__(self) -> bool:
+        self.calls += 1
+        return self.calls > self.after
+
+
+class TestShouldStop:
+    def test_at_once(self) -> None:
+        stop = Stopper(0)
+        with pytest.raises(NoLayout) as caught:
+            solve(gallery.load("terraced-house"), should_stop=stop, time_limit=None)
+        assert str(caught.value) == STOPPED
+        assert stop.calls <= 2
+
+    def test_is_not_asked_again_for_long(self) -> None:
+        """Whenever it turns true, the search ends after a few more calls."""
+        for after in (1, 10, 100, 1000):
+            stop = Stopper(after)
+            with contextlib.suppress(NoLayout):
+                solve(gallery.load("terraced-house"), should_stop=stop, time_limit=None)
+            assert stop.calls <= after + 8
+
+    @pytest.mark.parametrize("objective", [Objective(), Objective.paper()], ids=["default", "paper"])
+    @pytest.mark.parametrize("seed", [3, 12, 28, 33, 34, 40])
+    def test_at_any_moment(self, seed: int, objective: Objective) -> None:
+        """Also while it is found out why there is no layout: a layout, or `NoLayout`, and nothing else."""
+        one = make_design(seed)
+        after = 0
+        while True:
+            solving._cache.clear()
+            stop = Stopper(after)
+            try:
+                layout = solve(one, objective=objective, should_stop=stop, time_limit=None)
+                assert layout.complete or stop.calls > after
+            except NoLayout as error:
+                assert str(error)
+            if stop.calls <= after:
+                break
+            after += 1 if after < 30 else after // 5
+
+    def test_what_was_found_until_then_is_marked(self) -> None:
+        """Going through the moments in which it can be stopped, some give a layout that is not the last word."""
+        one = gallery.load("residential-house")
+        full = solve(one)
+        seen = set()
+        for after in range(0, 400, 4):
+            solving._cache.clear()
+            try:
+                layout = solve(one, should_stop=Stopper(after), time_limit=None)
+            except NoLayout as error:
+                assert str(error) == STOPPED
+                continue
+            seen.add(layout.complete)
+            if not layout.complete:
+                assert not (layout.x.proven and layout.y.proven)
+                assert layout.x.cost + layout.y.cost >= full.x.cost + full.y.cost - 1e-9
+                bounds = [axis.cost - axis.gap for axis in (layout.x, layout.y)]
+                assert sum(bounds) <= full.x.cost + full.y.cost + 1e-6
+        assert True in seen
+
+    def test_never_asked_without_layers(self) -> None:
+        stop = Stopper(0)
+        assert solve(Design(), should_stop=stop).shapes == ()
+        assert stop.calls == 0
+
+
+class TestTimeLimit:
+    def test_none_at_all(self) -> None:
+        with pytest.raises(NoLayout, match=STOPPED):
+            solve(gallery.load("terraced-house"), time_limit=0.0)
+
+    @pytest.mark.timeout(30)
+    def test_six_counters_and_no_layout(self) -> None:
+        """Nothing of the lower row is opaque, and neither is anything of the upper one but Z, which is too small."""
+        symbols = {name: {"size": size, "opaque": False} for name, size in SIZES.items()} | {"Z": 0.01}
+        one = design(symbols, {"a": SIX, "z": f"{SIX} Z"}, ["a", "z"], 6.0)
+        with pytest.raises(NoLayout) as caught:
+            solve(one, time_limit=2.0)
+        assert str(caught.value)
+
+    @pytest.mark.timeout(30)
+    def test_six_counters_in_two_orders(self) -> None:
+        one = design(SIZES, {"a": SIX, "b": "F^a A^b B^c C^d D^e E^f"}, ["a", "b"], 6.0)
+        layout = solve(one, time_limit=20.0)
+        assert layout.x.gap >= 0.0 and layout.x.proven == (layout.x.gap == 0.0 and layout.complete)
+
+    @pytest.mark.timeout(30)
+    @pytest.mark.parametrize("text", ["e^k m; m := A^4", "A^4 ε^k"])
+    def test_a_counter_of_nothing_with_a_bound_that_nobody_meant(self, text: str) -> None:
+        one = design({"A": 1.0}, {"a": text, "w": "A^4"}, ["a", "w"], counters={"k": {"max": 10**9}})
+        assert solve(one, time_limit=2.0).x.cost == pytest.approx(0.0, abs=1e-9)
+
+    @pytest.mark.timeout(30)
+    def test_many_alternatives(self) -> None:
+        one = design({"A": 1.0, "B": 0.9}, {"a": "(A|B)" * 13}, ["a"], 12.0)
+        try:
+            layout = solve(one, time_limit=3.0)
+        except NoLayout as error:
+            pytest.fail(f"8192 words, one of which fits at once: {error}")
+        assert layout.x.cost < 0.5
+
+    def test_memory_is_bounded(self) -> None:
+        """A million combinations of counters are not all kept."""
+        tracemalloc.start()
+        try:
+            solve(design(SIZES, {"a": SIX}, ["a"], 6.0), time_limit=20.0)
+            _, peak = tracemalloc.get_traced_memory()
+        finally:
+            tracemalloc.stop()
+        assert peak < 200e6
+
+    def test_solved_axes_kept_are_few(self) -> None:
+        one = design({"A": 1.0}, {"a": "A^k"}, ["a"])
+        for n in range(150):
+            solve(edit.with_canvas(one, width=4.0 + n / 100))
+        assert len(solving._cache) <= 64
+
+
+class TestArguments:
+    def test_search(self) -> None:
+        with pytest.raises(ValueError, match="search: expected 'best' or 'ida', found 'bfs'"):
+            solve(gallery.load("figure-7"), search="bfs")
+
+
+class TestEmptyDesigns:
+    @pytest.mark.parametrize("one", [Design(), gallery.steps("residential-house")[0]], ids=["new", "step 0"])
+    def test_nothing_to_solve(self, one: Design) -> None:
+        layout = solve(one)
+        assert layout.shapes == () and layout.counters == {} and layout.complete
+        assert layout.x.groups == {} and layout.x.proven and layout.x.cost == 0.0
+        assert Layout.from_dict(json.loads(json.dumps(layout.to_dict()))) == layout
+
+    def test_only_layers_that_are_not_visible(self) -> None:
+        one = design({"A": 9.0}, {"a": "A"}, ["a"])
+        hidden = edit.with_layer(one, "L0", visible=False)
+        assert solve(hidden).shapes == ()
+
+    def test_only_the_empty_word(self) -> None:
+        """A layer that has no letter fills nothing: there is no layout, and no traceback."""
+        with pytest.raises(NoLayout, match="'a'"):
+            solve(design({}, {"a": "ε"}, ["a"]))
+
+
+@pytest.mark.parametrize("name", ["figure-7", "qualifiers-a", "qualifiers-b", "qualifiers-c", "qualifiers-d", "teaser",
+                                  "residential-house"])  # fmt: skip
+def test_both_searches_give_one_cost(name: str) -> None:
+    one = gallery.load(name)
+    ours, paper = solve(one, time_limit=None), solve(one, search="ida", time_limit=None)
+    for axis in ("x", "y"):
+        assert paper.along(axis).cost == pytest.approx(ours.along(axis).cost, abs=1e-6)  # type: ignore[arg-type]
+        assert paper.along(axis).proven and ours.along(axis).proven  # type: ignore[arg-type]
+
+
+def twice(make: Callable[[], Layout]) -> tuple[Layout, Layout]:
+    """The same work done twice, nothing kept between."""
+    solving._cache.clear()
+    first = make()
+    solving._cache.clear()
+    return first, make()
+
+
+@pytest.mark.parametrize("name", gallery.names())
+class TestGallery:
+    def test_the_same_twice(self, name: str) -> None:
+        one = gallery.load(name)
+        first, second = twice(lambda: solve(one, time_limit=None))
+        assert first.to_dict() == second.to_dict()
+
+    def test_a_trace_changes_nothing(self, name: str) -> None:
+        one = gallery.load(name)
+        plain, traced = solve(one, time_limit=None), solve(one, trace=True, time_limit=None)
+        assert traced.to_dict() == plain.to_dict()
+        assert plain.trace is None and traced.trace.events
+
+    def test_there_and_back(self, name: str) -> None:
+        """Dragging an edge and letting it go where it was leaves no mark."""
+        one = gallery.load(name)
+        before = solve(one, time_limit=None)
+        try:
+            solve(edit.with_canvas(one, width=one.canvas.width * 1.05), time_limit=5.0)
+        except NoLayout as error:
+            assert str(error)
+        assert solve(one, time_limit=None) == before
+
+    def test_documents(self, name: str) -> None:
+        layout = solve(gallery.load(name), time_limit=None)
+        text = json.dumps(layout.to_dict(), allow_nan=False)
+        again = Layout.from_dict(json.loads(text))
+        assert again == layout
+        assert json.dumps(again.to_dict(), allow_nan=False) == text
+        assert layout.to_dict()["format"] == "facade-nb/layout/1"
+
+    def test_trace_documents(self, name: str) -> None:
+        trace = solve(gallery.load(name), trace=True, time_limit=None).trace.to_dict()
+        assert trace["format"] == "facade-nb/trace/1"
+        assert json.loads(json.dumps(trace, allow_nan=False)) == json.loads(json.dumps(trace))
+
+
+def test_a_layout_depends_on_one_axis_only_where_it_is_edited() -> None:
+    """An edit of the height leaves what is across untouched."""
+    one = gallery.load("qualifiers-a")
+    assert solve(one).x == solve(edit.with_canvas(one, height=one.canvas.height * 1.02)).x
