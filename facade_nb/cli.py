@@ -12,10 +12,11 @@ import json
 import sys
 import tempfile
 from collections.abc import Sequence
+from math import inf
 from pathlib import Path
 
 from . import Design, DesignError, Layout, NoLayout, __version__, solve
-from .design.files import write_atomically
+from .design.files import write_together
 
 __all__ = ["main"]
 
@@ -39,7 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         ("glb", "the mesh (binary glTF)"),
     ):
         solving.add_argument(f"--{name}", metavar="FILE", help=f"write {what}")
-    solving.add_argument("--time-limit", type=float, default=10.0, metavar="SECONDS", help="default: 10")
+    solving.add_argument("--time-limit", type=_seconds, default=10.0, metavar="SECONDS", help="default: 10")
     options = parser.parse_args(argv)
     try:
         return _solve(options)
@@ -52,6 +53,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("Stopped.", file=sys.stderr)
         return 130
+
+
+def _seconds(text: str) -> float:
+    """A time in seconds."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0 <= value < inf:
+        raise argparse.ArgumentTypeError(f"expected seconds, 0 or more; found {text!r}")
+    return value
 
 
 def _solve(options: argparse.Namespace) -> int:
@@ -70,10 +82,10 @@ def _solve(options: argparse.Namespace) -> int:
     except RuntimeError as error:  # no backend can draw here; the message says what would help
         print(error, file=sys.stderr)
         return 1
-    for path, data in files:
-        write_atomically(path, data)
+    write_together(files)
     if not options.out:
-        sys.stdout.write(text)
+        sys.stdout.buffer.write(text.encode())  # a document is UTF-8, whatever the terminal's encoding
+        sys.stdout.flush()
     for warning in layout.warnings:
         print(f"Note: {warning}", file=sys.stderr)
     return 0

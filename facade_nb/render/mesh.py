@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,11 @@ if TYPE_CHECKING:
     from trimesh.visual.material import PBRMaterial
 
 __all__ = ["node_name", "to_trimesh", "write_glb"]
+
+
+_NOTHING = b'{"asset":{"version":"2.0"},"scene":0,"scenes":[{}]} '
+_EMPTY = struct.pack("<4sIIII", b"glTF", 2, 20 + len(_NOTHING), len(_NOTHING), 0x4E4F534A) + _NOTHING
+"""A GLB file without anything in it, which trimesh does not write: header, then one chunk of JSON."""
 
 
 def to_trimesh(scene: Scene) -> trimesh.Scene:
@@ -71,8 +77,12 @@ def write_glb(layout: Layout, path: str | Path) -> Path:
     DesignError
         For a shape with an unknown geometry or material, or a file that cannot be written.
     """
-    scene = to_trimesh(build_scene(layout))
-    write_atomically(path, scene.export(file_type="glb", include_normals=True))
+    data = (
+        to_trimesh(build_scene(layout)).export(file_type="glb", include_normals=True)
+        if layout.shapes
+        else _EMPTY
+    )
+    write_atomically(path, data)
     return Path(path)
 
 

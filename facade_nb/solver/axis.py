@@ -284,14 +284,17 @@ class AxisSearch:
                     best.bound = min(best.bound, case.floor)
                     if solved.beats(best.solved):
                         best.solved = solved
-                elif not all(run.done for run in case.runs):
+                elif case.floor < inf and not all(run.done for run in case.runs):
                     # where the limit was the best answer's cost, nothing as good is left in this candidate
                     beyond = top + 2 * EPS if limit >= top else own
                     heappush(queue, (max(beyond, case.floor), n))
         except Stopped as stop:
             best.complete = False
-            if best.solved is None and not stop.asked:
-                best.solved = self._hasty()
+            if stop.asked:
+                best.bound = min(best.bound, floor)
+                return best
+        if best.solved is None and not best.complete:
+            best.solved = self._hasty()
         best.bound = min(best.bound, floor, self._left_out())
         self._tell_fates(best)
         return best
@@ -378,9 +381,11 @@ class AxisSearch:
             case.solved = self._size(case, [run.ties for run in case.runs])
         if case.solved is None and not case.unsizable:
             case.unsizable = True
-            if len(case.runs) == 1:
-                case.runs = [self._run(case.groups, lambda priced: self._size(case, [[priced]]) is not None)]
-                return self.solve(case, limit)
+            case.clusters = [
+                list(range(len(case.groups)))
+            ]  # which structures fit each other is asked as they come
+            case.runs = [self._run(case.groups, lambda priced: self._size(case, [[priced]]) is not None)]
+            return self.solve(case, limit)
         return case.solved
 
     def _open(self, case: _Case) -> None:

@@ -76,7 +76,9 @@ class CandidateStream:
                 self._check()
             bound, depth, _, chosen, values = heappop(self._queue)
             if -depth == len(self._names):
-                return Candidate(chosen, values, bound)
+                if _all_long_enough(self._problem, chosen, self._above, self._tolerance):
+                    return Candidate(chosen, values, bound)
+                continue
             name = self._names[-depth]
             for word in self._words[name]:
                 if any(values.get(counter, value) != value for counter, value in word.counters.items()):
@@ -114,7 +116,7 @@ def candidates(
             check()
         if k == len(names):
             bound = bounds.of(chosen)
-            if bound < inf:
+            if bound < inf and _all_long_enough(problem, chosen, above, tolerance):
                 yield Candidate(dict(chosen), dict(values), bound)
             return
         name = names[k]
@@ -194,6 +196,18 @@ def _long_enough(
         if word.size < problem.canvas - tolerance - room - EPS:
             return False
     return True
+
+
+def _all_long_enough(
+    problem: AxisProblem,
+    chosen: Mapping[str, Word],
+    above: Mapping[str, Sequence[Sequence[str]]],
+    tolerance: float,
+) -> bool:
+    """Eq. 7 once more, for patterns that were chosen before some that stand above them in another group."""
+    return len(problem.groups) == 1 or all(
+        _long_enough(problem, name, chosen, above[name], tolerance) for name in chosen
+    )
 
 
 def rows_of(

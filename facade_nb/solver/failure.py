@@ -11,9 +11,11 @@ from ..design.model import Axis, Design, Symbol
 from .analysis import analyse
 from .axis import AxisSearch, Best
 from .problem import AxisProblem
+from .search import Stopped
 
 __all__ = ["explain"]
 
+_STOPPED = "The search was stopped before any layout was found."
 _EXTENT: dict[Axis, str] = {"x": "wide", "y": "high"}
 _SIZE: dict[Axis, str] = {"x": "width", "y": "height"}
 
@@ -27,9 +29,18 @@ def explain(
     shared: Sequence[str] = (),
 ) -> NoLayout:
     """The reason why `walk` found nothing. `other` is the other axis, where counters tie the two."""
+    try:
+        return _explain(design, walk, best, other, shared)
+    except Stopped:
+        return NoLayout(_STOPPED, walk.problem.axis)
+
+
+def _explain(
+    design: Design, walk: AxisSearch, best: Best, other: AxisSearch | None, shared: Sequence[str]
+) -> NoLayout:
     problem = walk.problem
     if not best.complete:
-        return NoLayout("The search was stopped before any layout was found.", problem.axis)
+        return NoLayout(_STOPPED, problem.axis)
     for side in (walk, *([other] if other else [])):
         proof = analyse(side.problem).blame("binding")
         if proof is not None:
@@ -38,20 +49,33 @@ def explain(
         if reason is not None:
             return reason
     if other is not None:
-        names = ", ".join(repr(c) for c in shared)
-        return NoLayout(
-            f"Counter {names} is used both across and up, and no value of it fits both: across it can be "
-            f"{_values(walk, shared)}, up {_values(other, shared)}. Use "
-            "another name on one axis, or change the canvas.",
-            counters=tuple(shared),
-        )
+        across, up = _values(walk, shared), _values(other, shared)
+        if not across & up:
+            names = ", ".join(repr(c) for c in shared)
+            return NoLayout(
+                f"Counter {names} is used both across and up, and no value of it fits both: across it can be "
+                f"{_list(across)}, up {_list(up)}. Use another name on one axis, or change the canvas.",
+                counters=tuple(shared),
+            )
+        likely = next((side for side in (walk, other) if not _aligns(side)), walk)
+        return _constraint(design, likely, best)
     return _constraint(design, walk, best)
 
 
-def _values(walk: AxisSearch, names: Sequence[str]) -> str:
-    found = sorted({tuple(c.counters[n] for n in names) for c in islice(walk.in_order(), 200)})
-    shown = ", ".join("/".join(map(str, v)) for v in found[:8])
-    return (shown + (", …" if len(found) > 8 else "")) or "nothing"
+def _values(walk: AxisSearch, names: Sequence[str]) -> set[tuple[int, ...]]:
+    return {tuple(c.counters[n] for n in names) for c in islice(walk.in_order(), 200)}
+
+
+def _list(values: set[tuple[int, ...]]) -> str:
+    shown = ", ".join("/".join(map(str, v)) for v in sorted(values)[:8])
+    return (shown + (", …" if len(values) > 8 else "")) or "nothing"
+
+
+def _aligns(walk: AxisSearch) -> bool:
+    """Whether some likely candidate of the axis aligns, whatever its counters."""
+    trial = walk.restricted({})
+    likely = (trial.stream.take() for _ in range(8)) if trial.stream else ()
+    return any(c is not None and trial.solve(trial.case(c)) is not None for c in likely)
 
 
 def _too_long(walk: AxisSearch) -> NoLayout | None:
@@ -133,21 +157,24 @@ def _constraint(design: Design, walk: AxisSearch, best: Best) -> NoLayout:
     """Try again without one qualifier at a time; the first that helps is to blame."""
     problem = walk.problem
     for name, symbol in problem.symbols:
-        for quality, relaxed, meaning in _relaxed(symbol):
+        for quality, relaxed, meaning, remedy in _relaxed(symbol):
             if _solvable(walk, problem, name, relaxed):
                 return NoLayout(
                     f"{name!r} is {quality}, and {meaning}: every alignment {_along(problem.axis)} breaks that. "
-                    f"It would work if {name!r} were not {quality}.",
+                    f"It would work if {name!r} were {remedy}.",
                     problem.axis,
                     symbols=(name,),
                 )
     if best.unsizable:
+        bounded = tuple(n for n, s in problem.symbols if s.min is not None or s.max is not None)
+        blamed = bounded or tuple(n for n, s in problem.symbols if s.size is not None)
         return NoLayout(
-            f"The words can be aligned {_along(problem.axis)}, but no sizes satisfy all of the alignment at "
-            "once: symbols that must have one size everywhere, or their min and max, contradict each other.",
+            f"The words can be aligned {_along(problem.axis)}, but no sizes satisfy all of the alignment at once: "
+            f"{', '.join(map(repr, blamed[:6]))} must each have one size everywhere, within their min and max, and "
+            "these demands contradict each other.",
             problem.axis,
             patterns=tuple(walk.found),
-            symbols=tuple(n for n, s in problem.symbols if s.min is not None or s.max is not None),
+            symbols=blamed,
         )
     shortest = next(walk.in_order(), None)
     words = ""
@@ -175,20 +202,17 @@ def _along(axis: Axis) -> str:
     return "across" if axis == "x" else "up"
 
 
-def _relaxed(symbol: Symbol) -> list[tuple[str, Symbol, str]]:
-    out: list[tuple[str, Symbol, str]] = []
+def _relaxed(symbol: Symbol) -> list[tuple[str, Symbol, str, str]]:
+    out: list[tuple[str, Symbol, str, str]] = []
     if symbol.unoccludable:
-        out.append(
-            (
-                "unoccludable",
-                replace(symbol, unoccludable=False),
-                "nothing that is not opaque may stand before it",
-            )
-        )
+        meaning = "nothing that is not opaque may stand before it"
+        out.append(("unoccludable", replace(symbol, unoccludable=False), meaning, "not unoccludable"))
     if symbol.attached:
-        out.append(("attached", replace(symbol, attached=False), "no gap may open beside it"))
+        out.append(("attached", replace(symbol, attached=False), "no gap may open beside it", "not attached"))
     if not symbol.opaque and not symbol.transparent:
-        out.append(("not opaque", replace(symbol, opaque=True), "something opaque must stand behind it"))
+        out.append(
+            ("not opaque", replace(symbol, opaque=True), "something opaque must stand behind it", "opaque")
+        )
     return out
 
 

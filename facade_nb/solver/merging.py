@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
+from itertools import product
 
 from ..design.model import AXES, Axis, Canvas, Design, Layer, Shape
 from .layout import AxisLayout, PlacedLetter, PlacedShape, Rect
@@ -165,29 +166,24 @@ def hole_warnings(design: Design, x: AxisLayout, y: AxisLayout, holes: Sequence[
 
 
 def _pushers(design: Design, axes: Mapping[Axis, AxisLayout], hole: Rect) -> Iterator[str]:
+    """The solid letters that stand in a hole, from the top, each with what hides it there."""
     for layer in design.stack:
-        here: dict[Axis, PlacedLetter | None] = {}
-        for axis in AXES:
-            low, high = (hole[0], hole[2]) if axis == "x" else (hole[1], hole[3])
-            here[axis] = next(
-                (
-                    a
-                    for a in axes[axis].row(layer.name).letters
-                    if not a.transparent and a.start < (low + high) / 2 < a.end
-                ),
-                None,
-            )
-        h, v = here["x"], here["y"]
-        if h is None or v is None:
-            continue
-        stands = (
-            f"{h.symbol} {v.symbol} of layer {layer.name!r} stands there and pushed the others aside, but "
-        )
-        for axis, letter in zip(AXES, (h, v), strict=True):
-            own = layer.along(axis)
-            if own.mask is not None and letter.symbol not in own.mask:
-                yield f"{stands}its {axis} mask hides {letter.symbol}"
-            elif letter.symbol in design.patterns[own.pattern].hidden:
-                yield f"{stands}pattern {own.pattern!r} hides {letter.symbol}"
-        if not shape_of(design, layer, h.symbol, v.symbol).visible:
-            yield f"{stands}it is not visible"
+        across = _standing(axes["x"], layer.name, hole[0], hole[2])
+        up = _standing(axes["y"], layer.name, hole[1], hole[3])
+        for h, v in product(across, up):
+            stands = f"{h.symbol} {v.symbol} of layer {layer.name!r} stands there and pushed the others aside, but "
+            for axis, letter in zip(AXES, (h, v), strict=True):
+                own = layer.along(axis)
+                if own.mask is not None and letter.symbol not in own.mask:
+                    yield f"{stands}its {axis} mask hides {letter.symbol}"
+                elif letter.symbol in design.patterns[own.pattern].hidden:
+                    yield f"{stands}pattern {own.pattern!r} hides {letter.symbol}"
+            if not shape_of(design, layer, h.symbol, v.symbol).visible:
+                yield f"{stands}it is not visible"
+
+
+def _standing(solved: AxisLayout, layer: str, low: float, high: float) -> list[PlacedLetter]:
+    """Solid letters of a layer that reach into an interval, those with most of it first."""
+    letters = [a for a in solved.row(layer).letters if not a.transparent]
+    reach = {id(a): min(a.end, high) - max(a.start, low) for a in letters}
+    return sorted((a for a in letters if reach[id(a)] > _NEAR), key=lambda a: -reach[id(a)])

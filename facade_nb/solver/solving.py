@@ -88,7 +88,7 @@ def forget() -> None:
 
 
 class _Clock:
-    """The time that a search may take, and whether it is still wanted. The axes share it: half, then the rest."""
+    """The time that a search may take, and whether it is still wanted. The axes share it: x has three quarters."""
 
     def __init__(self, limit: float | None, should_stop: Callable[[], bool] | None) -> None:
         self._begin, self._limit, self._should_stop = time.monotonic(), limit, should_stop
@@ -141,7 +141,7 @@ class _Run:
             solved = self._tied()
         else:
             solved = {}
-            for axis, part in zip(AXES, (0.5, 1.0), strict=True):
+            for axis, part in zip(AXES, (0.75, 1.0), strict=True):
                 self.clock.allot(part)
                 solved[axis] = self._axis(axis, self.tolerances[-1])
         return self._assemble(solved)

@@ -96,18 +96,24 @@ def instances(
         fits: list[int] = []
         for direction in (1, -1):
             value = nearest_zero[name] if direction == 1 else nearest_zero[name] - 1
-            previous: float | None = None
+            previous: list[float] = []
             still = 0
             while _inside(bounds, value):
-                size = min(word.size for word in spell({**rest, **values, name: value}))
-                if size > limit + EPS:
+                if check is not None:
+                    check()
+                sizes = [word.size for word in spell({**rest, **values, name: value})]
+                within = sorted(size for size in sizes if size <= limit + EPS)
+                if not within:
                     break
-                still = still + 1 if previous is not None and size <= previous + EPS else 0
-                if still >= MAX_COPIES and bounds.max is None:
-                    endless.add(name)
+                still = still + 1 if within == previous else 0
+                if still >= MAX_COPIES and (bounds.max is None or bounds.max - value > MAX_COPIES):
+                    if len(within) == len(
+                        sizes
+                    ):  # else some word has grown too long: what is left has no such count
+                        endless.add(name)
                     break
                 fits.append(value)
-                previous = size
+                previous = within
                 value += direction
         return sorted(fits)
 

@@ -322,7 +322,7 @@ class TestOptimality:
         assert self.residual(weight, target, rows, low, high, found) <= 1e-8
         slow = slowly(weight, target, rows, low, high, start)
         ours = float(np.sum(weight * (found.x - target) ** 2))
-        assert slow is None or ours == pytest.approx(slow, abs=1e-6)
+        assert slow is None or ours <= slow + 1e-6  # SLSQP may stop short; what has no residual is optimal
 
     def test_an_equation_twice_and_one_that_follows_from_others(self) -> None:
         rows = np.array([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 2.0, 1.0]])

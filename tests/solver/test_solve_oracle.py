@@ -194,12 +194,15 @@ class TestSubstitutedHereAndStandingThere:
 
     @pytest.mark.timeout(30)
     def test_across_groups(self) -> None:
-        one = design(
-            {"A": 1.0, "B": 0.5, "C": 2.5},
-            {"s": "me; m := B^k", "t": "mt; t := A", "c": "C"},
-            [("s", "g"), ("c", "g"), ("t", "f"), ("c", "f")],
-            width=2.5,
-        )
+        patterns = {"s": "me; m := B^k", "t": "mt; t := A"}
+        one = design({"A": 1.0, "B": 0.5}, patterns, [("s", "g"), ("t", "f")], width=2.5)
         layout = compare(one)
         assert layout is not None and layout.x.proven
         assert layout.x.sizes["m"] == pytest.approx(layout.counters["k"] * layout.x.sizes["B"])
+
+    @pytest.mark.timeout(30)
+    def test_across_groups_that_contradict_each_other(self) -> None:
+        """C alone fills the canvas in one group and must leave room for A in the other."""
+        patterns = {"s": "me; m := B^k", "t": "mt; t := A", "c": "C"}
+        layers = [("s", "g"), ("c", "g"), ("t", "f"), ("c", "f")]
+        assert compare(design({"A": 1.0, "B": 0.5, "C": 2.5}, patterns, layers, width=2.5)) is None
