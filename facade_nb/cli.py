@@ -34,7 +34,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     solving.add_argument("design", metavar="DESIGN.json", help="the design document")
     for name, what in (
         ("out", "the layout document (JSON)"),
-        ("trace", "every stage of the solver as events (JSON)"),
+        ("trace", "what the solver did, as events (JSON)"),
         ("svg", "the elevation (SVG)"),
         ("png", "a lit picture (PNG, needs OSMesa or EGL)"),
         ("glb", "the mesh (binary glTF)"),

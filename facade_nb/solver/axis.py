@@ -154,7 +154,7 @@ class AxisSearch:
     method: str = "best"
     check: Callable[[], None] | None = None
     trace: Trace | None = None
-    late: Callable[[], None] | None = None
+    extend: Callable[[], None] | None = None
     found: dict[str, Instances] = field(default_factory=dict)
     cases: list[_Case] = field(default_factory=list)
     runs: dict[object, _Run] = field(default_factory=dict)
@@ -202,7 +202,7 @@ class AxisSearch:
             self.method,
             self.check,
             self.trace,
-            self.late,
+            self.extend,
             found,
             runs=self.runs,
         )
@@ -302,18 +302,20 @@ class AxisSearch:
     def _hasty(self) -> Solved | None:
         """Any layout of one of the likeliest candidates, for when the time is up and there is none yet."""
         best: Solved | None = None
+        if self.extend is not None:
+            self.extend()
         likely = sorted(self.cases, key=lambda case: case.floor)[:3]
         try:
             if not likely:
                 stream = CandidateStream(
-                    self.problem, self.words(), self.tolerance, self.objective, self.late
+                    self.problem, self.words(), self.tolerance, self.objective, self.check
                 )
                 candidate = stream.take()
                 likely = [] if candidate is None else [self.case(candidate)]
             for case in likely:
                 if not case.runs:
                     self._open(case)
-                parts = [plunge([case.groups[g] for g in cluster], self.late) for cluster in case.clusters]
+                parts = [plunge([case.groups[g] for g in cluster], self.check) for cluster in case.clusters]
                 found = [[priced] for priced in parts if priced is not None]
                 solved = self._size(case, found) if len(found) == len(parts) else None
                 if solved is not None and solved.beats(best):
@@ -421,7 +423,12 @@ class AxisSearch:
             free = lone_unsized(*(dict.fromkeys(rows[g]) for g in cluster))
             for g in cluster:
                 groups[g] = make_group(
-                    rows[g], self.problem.canvas, self.tolerance, self.objective, free=free
+                    rows[g],
+                    self.problem.canvas,
+                    self.tolerance,
+                    self.objective,
+                    free=free,
+                    check=self.check,
                 )
         return groups, clusters
 

@@ -16,7 +16,7 @@ Constraints, by the numbers of SPEC 3:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from math import inf
 from typing import Any
@@ -95,8 +95,10 @@ class Band:
         cuts: bool,
         free: frozenset[str],
         origins: tuple[tuple[tuple[str, int] | None, ...], ...],
+        check: Callable[[], None] | None = None,
     ) -> None:
         self.origins = origins
+        self.check = check
         self.letters = tuple(letters)
         self.rows = tuple(rows)
         self.top, self.bottom = min(rows), max(rows)
@@ -166,6 +168,8 @@ class Band:
         """Every element the band may put into the next column: ε first, then runs by length."""
         found = self._options.get(position)
         if found is None:
+            if self.check is not None:
+                self.check()
             found = self._options[position] = tuple(self._make(position))
         return found
 
@@ -304,6 +308,7 @@ def make_group(
     *,
     cuts: bool = True,
     free: frozenset[str] | None = None,
+    check: Callable[[], None] | None = None,
 ) -> Group:
     """Gather equal words and prepare the bands.
 
@@ -314,6 +319,8 @@ def make_group(
     free
         Unsized symbols that stand once in all that is aligned together: nothing ties their size. None:
         counted here.
+    check
+        Called now and then; may raise `search.Stopped`.
     """
     words: dict[tuple[Letter, ...], list[int]] = {}
     for index, row in enumerate(rows):
@@ -325,7 +332,7 @@ def make_group(
     if free is None:
         free = lone_unsized(words)
     bands = tuple(
-        Band(word, indices, cuts=cuts, free=free, origins=own)
+        Band(word, indices, cuts=cuts, free=free, origins=own, check=check)
         for (word, indices), own in zip(words.items(), origins, strict=True)
     )
     band_of = [0] * len(rows)

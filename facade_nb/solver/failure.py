@@ -106,7 +106,8 @@ def _no_words(walk: AxisSearch) -> NoLayout | None:
         if any(letter.size is None for word in found.words for letter in word.letters):
             continue
         longest = max(found.words, key=lambda word: word.size)
-        if longest.size < problem.canvas - walk.tolerance - 1e-9 and not _pushed(walk, name):
+        room = problem.canvas - walk.tolerance - _inserted(walk, name)
+        if longest.size < room - 1e-9:
             bounded = [c for c in longest.counters if _bounded(problem, c)]
             hint = f" Counter {bounded[0]!r} would have to go further." if bounded else ""
             return NoLayout(
@@ -129,9 +130,19 @@ def _bounded(problem: AxisProblem, counter: str) -> bool:
     return own is not None and (own.max is not None or own.value is not None)
 
 
-def _pushed(walk: AxisSearch, name: str) -> bool:
-    """Whether some pattern stands above this one in a group."""
-    return any(name in rows[1:] for _, rows in walk.problem.groups)
+def _inserted(walk: AxisSearch, name: str) -> float:
+    """How much the opaque letters of the patterns above this one may add, in the group where they add most."""
+    most = 0.0
+    for _, rows in walk.problem.groups:
+        if name in rows:
+            above = dict.fromkeys(rows[: rows.index(name)])
+            most = max(most, sum(_opaque(walk, other) for other in above if other != name))
+    return most
+
+
+def _opaque(walk: AxisSearch, name: str) -> float:
+    words = walk.found[name].words
+    return max((sum(a.size or 0.0 for a in word.letters if a.opaque) for word in words), default=0.0)
 
 
 def _no_candidate(walk: AxisSearch) -> NoLayout | None:
@@ -166,6 +177,9 @@ def _constraint(design: Design, walk: AxisSearch, best: Best) -> NoLayout:
                     symbols=(name,),
                 )
     if best.unsizable:
+        reason = _out_of_bounds(walk)
+        if reason is not None:
+            return reason
         bounded = tuple(n for n, s in problem.symbols if s.min is not None or s.max is not None)
         blamed = bounded or tuple(n for n, s in problem.symbols if s.size is not None)
         return NoLayout(
@@ -186,6 +200,37 @@ def _constraint(design: Design, walk: AxisSearch, best: Best) -> NoLayout:
         problem.axis,
         patterns=tuple(walk.found),
     )
+
+
+def _out_of_bounds(walk: AxisSearch) -> NoLayout | None:
+    """A word that is longer than the canvas at the least sizes of its symbols, or shorter at their greatest."""
+    problem, symbols = walk.problem, walk.problem.symbol
+    candidate = next(walk.in_order(), None)
+    for name, word in candidate.words.items() if candidate else ():
+        own = [symbols[letter.symbol] for letter in word.letters]
+        least = sum(s.min or 0.0 for s in own)
+        if least > problem.canvas + 1e-9:
+            text = f"{_short(word)} of pattern {name!r} measures at least {least:.4g} m, by the min of"
+        elif (
+            own
+            and all(s.max is not None for s in own)
+            and sum(s.max or 0.0 for s in own) < problem.canvas - 1e-9
+        ):
+            most = sum(s.max or 0.0 for s in own)
+            text = (
+                f"{_short(word)} of pattern {name!r} measures at most {most:.4g} m, by the max of its symbols"
+            )
+        else:
+            continue
+        blamed = tuple(dict.fromkeys(s.name for s in own if s.min is not None or s.max is not None))
+        names = ", ".join(map(repr, blamed[:6]))
+        return NoLayout(
+            f"{text} {names}, and the canvas is {_canvas(problem)}.",
+            problem.axis,
+            patterns=(name,),
+            symbols=blamed,
+        )
+    return None
 
 
 def _advice(problem: AxisProblem) -> str:

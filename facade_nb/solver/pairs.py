@@ -46,8 +46,9 @@ class PairTable:
         self._part = 1.0 / pairs
         self._empty, self._loose = objective.empty * share, objective.loose * share
         self._plain = objective.plain
-        self._moves = (_moves(reference, self._loose), _moves(other, self._loose))
-        self._rows: list[list[float] | None] = [None] * len(self._moves[0])
+        self._words = (reference, other)
+        self._made: tuple[list[list[_Move]], list[list[_Move]]] | None = None
+        self._rows: list[list[float] | None] = [None] * (2 * len(reference.letters) + 1)
 
     def at(self, reference: Position, other: Position) -> float:
         """The bound where the two words stand at these positions."""
@@ -66,7 +67,12 @@ class PairTable:
         return found
 
     def _fill(self, p: int) -> list[float]:
-        moves_a, all_b = self._moves[0][p], self._moves[1]
+        if self._made is None:
+            self._made = (_moves(self._words[0], self._loose), _moves(self._words[1], self._loose))
+        check = self._words[0].check
+        if check is not None:
+            check()
+        moves_a, all_b = self._made[0][p], self._made[1]
         by_empty, by_loose, part, plain = self._empty, self._loose, self._part, self._plain
         last = len(all_b) - 1
         row = [inf] * (last + 1)
@@ -74,25 +80,32 @@ class PairTable:
         for q in range(last, -1, -1):
             best = 0.0 if q == last and not reach else inf
             moves_b = all_b[q]
+            solid = bool(moves_b) and not self._words[1].letters[q >> 1].transparent
             for end, size, own, _ in moves_b:  # the reference is empty
                 if end != q:
                     value = row[end] + own + (by_empty * part * size if size > 0 else 0.0)
                     if value < best:
                         best = value
             for size_a, own_a, soft_a, after in reach:
-                if own_a >= best or after is None:
+                if own_a >= best:
+                    break  # longer runs share more elements
+                if after is None:
                     continue
                 value = own_a + by_empty * size_a + after[q]  # the other is empty
                 if value < best:
                     best = value
+                up = part * (by_loose if soft_a else 1.0)  # a metre by which the reference is short
                 for end, size, own, soft in moves_b:
-                    value = own_a + own + after[end]
+                    value = own_a + own
                     if size >= 0:
                         over = size - size_a
-                        if over > 0:  # the reference is short: by ω, or loose if it need not fill the column
-                            value += over * part * (by_loose if soft_a else 1.0)
+                        if over > 0:
+                            value += over * up
+                            if value >= best and solid:
+                                break  # longer runs are dearer still
                         else:
                             value -= over * (by_loose if soft and not plain else part)
+                    value += after[end]
                     if value < best:
                         best = value
             row[q] = best

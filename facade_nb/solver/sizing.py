@@ -166,7 +166,9 @@ def size_axis(
     if first is None:
         return None
     x = _settle(system, np.array(build.pull), first.x)
-    at = x.tolist()
+    at = np.clip(
+        x, system.lower[: x.size], system.upper[: x.size]
+    ).tolist()  # the ends are 0 and the canvas exactly
     return Sized(
         {name: at[v] for name, v in build.size_of.items()},
         tuple(tuple(at[v] for v in own) for own in edges),

@@ -9,7 +9,7 @@ from itertools import product
 from math import inf
 from threading import Lock
 
-from ..design.errors import NoLayout
+from ..design.errors import DesignError, Fault, NoLayout
 from ..design.model import AXES, Axis, Design
 from .analysis import AnalysisDone, analyse
 from .axis import AxisSearch, Best, Solved
@@ -64,9 +64,24 @@ def solve(
 
     Raises
     ------
+    DesignError
+        For a canvas without extent.
     NoLayout
         Where there is none, or none was found in time; says what is to blame.
     """
+    if not isinstance(design, Design):
+        raise TypeError(
+            f"solve: expected a Design, found {type(design).__name__}; Design.from_dict reads a document"
+        )
+    for axis in AXES:
+        if not 0 < design.canvas.along(axis) < inf:
+            field = "width" if axis == "x" else "height"
+            found = design.canvas.along(axis)
+            raise DesignError(
+                Fault(f"canvas.{field}", f"expected a positive number of metres, found {found!r}")
+            )
+    if time_limit is not None and not time_limit >= 0:
+        raise ValueError(f"time_limit: expected seconds, 0 or more, found {time_limit!r}")
     if not tolerances or any(not 0 <= t <= 1 for t in tolerances) or list(tolerances) != sorted(tolerances):
         raise ValueError(
             f"tolerances: expected growing fractions of the canvas from 0 to 1, found {tolerances!r}"
@@ -92,24 +107,22 @@ class _Clock:
 
     def __init__(self, limit: float | None, should_stop: Callable[[], bool] | None) -> None:
         self._begin, self._limit, self._should_stop = time.monotonic(), limit, should_stop
-        self._part = 1.0
+        self.allot(1.0)
 
     def allot(self, part: float) -> None:
-        """From now on the search may go on until this part of the time has passed."""
+        """From now on the search may go on until this part of the time has passed, less what a last attempt needs."""
         self._part = part
+        self._end = 0.85 * part
+
+    def extend(self) -> None:
+        """Let the last attempt begin that follows a search without an answer: it has the rest of the part."""
+        self._end = self._part
 
     def check(self) -> None:
         """Raise `Stopped` where the search has to end."""
-        self._ask(0.85 * self._part)
-
-    def late(self) -> None:
-        """The same for the last attempt that follows a search without an answer."""
-        self._ask(self._part)
-
-    def _ask(self, part: float) -> None:
         if self._should_stop is not None and self._should_stop():
             raise Stopped(asked=True)
-        if self._limit is not None and time.monotonic() > self._begin + part * self._limit:
+        if self._limit is not None and time.monotonic() > self._begin + self._end * self._limit:
             raise Stopped
 
 
@@ -180,7 +193,7 @@ class _Run:
             self.search,
             self.clock.check,
             self.trace,
-            self.clock.late,
+            self.clock.extend,
         )
         self._analyse(problem)
         try:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import floor, inf, prod
+from numbers import Real
 
 from ..design.errors import DesignError, Fault, nearest
 from ..design.model import Counter, Symbol
@@ -191,7 +192,8 @@ def words(
     canvas, tolerance
         Metres.
     counters
-        Bounds ``(min, max)`` by name; default from 0 without an upper bound.
+        Bounds ``(min, max)`` by name; default from 0 without an upper bound. Other names than the pattern's are let
+        be, so that several patterns can be asked with the same bounds.
     unsized_step
         Sample unsized symbols at positive multiples of this many metres, as the paper's Figure 7 does.
         Without it a word with unsized letters is listed once, and kept where its sized letters leave them
@@ -212,21 +214,28 @@ def words(
     faults = [
         Fault(f"sizes.{name}", f"expected a positive size in metres, found {size!r}")
         for name, size in sizes.items()
-        if not 0 < size < inf
+        if not _is_length(size) or size == 0
+    ]
+    faults += [
+        Fault(what, f"expected metres, 0 or more, found {value!r}")
+        for what, value in (("canvas", canvas), ("tolerance", tolerance))
+        if not _is_length(value)
     ]
     faults += [
         Fault("pattern", f"symbol {name!r} stands for itself and needs a size{nearest(name, sizes)}")
         for name in parsed.symbols
         if name in parsed.solids and name not in sizes
     ]
-    if unsized_step is not None and not 0 < unsized_step < inf:
+    if unsized_step is not None and (not _is_length(unsized_step) or unsized_step == 0):
         faults.append(Fault("unsized_step", f"expected a positive length in metres, found {unsized_step!r}"))
-    bounds = {name: Counter(name, low, high) for name, (low, high) in (counters or {}).items()}
-    faults += [
-        Fault(f"counters.{name}", f"expected min ≤ max, found {c.min} and {c.max}")
-        for name, c in bounds.items()
-        if c.max is not None and c.min > c.max
-    ]
+    bounds: dict[str, Counter] = {}
+    for name, given in (counters or {}).items():
+        if not _is_range(given):
+            faults.append(Fault(f"counters.{name}", f"expected (min, max), whole numbers, found {given!r}"))
+        elif given[1] is not None and given[0] > given[1]:
+            faults.append(Fault(f"counters.{name}", f"expected min ≤ max, found {given[0]} and {given[1]}"))
+        else:
+            bounds[name] = Counter(name, given[0], given[1])
     if faults:
         raise DesignError(faults)
     found = instances(
@@ -244,6 +253,17 @@ def words(
         elif unsized or word.size >= canvas - tolerance - EPS:
             kept.append(word)
     return kept
+
+
+def _is_length(value: object) -> bool:
+    return not isinstance(value, bool) and isinstance(value, Real) and 0 <= float(value) < inf
+
+
+def _is_range(value: object) -> bool:
+    if not isinstance(value, Sequence) or len(value) != 2:
+        return False
+    low, high = value
+    return isinstance(low, int) and (high is None or isinstance(high, int))
 
 
 def _sample(word: Word, unsized: Sequence[str], step: float, limit: float) -> Iterator[Word]:

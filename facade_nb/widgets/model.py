@@ -119,16 +119,18 @@ class FacadeModel(HasTraits):
         design = _valid(change if isinstance(change, Design) else change(self.design))
         self._take(_Snapshot(*_settle(design, self.drafts)), key=key)
 
-    def enter(self, path: Path, value: Any) -> None:
+    def enter(self, path: Path | str, value: Any) -> None:
         """Take over what was typed into a field; where that gives no valid design, keep it as the field's draft.
 
         Parameters
         ----------
         path
-            The field, as `facade_nb.widgets.fields` names it: ``("patterns", "Bx", "text")``.
+            The field, as `facade_nb.widgets.fields` names it: ``("patterns", "Bx", "text")``, or with dots between.
         value
             What was typed or chosen: text, a truth value, a list of names, or None.
         """
+        if isinstance(path, str):  # as faults name their place
+            path = tuple(path.split("."))
         others = {other: draft for other, draft in self.drafts.items() if other != path}
         try:
             design = apply(self.design, path, value)

@@ -147,7 +147,9 @@ class TestConstraints:
     def test_sizes(self) -> None:
         one = design({"A": {"size": 1.9, "max": 1.95}}, {"wall": "AA"}, ["wall"])
         error = refused(one)
-        assert "no sizes satisfy all of the alignment at once" in str(error)
+        assert str(error) == (
+            "A A of pattern 'wall' measures at most 3.9 m, by the max of 'A', and the canvas is 4 m wide."
+        )
         assert error.symbols == ("A",) and error.axis == "x"
         wider = Design.from_dict(
             one.to_dict() | {"symbols": {**one.to_dict()["symbols"], "A": {"size": 1.9, "max": 2.0}}}
