@@ -217,9 +217,7 @@ def _out_of_bounds(walk: AxisSearch) -> NoLayout | None:
             and sum(s.max or 0.0 for s in own) < problem.canvas - 1e-9
         ):
             most = sum(s.max or 0.0 for s in own)
-            text = (
-                f"{_short(word)} of pattern {name!r} measures at most {most:.4g} m, by the max of its symbols"
-            )
+            text = f"{_short(word)} of pattern {name!r} measures at most {most:.4g} m, by the max of"
         else:
             continue
         blamed = tuple(dict.fromkeys(s.name for s in own if s.min is not None or s.max is not None))

@@ -201,7 +201,7 @@ class TestByHand:
 
     def test_bounds_that_contradict_each_other_name_their_symbols(self) -> None:
         one = design({"A": {"size": 1.9, "max": 1.95}, "B": 1.0}, {"a": "AA"}, ["a"])
-        with pytest.raises(NoLayout, match="measures at most 3.9 m, by the max of 'A'") as caught:
+        with pytest.raises(NoLayout, match=r"measures at most 3\.9 m, by the max of 'A'") as caught:
             solve(one)
         assert caught.value.symbols == ("A",) and caught.value.axis == "x"
         assert "'A'" in str(caught.value)
