@@ -48,7 +48,7 @@ _HARMLESS = (
     "favicon",
 )
 _LABS_OWN = re.compile(r"removeChild.*static/lab/jlab_core[^\n]*$", re.S)
-"""JupyterLab's toolbar now and then loses a node while the window and the theme change; nothing of ours is on the stack."""
+"""JupyterLab now and then loses a node while window and theme change; nothing of ours is on the stack."""
 
 _PANEL = "window.jupyterapp.shell.currentWidget"
 
