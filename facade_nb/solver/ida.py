@@ -13,9 +13,10 @@ from collections.abc import Callable, Sequence
 from math import inf
 
 from .columns import EPS, Group
-from .network import Network, Path, Seen
+from .network import Network, Path
 from .pricing import Priced, price
 from .search import Found
+from .seen import Seen
 
 __all__ = ["search_ida"]
 

@@ -18,8 +18,9 @@ from itertools import count
 from math import inf
 
 from .columns import EPS, Group
-from .network import Network, Path, Seen
+from .network import Network, Path
 from .pricing import Priced, price
+from .seen import Seen
 
 __all__ = ["BestFirst", "Found", "Stopped", "plunge", "search"]
 
