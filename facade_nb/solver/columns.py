@@ -160,10 +160,6 @@ class Band:
         i = position >> 3
         return self.rest_min[i + 1] if position & 4 else self.rest_min[i]
 
-    def at_most(self, position: Position) -> float:
-        """Greatest total size of what is still to come."""
-        return self.rest_max[position >> 3]
-
     def options(self, position: Position) -> tuple[Option, ...]:
         """Every element the band may put into the next column: ε first, then runs by length."""
         found = self._options.get(position)

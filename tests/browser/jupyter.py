@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import json
 import os
@@ -206,7 +207,7 @@ class Notebook:
             }}""",
             code,
         )
-        return json.loads(eval(text))  # the repr of a str of our own making
+        return json.loads(ast.literal_eval(text))  # the repr of a str
 
     def expect_python(self, expression: str, value: Any) -> None:
         """Wait until an expression in the kernel has a value: what was typed last may still be on its way."""
