@@ -74,9 +74,7 @@ def _solve(options: argparse.Namespace) -> int:
     if options.out:
         files.append((options.out, text))
     if options.trace:
-        files.append(
-            (options.trace, json.dumps(layout.trace.to_dict(), ensure_ascii=False, allow_nan=False) + "\n")
-        )
+        files.append((options.trace, layout.trace.to_json()))
     try:
         files += _drawings(options, layout)
     except RuntimeError as error:  # no backend can draw here; the message says what would help

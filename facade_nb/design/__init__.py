@@ -1,6 +1,6 @@
 """Designs: model, pattern language, documents, errors. Readable without numpy."""
 
-from .errors import DesignError, FacadeError, Fault, NoLayout, PatternError
+from .errors import DesignError, FacadeError, Fault, NoLayout, PatternError, Suggestion
 from .model import Canvas, Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol
 from .pattern import Glyph, Pattern, parse
 
@@ -19,6 +19,7 @@ __all__ = [
     "PatternDef",
     "PatternError",
     "Shape",
+    "Suggestion",
     "Symbol",
     "parse",
 ]

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from .document import read, write
-from .errors import DesignError, Fault, nearest
+from .errors import DesignError, Fault, Suggestion, nearest
 from .model import Design
 
 __all__ = [
@@ -18,6 +18,7 @@ __all__ = [
     "move_layer",
     "remove_layer",
     "rename_pattern",
+    "take",
     "with_canvas",
     "with_counter",
     "with_layer",
@@ -46,6 +47,18 @@ def with_counter(design: Design, name: str, /, **fields: Any) -> Design:
     document = write(design)
     _update(_member(document, "counters", name), fields)
     return read(document)
+
+
+def take(design: Design, suggestion: Suggestion) -> Design:
+    """The design with what a `NoLayout` suggests. Raises ValueError for what is no part of a design: `tolerances`."""
+    match suggestion.path:
+        case ("canvas", field):
+            return with_canvas(design, **{field: suggestion.value})
+        case ("counters", name, field):
+            return with_counter(design, name, **{field: suggestion.value})
+        case ("symbols", name, field):
+            return with_symbol(design, name, **{field: suggestion.value})
+    raise ValueError(f"expected a field of a design, found {'.'.join(suggestion.path)!r}")
 
 
 def with_pattern(design: Design, name: str, text: str | None = None, /, **fields: Any) -> Design:

@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from typing import Any
 
-__all__ = ["DesignError", "FacadeError", "Fault", "NoLayout", "PatternError", "nearest"]
+__all__ = ["DesignError", "FacadeError", "Fault", "NoLayout", "PatternError", "Suggestion", "nearest"]
 
 
 class FacadeError(Exception):
@@ -70,6 +71,26 @@ class PatternError(DesignError):
         return self.faults[0]
 
 
+@dataclass(frozen=True, slots=True)
+class Suggestion:
+    """A change of a design with which it has been found to work.
+
+    Attributes
+    ----------
+    text
+        What it would be: ``a width of 10 m``, ``counter 'k' up to 8``, ``'B' not unoccludable``.
+    path
+        The field to change: ``("canvas", "width")``, ``("counters", "k", "max")``, ``("symbols", "B", "opaque")``; or
+        ``("tolerances",)``, an argument of `solve`.
+    value
+        Its new value.
+    """
+
+    text: str
+    path: tuple[str, ...]
+    value: Any
+
+
 @dataclass(eq=False)
 class NoLayout(FacadeError):
     """A valid design that has no layout.
@@ -80,8 +101,22 @@ class NoLayout(FacadeError):
         In a designer's words: what is to blame, and the smallest change that would work where one is known.
     axis
         ``"x"`` or ``"y"``, or empty where both take part.
-    patterns, symbols, counters
+    patterns, symbols, counters, layers
         Names of what is to blame, for a view to point at.
+    group
+        The alignment group, where it is one of several.
+    constraint
+        What cannot be kept: ``analysis`` (patterns of different length), ``canvas`` (words too long or too short),
+        ``letters`` (words of too many letters), ``counters`` (no common value), ``C1``, ``C3``, ``C4``,
+        ``tolerance`` (no alignment keeps within it), ``bounds`` (min and max of sizes), ``sizes`` (one size for all
+        letters of a symbol), ``room`` (none is left for an unsized symbol), ``shapes`` (too many); or ``time``,
+        ``memory``, ``stop``: the search was cut short.
+    suggestions
+        Changes that have been tried and work, the first one named first in the message.
+    stage
+        What the search was at when it was cut short.
+    trace
+        What the solver did until then, where a trace was asked for.
     """
 
     message: str
@@ -89,9 +124,20 @@ class NoLayout(FacadeError):
     patterns: tuple[str, ...] = field(default=())
     symbols: tuple[str, ...] = field(default=())
     counters: tuple[str, ...] = field(default=())
+    group: str = ""
+    layers: tuple[str, ...] = field(default=())
+    constraint: str = ""
+    suggestions: tuple[Suggestion, ...] = field(default=())
+    stage: str = ""
+    trace: Any = field(default=None, repr=False)
 
     def __str__(self) -> str:
         return self.message
+
+    @property
+    def suggestion(self) -> Suggestion | None:
+        """The first of the changes that work."""
+        return self.suggestions[0] if self.suggestions else None
 
 
 def nearest(name: str, valid: Iterable[str]) -> str:

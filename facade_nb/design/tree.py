@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain, product
 from math import prod
 
@@ -24,6 +24,7 @@ __all__ = [
     "Sym",
     "alternation",
     "check_room",
+    "choices",
     "concatenation",
     "mirrored",
     "spellings",
@@ -157,6 +158,35 @@ def unparse(node: Node) -> str:
 def _group(node: Node) -> str:
     """The node as an operand of a postfix operator."""
     return f"({unparse(node)})" if isinstance(node, Concat | Alt) else unparse(node)
+
+
+def choices(node: Node) -> list[Node]:
+    """The trees without alternatives that a tree is a choice of, in lexicographic order, equal ones once.
+
+    A count repeats one word of its base, so that a choice inside it is a choice outside it as well.
+
+    Raises
+    ------
+    DesignError
+        If there are more than `MAX_WORDS`.
+    """
+    match node:
+        case Alt(options=options):
+            found: dict[Node, None] = {}
+            for option in options:
+                found.update(dict.fromkeys(choices(option)))
+                check_room(words=len(found))
+            return list(found)
+        case Concat(parts=parts):
+            ways = [choices(part) for part in parts]
+            check_room(words=prod(map(len, ways)))
+            return [concatenation(choice) for choice in product(*ways)]
+        case Mirror(body=body):
+            return [Mirror(own) for own in choices(body)]
+        case Count(body=body):
+            return [replace(node, body=own) for own in choices(body)]
+        case _:
+            return [node]
 
 
 def mirrored(word: Spelling) -> Spelling:

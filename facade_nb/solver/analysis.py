@@ -19,7 +19,6 @@ from ..design.pattern import Pattern
 from .findings import (
     STRENGTHS,
     Analysis,
-    AnalysisDone,
     Conflict,
     Equation,
     LinearSystem,
@@ -47,7 +46,7 @@ from .flatten import (
 from .linear import Bounds, Elimination, Form, equation_text, form_text, primitive
 from .problem import AxisProblem
 
-__all__ = ["Analysis", "AnalysisDone", "Conflict", "Equation", "LinearSystem", "Row", "Strength", "analyse"]
+__all__ = ["Analysis", "Conflict", "Equation", "LinearSystem", "Row", "Strength", "analyse"]
 
 
 def analyse(problem: AxisProblem) -> Analysis:

@@ -2,35 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
 from itertools import islice, product
 from math import inf
 
-from ..design.model import Counter, Symbol
+from ..design.model import Symbol
 from .candidates import Candidate, CandidateStream, candidates, rows_of
+from .clock import Progress
 from .columns import EPS, Group, lone_unsized, make_group
-from .events import CandidateJudged, Trace, WordJudged
+from .dive import Dives
 from .ida import search_ida
+from .instances import Instances, Range
+from .keeping import Kept
 from .letters import Word
 from .objective import Objective
 from .pricing import Priced
 from .problem import AxisProblem
-from .search import BestFirst, Stopped, plunge
+from .search import BestFirst, Found, Stopped
 from .sizing import Sized, size_axis
-from .words import Instances, instances
+from .tracing import Recorder, Walk, sizing
+from .words import axis_words
 
-__all__ = ["AxisSearch", "Solved"]
+__all__ = ["AxisSearch", "Best", "Solved", "forget_groups"]
 
 _TIES = 4
 _NODES = 1_000_000
-_TOLD = 2000
-"""So many candidates that were never taken up are told in a trace."""
 _STEP = 0.004
 """How far above its lower bound a candidate goes first, as a fraction of the canvas."""
 _GROWTH = 1.5
 """Each turn takes it so many times further."""
+_LONG = 150
+"""A search of more paths than this is a long one, and gives way to others after as many again."""
+
+_kept: Kept[tuple[list[Priced], float]] = Kept(512)
+"""What has been found for groups, so that those that an edit leaves alone are not searched again."""
+
+
+def forget_groups() -> None:
+    """Let go of all that is kept for unchanged groups."""
+    _kept.clear()
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,14 +66,16 @@ class Solved:
     columns: int
 
     def beats(self, other: Solved | None) -> bool:
-        """Least cost, then most columns, then least deviation."""
+        """Least cost, then most columns, then least deviation, then the first by counters and words."""
         if other is None or self.cost < other.cost - EPS:
             return True
         if self.cost > other.cost + EPS:
             return False
         if self.columns != other.columns:
             return self.columns > other.columns
-        return self.sized.deviation < other.sized.deviation - EPS
+        if abs(self.sized.deviation - other.sized.deviation) > EPS or self.candidate is other.candidate:
+            return self.sized.deviation < other.sized.deviation - EPS
+        return self.candidate.rank < other.candidate.rank
 
 
 @dataclass(slots=True)
@@ -79,7 +94,15 @@ class Best:
 
 
 class _Run:
-    """The search of one cluster of groups, by either method, shared by all candidates that give it the same words."""
+    """The search of one cluster of groups, by either method, shared by all candidates that give it the same words.
+
+    Among structures that are equally good, which come first depends on the limits that a search went through. So
+    it goes through the same ones every time, each further from its lower bound by `_GROWTH`. Where the best answer
+    so far allows less than the next of them it goes no further than that; if it ends there with more answers than
+    are kept, the search is repeated in steps. That makes an answer the same whatever was searched before.
+
+    A search that takes long is helped by dives, which take as long again.
+    """
 
     def __init__(
         self,
@@ -88,26 +111,113 @@ class _Run:
         nodes: int,
         check: Callable[[], None] | None,
         accept: Callable[[Priced], bool] | None,
+        log: Walk | None = None,
+        known: tuple[list[Priced], float] | None = None,
+        fits: Callable[[Priced], bool] | None = None,
     ) -> None:
-        self.groups = groups
-        self._ida = (
-            (lambda limit: search_ida(groups, cap=limit, keep=_TIES, nodes=nodes, check=check, accept=accept))
-            if (method == "ida")
-            else None
+        self.groups, self.log, self._fits = groups, log, fits
+        self._options = (method, nodes, check, accept)
+        self._dives: Dives | None = None
+        self._spent = self._dived = 0.0
+        self._again = False
+        if known is None:
+            self._begin()
+        else:
+            self._found, self.done = Found(*known), True
+
+    def _begin(self) -> None:
+        method, nodes, check, accept = self._options
+        self._first = BestFirst(
+            self.groups, keep=_TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_LONG
         )
-        self._first = BestFirst(groups, keep=_TIES, nodes=nodes, check=check, accept=accept)
+        self._ida = method == "ida"
         self._found = self._first.found
         self.done = self._first.done
+        self._base = self._found.bound
+        self._step = _STEP * max((group.canvas for group in self.groups), default=1.0)
+        self._stepwise = True
+        self._goal: float | None = None
 
-    def advance(self, limit: float) -> None:
-        """Find the optimum, if it costs no more than `limit`."""
+    def advance(self, limit: float, top: float = inf) -> None:
+        """Find the optimum, if it costs no more than `limit`; nothing above `top` is of any use."""
         if self.done or limit < self._found.bound - EPS:
             return
-        if self._ida is None:
+        begin = time.perf_counter()
+        if self.log is None:
+            self._go_on(limit, top)
+        else:
+            with self.log.turn():
+                self._go_on(limit, top)
+            self.log.known(self.floor, len(self.ties), self.cut)
+        self._spent += time.perf_counter() - begin
+
+    @property
+    def long(self) -> bool:
+        """The search has taken long."""
+        return not self.done and self._found.nodes >= _LONG
+
+    def dive(self, *, at_once: bool = False) -> None:
+        """Look for some alignment as long as the search has taken; or, `at_once`, until there is one."""
+        _, _, check, accept = self._options
+        if self.done or accept is not None:
+            return
+        if self._dives is None:
+            self._dives = Dives(self.groups, self.floor, check, self._fits)
+        begin, before = time.perf_counter(), self._dived
+        while not self._dives.done and (self._dived <= self._spent or (at_once and self._dives.best is None)):
+            self._dives.dive()
+            self._dived = before + time.perf_counter() - begin
+
+    @property
+    def known(self) -> list[Priced]:
+        """The optimal structures; else the best so far."""
+        best = self._dives.best if self._dives is not None else None
+        return self.ties or ([best] if best is not None else [])
+
+    def _go_on(self, limit: float, top: float) -> None:
+        if self._ida and limit == inf:  # it deepens by itself, from the start in every step
+            self._go_to(inf)
+        while not self.done:
+            if self._goal is None:
+                rung = self._base + self._step
+                if rung > top and not self._again:
+                    self._stepwise, self._goal = False, limit
+                else:
+                    self._step, self._goal = self._step * _GROWTH, rung
+            goal = self._goal
+            self._go_to(goal)
+            if self.paused:
+                return
+            self._goal = None
+            if goal >= limit:
+                break
+        if self.done and not self._stepwise and len(self._found.ties) >= _TIES:
+            self._again = True
+            self._begin()
+            self._go_on(limit, top)
+        elif self.done and not self._ida:
+            self._found.ties.sort(key=_in_order)
+
+    @property
+    def paused(self) -> bool:
+        """It has not come to the end of what it was asked for."""
+        return not self.done and self._first.paused
+
+    def _go_to(self, limit: float) -> None:
+        if not self._ida:
             self._first.advance(limit)
             self.done = self._first.done
         else:
-            self._found = self._ida(limit)
+            _, nodes, check, accept = self._options
+            self._found = search_ida(
+                self.groups,
+                cap=limit,
+                keep=_TIES,
+                nodes=nodes,
+                check=check,
+                accept=accept,
+                observer=self.log,
+            )
             self.done = bool(self._found.ties) or self._found.bound == inf or self._found.cut
 
     @property
@@ -137,6 +247,7 @@ class _Case:
     runs: list[_Run] = field(default_factory=list)
     solved: Solved | None = None
     unsizable: bool = False
+    dived: bool = False
 
     @property
     def floor(self) -> float:
@@ -153,28 +264,20 @@ class AxisSearch:
     tolerance: float
     method: str = "best"
     check: Callable[[], None] | None = None
-    trace: Trace | None = None
+    trace: Recorder | None = None
     extend: Callable[[], None] | None = None
+    progress: Progress = field(default_factory=Progress)
     found: dict[str, Instances] = field(default_factory=dict)
     cases: list[_Case] = field(default_factory=list)
     runs: dict[object, _Run] = field(default_factory=dict)
     stream: CandidateStream | None = None
 
-    def enumerate(self) -> None:
-        """List the words that fit."""
-        symbols = self.problem.symbol
-        counters = dict(self.problem.counters)
-        for name, pattern in self.problem.patterns:
-            self.found[name] = instances(
-                pattern,
-                lambda s: symbols.get(s) or Symbol(s),
-                lambda c: counters.get(c) or Counter(c),
-                self.problem.canvas + self.tolerance,
-                self.check,
-                None if self.objective.plain else self.problem.canvas,
-            )
-            if self.trace is not None:
-                self._tell_words(self.trace, name)
+    def enumerate(self, across: Mapping[str, Range] | None = None) -> None:
+        """List the words that fit; `across` is what the other axis says of counters."""
+        self.found.update(axis_words(self.problem, self.tolerance, self.progress, self.check, across))
+        if self.trace is not None:
+            self.trace.words(self.problem, self.found, self.tolerance)
+        self.progress.at("candidates", self.problem.axis)
         self.stream = self._stream()
 
     def _stream(self) -> CandidateStream:
@@ -203,6 +306,7 @@ class AxisSearch:
             self.check,
             self.trace,
             self.extend,
+            self.progress,
             found,
             runs=self.runs,
         )
@@ -219,7 +323,10 @@ class AxisSearch:
         return _Case(candidate, candidate.bound)
 
     def forget(self) -> None:
-        """Let go of what only searching needs, so that a kept answer is small."""
+        """Let go of what only searching needs, so that a kept answer is small, and keep what groups have in common."""
+        for key, run in self.runs.items():
+            if run.done and not run.cut:
+                _kept.put(self._known_as(key), (run.ties, run.floor))
         for case in self.cases:
             for group in case.groups:
                 group.edges.clear()
@@ -230,20 +337,6 @@ class AxisSearch:
     def in_order(self) -> Iterator[Candidate]:
         """Candidates in lexicographic order, as the paper takes them."""
         return candidates(self.problem, self.words(), self.tolerance, self.objective, self.check)
-
-    def _tell_words(self, trace: Trace, name: str) -> None:
-        for word in self.found[name].words:
-            trace.events.append(
-                WordJudged(
-                    self.problem.axis,
-                    name,
-                    str(word),
-                    word.size,
-                    dict(word.counters),
-                    True,
-                    "fits the canvas",
-                )
-            )
 
     def best(self, cap: float = inf) -> Best:
         """The best candidate; candidates take turns.
@@ -256,7 +349,7 @@ class AxisSearch:
         stream = self.stream or self._stream()
         queue: list[tuple[float, int]] = []
         steps: list[float] = []
-        floor = 0.0
+        floor, dived = 0.0, False
         try:
             while True:
                 top = min(cap, best.cost)
@@ -276,18 +369,24 @@ class AxisSearch:
                 limit = min(top, own + steps[n])
                 steps[n] *= _GROWTH
                 case = self.cases[n]
-                solved = self.solve(case, limit)
+                self.progress.at("alignment", self.problem.axis, candidate=n + 1, of=len(self.cases))
+                solved = self._turn(case, limit, top)
                 heappop(queue)
                 best.unsizable = best.unsizable or case.unsizable
                 best.complete = best.complete and not any(run.cut for run in case.runs)
                 if solved is not None:
                     best.bound = min(best.bound, case.floor)
-                    if solved.beats(best.solved):
-                        best.solved = solved
+                    # what a dive came upon is no better than others that cost the same
+                    if solved.beats(best.solved) or (dived and solved.cost <= best.cost + EPS):
+                        best.solved, dived = solved, False
                 elif case.floor < inf and not all(run.done for run in case.runs):
                     # where the limit was the best answer's cost, nothing as good is left in this candidate
-                    beyond = top + 2 * EPS if limit >= top else own
+                    paused = any(run.paused for run in case.runs)
+                    beyond = top + 2 * EPS if limit >= top and not paused else own
                     heappush(queue, (max(beyond, case.floor), n))
+                    improved = self._dive(case, best.cost)
+                    if improved is not None:
+                        best.solved, dived = improved, True
         except Stopped as stop:
             best.complete = False
             if stop.asked:
@@ -296,7 +395,6 @@ class AxisSearch:
         if best.solved is None and not best.complete:
             best.solved = self._hasty()
         best.bound = min(best.bound, floor, self._left_out())
-        self._tell_fates(best)
         return best
 
     def _hasty(self) -> Solved | None:
@@ -315,14 +413,28 @@ class AxisSearch:
             for case in likely:
                 if not case.runs:
                     self._open(case)
-                parts = [plunge([case.groups[g] for g in cluster], self.check) for cluster in case.clusters]
-                found = [[priced] for priced in parts if priced is not None]
-                solved = self._size(case, found) if len(found) == len(parts) else None
-                if solved is not None and solved.beats(best):
+                solved = self._dive(case, inf if best is None else best.cost, at_once=True)
+                if solved is not None:
                     best = solved
         except Stopped:
             pass  # what was found until now is all there is
         return best
+
+    def _dive(self, case: _Case, cost: float, *, at_once: bool = False) -> Solved | None:
+        """A layout of the candidate that costs less than `cost`, by structures that may not be the best."""
+        if not at_once and not any(run.long for run in case.runs):
+            return None
+        before = sum(known[0].cost for run in case.runs if (known := run.known))
+        for run in case.runs:
+            run.dive(at_once=at_once or not run.long)
+        found = [run.known for run in case.runs]
+        if not all(found):
+            return None
+        total = sum(known[0].cost for known in found)
+        if total >= cost - EPS or (total >= before - EPS and case.dived):
+            return None
+        case.dived = True
+        return self._size(case, found)
 
     def _left_out(self) -> float:
         """No candidate with a word that was left out, for there are too many, costs less than this."""
@@ -333,50 +445,26 @@ class AxisSearch:
             bound = min(bound, min(self.objective.fit, weight) * left)
         return bound
 
-    def _tell_fates(self, best: Best) -> None:
-        if self.trace is None:
-            return
-        for case in self.cases:
-            solved = case.solved
-            fate = "bound"
-            if solved is not None and best.solved is not None:
-                tied = solved.cost <= best.solved.cost + EPS
-                fate = "best" if solved is best.solved else "tied" if tied else "dearer"
-            elif case.unsizable:
-                fate = "no sizes"
-            elif case.runs and all(run.done for run in case.runs):
-                fate = "no alignment"
-            self._tell(self.trace, case.candidate, fate, solved)
-        stream = self.stream or self._stream()
-        for _ in range(_TOLD):
-            candidate = stream.take()
-            if candidate is None:
-                break
-            self._tell(self.trace, candidate, "bound", None)
+    def solve(self, case: _Case) -> Solved | None:
+        """Align a candidate in all groups and size it; None: it cannot be done."""
+        solved = self._turn(case)
+        while solved is None and any(run.paused for run in case.runs):
+            solved = self._turn(case)
+        return solved
 
-    def _tell(self, trace: Trace, candidate: Candidate, fate: str, solved: Solved | None) -> None:
-        trace.events.append(
-            CandidateJudged(
-                self.problem.axis,
-                {name: str(word) for name, word in candidate.words.items()},
-                dict(candidate.counters),
-                candidate.bound,
-                fate,
-                solved.cost if solved else None,
-                solved.columns if solved else None,
-                solved.sized.deviation if solved else None,
-            )
-        )
-
-    def solve(self, case: _Case, limit: float = inf) -> Solved | None:
+    def _turn(self, case: _Case, limit: float = inf, top: float = inf) -> Solved | None:
         """Align a candidate in all groups, each within what the others leave of the limit, and size it.
+
+        A little more than the limit may be looked at, but nothing that costs more than `top`.
 
         None: there is nothing within the limit; `case.floor` says how much more is known.
         """
         if not case.runs:
             self._open(case)
-        for run in case.runs:
-            run.advance(limit - case.floor + run.floor)
+        for run, cluster in zip(case.runs, case.clusters, strict=True):
+            self.progress.group = self.problem.groups[cluster[0]][0]
+            others = case.floor - run.floor
+            run.advance(limit - others, top - others)
             if not run.ties:
                 return None
         if case.solved is None:
@@ -386,8 +474,9 @@ class AxisSearch:
             case.clusters = [
                 list(range(len(case.groups)))
             ]  # which structures fit each other is asked as they come
-            case.runs = [self._run(case.groups, lambda priced: self._size(case, [[priced]]) is not None)]
-            return self.solve(case, limit)
+            own = range(len(case.groups))
+            case.runs = [self._run(case.groups, lambda priced: self._size(case, [[priced]]) is not None, own)]
+            return self._turn(case, limit, top)
         return case.solved
 
     def _open(self, case: _Case) -> None:
@@ -397,14 +486,37 @@ class AxisSearch:
             key = tuple(group.identity for group in (case.groups[g] for g in cluster))
             run = self.runs.get(key)
             if run is None:
-                run = self.runs[key] = self._run([case.groups[g] for g in cluster], None)
+                known = _kept.get(self._known_as(key)) if self.trace is None else None
+                run = self._run([case.groups[g] for g in cluster], None, cluster, known)
+                self.runs[key] = run
             case.runs.append(run)
             for g, group in zip(cluster, run.groups, strict=True):
                 case.groups[g] = group
 
-    def _run(self, groups: Sequence[Group], accept: Callable[[Priced], bool] | None) -> _Run:
+    def _run(
+        self,
+        groups: Sequence[Group],
+        accept: Callable[[Priced], bool] | None,
+        cluster: Iterable[int],
+        known: tuple[list[Priced], float] | None = None,
+    ) -> _Run:
         nodes = _NODES if accept is None else _NODES // 50
-        return _Run(groups, self.method, nodes, self.check, accept)
+        log = None
+        if self.trace is not None:
+            names = [self.problem.groups[g][0] for g in cluster]
+            log = self.trace.walk(self.problem.axis, names, groups, self.method)
+
+        def fits(priced: Priced) -> bool:
+            parts = tuple((priced, k) for k in range(len(groups)))
+            return size_axis(groups, parts, self.problem.canvas, self._symbol) is not None
+
+        return _Run(groups, self.method, nodes, self.check, accept, log, known, fits)
+
+    def _symbol(self, name: str) -> Symbol:
+        return self.problem.symbol.get(name) or Symbol(name)
+
+    def _known_as(self, key: object) -> object:
+        return key, self.problem.canvas, self.tolerance, self.objective, self.method
 
     def _groups(self, candidate: Candidate) -> tuple[list[Group], list[list[int]]]:
         """The groups of a candidate, and which of them share an unsized symbol and so are aligned together."""
@@ -434,14 +546,14 @@ class AxisSearch:
 
     def _size(self, case: _Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
         """Size every combination of equally good structures; the least deviation wins."""
-        symbols = self.problem.symbol
         best: Solved | None = None
         for combination in islice(product(*ties), 2 * _TIES):
             parts: dict[int, tuple[Priced, int]] = {}
             for cluster, priced in zip(case.clusters, combination, strict=True):
                 parts.update({g: (priced, k) for k, g in enumerate(cluster)})
             own = tuple(parts[g] for g in range(len(case.groups)))
-            sized = size_axis(case.groups, own, self.problem.canvas, lambda s: symbols.get(s) or Symbol(s))
+            with sizing(self.trace, self.problem.axis):
+                sized = size_axis(case.groups, own, self.problem.canvas, self._symbol)
             if sized is None:
                 continue
             solved = Solved(
@@ -455,3 +567,11 @@ class AxisSearch:
             if solved.beats(best):
                 best = solved
         return best
+
+
+def _in_order(priced: Priced) -> tuple[tuple[tuple[tuple[int, ...], ...], ...], ...]:
+    """Equally good structures have an order of their own."""
+    return tuple(
+        tuple(tuple(option.letters for option in column) for column in columns)
+        for columns in priced.structure
+    )

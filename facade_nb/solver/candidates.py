@@ -31,6 +31,13 @@ class Candidate:
     counters: Mapping[str, int]
     bound: float = 0.0
 
+    @property
+    def rank(self) -> tuple[tuple[int, ...], tuple[str, ...]]:
+        """By what candidates that are equally good are told apart."""
+        return tuple(self.counters[name] for name in sorted(self.counters)), tuple(
+            map(str, self.words.values())
+        )
+
 
 class CandidateStream:
     """Candidates by growing lower bound, made only as far as they are asked for.

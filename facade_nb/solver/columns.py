@@ -30,6 +30,11 @@ __all__ = ["EPS", "Band", "Group", "Option", "Position", "lone_unsized", "make_g
 EPS = 1e-9
 """Costs and sizes closer than this are equal."""
 
+_TALL = 6
+"""From so many rigid bands on, a group's columns are looked for by their skeleton."""
+_PAIRED = 12
+"""With more bands than this, pairs say too little for what they take to be compared."""
+
 Position = int
 """Where a band stands: ``8·i + 4·mid + 2·gap + held``: the next letter i; `mid`: letter i is cut and its rest
 is still to come; `gap`: the column before was empty here and letter i is attached, so it may not begin the
@@ -64,6 +69,8 @@ class Option:
     tied
         Elastic, and some piece in it answers to an equation (a fixed size, or a size shared with other
         letters).
+    sized
+        The size of the letter that ends a transparent element, where it has one.
     """
 
     target: Position
@@ -78,6 +85,7 @@ class Option:
     ends: bool = False
     letters: tuple[int, ...] = ()
     tied: bool = False
+    sized: float | None = None
 
 
 class Band:
@@ -190,6 +198,8 @@ class Band:
             letter = word[j]
             if letter.transparent:
                 return
+            if self.check is not None and not (j - i + 1) & 255:
+                self.check()
             own = letter.size or 0.0
             if j > i:
                 loose += min(own, word[j - 1].size or 0.0)
@@ -238,6 +248,7 @@ class Band:
                 ends=True,
                 letters=letters,
                 tied=tied and fixed is None,
+                sized=letter.size,
             )
 
 
@@ -276,6 +287,8 @@ class Group:
     """Per band: the bands with a row above one of its rows (C3), itself among them where it has several rows."""
     weights: tuple[float, ...]
     """Per band: what a metre that it falls short of W costs at least (see `network.shortfall`)."""
+    tall: bool = False
+    """So many rigid bands that `skeleton` bounds what they cost."""
     reference: int | None = None
     """The band that `pairs` compares with every other."""
     pairs: tuple[PairTable | None, ...] = ()
@@ -340,7 +353,8 @@ def make_group(
     if solids and not objective.plain:
         for band in bands:
             band.back(min(solids))
-    reference = choose_reference(bands) if len(bands) > 1 else None
+    reference = choose_reference(bands) if 1 < len(bands) <= _PAIRED else None
+    rigid = sum(not any(letter.transparent for letter in band.letters) for band in bands)
     weights = [
         (min(objective.empty, objective.loose) if band.soft and not objective.plain else objective.empty)
         * share
@@ -364,6 +378,7 @@ def make_group(
         ),
         guards=tuple(tuple(o for o, other in enumerate(bands) if other.top < band.bottom) for band in bands),
         weights=tuple(weights),
+        tall=not objective.plain and rigid >= _TALL,
         reference=reference,
         pairs=()
         if reference is None

@@ -1,113 +1,214 @@
-"""Values of many counters at once, those whose words come nearest to the canvas first.
+"""Values of many counters at once whose words have about a given size.
 
-With three counters or more a pattern can have more words than anybody could align. A word's size is a sum
-of what each counter adds to it, so that the sums that can still be reached are known from the last counter
-backwards, on a grid of the canvas; values are then enumerated without dead ends inside a window around the
-canvas, which grows until there are enough.
+A word's size is a sum of what each counter adds to it, so that the sums that the last counters can make are known
+beforehand, on a grid: how many ways there are to make each. Values are then enumerated without dead ends, and the
+window around the canvas that holds so many words as are wanted is found without looking for them.
 """
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
-from math import ceil, inf
+from itertools import accumulate
+from math import inf, prod
+from random import Random
 
-__all__ = ["nearest_values"]
+import numpy as np
+
+__all__ = ["Sums"]
 
 _CELLS = 4096
+_NEAR = 1e-9
+_FEW = 2000
 
 
-def nearest_values(
-    added: Mapping[str, Sequence[tuple[int, float]]],
-    base: float,
-    canvas: float,
-    limit: float,
-    most: int,
-    check: Callable[[], None] | None = None,
-) -> tuple[list[dict[str, int]], float]:
-    """Values of the counters whose word sizes are nearest to the canvas.
+class Sums:
+    """The sums that can be made of one number from each of several tables.
 
     Parameters
     ----------
-    added
-        Per counter: its possible values, each with the metres it adds to the word.
-    base
-        Size of the word without what the counters add.
-    canvas, limit
-        Metres; sizes beyond the limit are left out in any case.
-    most
-        How many are wanted at most, about.
-
-    Returns
-    -------
-    values
-        In no particular order.
-    left
-        Every combination that is left out misses the canvas by at least so many metres; infinite where none is.
+    tables
+        Per name: possible values, each with the metres it adds (0 or more).
+    limit
+        Metres; larger sums are left out.
     """
-    names = sorted(added, key=lambda name: max(size for _, size in added[name]), reverse=True)
-    cell = limit / _CELLS
-    reach = _reachable([added[name] for name in names], cell)
-    window = canvas / 256
-    while True:
-        found = _within(
-            names, added, reach, cell, base, canvas - window, min(canvas + window, limit), most, check
+
+    def __init__(
+        self,
+        tables: Mapping[str, Sequence[tuple[int, float]]],
+        limit: float,
+        check: Callable[[], None] | None = None,
+    ) -> None:
+        self._check = check
+        self._limit = limit
+        self._fixed = {name: table[0][0] for name, table in tables.items() if len(table) == 1}
+        self._base = sum(table[0][1] for table in tables.values() if len(table) == 1)
+        open_ones = [name for name in tables if name not in self._fixed]
+        self._names = sorted(open_ones, key=lambda name: max((own for _, own in tables[name]), default=0.0))[
+            ::-1
+        ]
+        self._tables = [sorted(tables[name], key=_metres) for name in self._names]
+        self._cell = max(limit, _NEAR) / _CELLS
+        # where there are few sums, dead ends cost less than knowing them
+        few = prod(map(len, self._tables)) <= _FEW
+        self._up_to = None if few else self._counted()
+
+    def _counted(self) -> list[list[float]]:
+        """Per table: how many sums of it and those after it there are up to each cell, about."""
+        counts = np.zeros(_CELLS + 2)
+        counts[0] = 1.0
+        found = [list(accumulate(counts.tolist(), initial=0.0))]
+        for table in reversed(self._tables):
+            after, counts = counts, np.zeros(_CELLS + 2)
+            for _, size in table:
+                if self._check is not None:
+                    self._check()
+                shift = int(size / self._cell)
+                if shift <= _CELLS + 1:
+                    counts[shift:] += after[: _CELLS + 2 - shift]
+            found.append(list(accumulate(counts.tolist(), initial=0.0)))
+        return found[::-1]
+
+    def _about(self, k: int, low: float, high: float) -> float:
+        """How many sums of the tables from k on lie between two sizes, about; 0 only where there is none."""
+        if self._up_to is None:
+            return 1.0
+        tables = len(self._tables) - k
+        first = min(max(0, int(low / self._cell) - tables - 1), _CELLS + 2) if low > 0 else 0
+        last = min(int(high / self._cell) + 1, _CELLS + 1) if high > -self._cell else -1
+        return self._up_to[k][last + 1] - self._up_to[k][first] if last >= first else 0.0
+
+    def within(
+        self, low: float, high: float, most: float = inf
+    ) -> tuple[list[tuple[float, dict[str, int]]], bool]:
+        """Sums between two sizes, each with the values that make it, and whether these are all.
+
+        With `most`, no more than that are looked for.
+        """
+        found: list[tuple[float, dict[str, int]]] = []
+        chosen: list[int] = [0] * len(self._tables)
+        high = min(high, self._limit)
+        names, tables, check, about = self._names, self._tables, self._check, self._about
+        fixed = self._fixed
+        last = len(tables) - 1
+
+        def descend(k: int, size: float) -> bool:
+            if k == len(tables):
+                if low - _NEAR <= size <= high + _NEAR:
+                    found.append((size, {**fixed, **dict(zip(names, chosen, strict=True))}))
+                return len(found) <= most
+            if check is not None:
+                check()
+            table = tables[k]
+            if k == last:  # no need to look at those that are too small
+                table = table[bisect_left(table, low - size - _NEAR, key=_metres) :]
+            for value, own in table:
+                total = size + own
+                if total > high + _NEAR:
+                    break
+                if about(k + 1, low - total - _NEAR, high - total + _NEAR):
+                    chosen[k] = value
+                    if not descend(k + 1, total):
+                        return False
+            return True
+
+        complete = descend(0, self._base)
+        return found, complete
+
+    def nearest(
+        self, canvas: float, low: float, most: int
+    ) -> tuple[list[tuple[float, dict[str, int]]], float]:
+        """About `most` sums that are nearest to the canvas, and no less than `low`.
+
+        Returns
+        -------
+        sums
+            With their values, in no particular order.
+        left
+            Every sum that is left out misses the canvas by at least so many metres; infinite where none is.
+        """
+        if self._up_to is None:
+            found, _ = self.within(low, self._limit)
+            found.sort(key=lambda own: abs(own[0] - canvas))
+            return found[:most], abs(found[most][0] - canvas) if len(found) > most else inf
+        everything = max(canvas - max(0.0, low), self._limit - canvas)
+        window = (
+            everything
+            if self._about(0, low - self._base, self._limit - self._base) <= most
+            else self._window(canvas, most)
         )
-        if window >= max(canvas, limit - canvas):
-            return found[:most], inf if len(found) <= most else 0.0
-        if len(found) >= most:
-            sizes = sorted(_miss(added, base, canvas, values) for values in found)
-            edge = min(window, sizes[most - 1])
-            return [v for v in found if _miss(added, base, canvas, v) <= edge], edge
-        window *= 2.0
+        found, complete = self._around(canvas, window, low, most)
+        if not complete:  # so many about one size
+            found, window = [], self._cell / 2.0
+            while not found and window < 2.0 * everything:
+                found = self.some(max(low, canvas - window), canvas + window, most)
+                window *= 4.0
+            return found, 0.0
+        while len(found) < max(1, most // 4) and window < everything:
+            more, complete = self._around(canvas, 2.0 * window, low, most)
+            if not complete and not found:
+                return self.some(max(low, canvas - 2.0 * window), canvas + 2.0 * window, most), window
+            if not complete:
+                break
+            found, window = more, 2.0 * window
+        found.sort(key=lambda own: abs(own[0] - canvas))
+        if len(found) > most:
+            return found[:most], abs(found[most][0] - canvas)
+        return found, inf if window >= everything else window
+
+    def _around(
+        self, canvas: float, window: float, low: float, most: int
+    ) -> tuple[list[tuple[float, dict[str, int]]], bool]:
+        return self.within(max(low, canvas - window), canvas + window, 4 * most)
+
+    def some(self, low: float, high: float, most: int) -> list[tuple[float, dict[str, int]]]:
+        """Sums between two sizes, no more than `most`, with values as different as can be. The same every time."""
+        shuffle = Random(0).shuffle
+        tables = [list(table) for table in self._tables]
+        for table in tables[:-1]:
+            shuffle(table)
+        last = len(tables) - 1
+        found: list[tuple[float, dict[str, int]]] = []
+        chosen: list[int] = [0] * len(tables)
+
+        def descend(k: int, size: float, quota: int) -> int:
+            if k == len(tables):
+                inside = low - _NEAR <= size <= high + _NEAR
+                if inside:
+                    found.append((size, {**self._fixed, **dict(zip(self._names, chosen, strict=True))}))
+                return int(inside)
+            if self._check is not None:
+                self._check()
+            made = 0
+            table = tables[k]
+            if k == last:
+                first = bisect_left(table, low - size - _NEAR, key=_metres)
+                table = table[first : bisect_left(table, high - size + 2 * _NEAR, key=_metres)]
+            turn = 7919 * len(found) % max(1, len(table))  # each time begins elsewhere
+            for n, (value, own) in enumerate((*table[turn:], *table[:turn])):
+                total = size + own
+                if total <= high + _NEAR and self._about(k + 1, low - total - _NEAR, high - total + _NEAR):
+                    chosen[k] = value
+                    made += descend(k + 1, total, -((made - quota) // (len(table) - n)))
+                    if made >= quota:
+                        break
+            return made
+
+        descend(0, self._base, most)
+        return found
+
+    def _window(self, canvas: float, most: int) -> float:
+        """A window around the canvas with about `most` sums in it."""
+        low, high = 0.0, max(canvas, self._limit - canvas)
+        centre = canvas - self._base
+        for _ in range(20):
+            middle = (low + high) / 2.0
+            if self._about(0, centre - middle, centre + middle) > most:
+                high = middle
+            else:
+                low = middle
+        return max(high, self._cell)
 
 
-def _reachable(tables: Sequence[Sequence[tuple[int, float]]], cell: float) -> list[int]:
-    """Per counter: a bit for every cell that the counters from there on can add up to, rounded down or up."""
-    reach = [1]
-    mask = (1 << (_CELLS + 2)) - 1
-    for table in reversed(tables):
-        after, bits = reach[-1], 0
-        for _, size in table:
-            shift = int(size / cell)
-            bits |= (after << shift) | (after << (shift + 1))
-        reach.append(bits & mask)
-    return reach[::-1]
-
-
-def _within(
-    names: Sequence[str],
-    added: Mapping[str, Sequence[tuple[int, float]]],
-    reach: Sequence[int],
-    cell: float,
-    base: float,
-    low: float,
-    high: float,
-    most: int,
-    check: Callable[[], None] | None,
-) -> list[dict[str, int]]:
-    found: list[dict[str, int]] = []
-
-    def descend(k: int, size: float, values: dict[str, int]) -> None:
-        if check is not None:
-            check()
-        if k == len(names):
-            if low - 1e-9 <= size <= high + 1e-9:
-                found.append(values)
-            return
-        for value, own in added[names[k]]:
-            total = size + own
-            if total > high + 1e-9 or len(found) > 4 * most:
-                continue
-            first = max(0, int((low - total) / cell) - len(names))
-            last = ceil((high - total) / cell) + 1
-            if (reach[k + 1] >> first) & ((1 << (last - first + 1)) - 1):
-                descend(k + 1, total, {**values, names[k]: value})
-
-    descend(0, base, {})
-    return found
-
-
-def _miss(
-    added: Mapping[str, Sequence[tuple[int, float]]], base: float, canvas: float, values: Mapping[str, int]
-) -> float:
-    return abs(base + sum(dict(added[name])[value] for name, value in values.items()) - canvas)
+def _metres(entry: tuple[int, float]) -> float:
+    return entry[1]

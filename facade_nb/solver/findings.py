@@ -7,14 +7,12 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Literal
 
-from .events import Event
 from .flatten import Term, Variable
 from .linear import Form, Refusal, number
 
 __all__ = [
     "STRENGTHS",
     "Analysis",
-    "AnalysisDone",
     "Conflict",
     "Equation",
     "LinearSystem",
@@ -251,13 +249,6 @@ class Analysis:
             "unsized": self.unsized.to_dict(),
             "unanalysed": dict(self.unanalysed),
         }
-
-
-@dataclass(frozen=True, slots=True)
-class AnalysisDone(Event):
-    """Pattern analysis is done: `Analysis.to_dict`."""
-
-    analysis: Mapping[str, Any]
 
 
 def exact_size(size: float) -> Fraction:

@@ -1,10 +1,10 @@
-"""The paper's search: informed iterative deepening with a transposition table (5.2; Reinefeld and Marsland
-1994).
+"""The paper's search: informed iterative deepening, from both ends at once (5.2, supplement 3.3).
 
-Depth first, so that no global ranking of edges is needed: each node ranks the edges that leave it, by their
-lower bound and then by the fewer symbols, which favours more columns. What exceeds the threshold is not
-made; if nothing was found, the distance of the threshold from the lower bound doubles and the search begins
-again.
+The parts are in the package `paper`; docs/alignment-search.md goes through them in the paper's order.
+
+First the deepening goes on by itself for a while, which is enough for nearly all words. If it is not, good
+alignments are looked for through prealigned control words and words merged pair by pair, and the deepening
+goes on with what they cost as its limit. So the answer is exact, whatever the heuristics miss.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ from collections.abc import Callable, Sequence
 from math import inf
 
 from .columns import EPS, Group
-from .network import Network, Path
-from .pricing import Priced, price
+from .paper.deepening import Deepening, Ends
+from .paper.incumbents import incumbents
+from .paper.observer import Observer
+from .pricing import Priced
 from .search import Found
-from .seen import Seen
 
 __all__ = ["search_ida"]
 
@@ -29,65 +30,39 @@ def search_ida(
     nodes: int = 1_000_000,
     check: Callable[[], None] | None = None,
     accept: Callable[[Priced], bool] | None = None,
+    observer: Observer | None = None,
+    patience: int = 300,
 ) -> Found:
-    """Like `search.search`, and with the same result."""
-    network = Network(groups, check)
-    found = Found(bound=network.later[0])
-    if found.bound > cap + EPS or found.bound == inf:
-        return found
-    step = 0.01 * max(group.canvas for group in groups)
-    limit = min(cap, network.ceiling())
-    while True:
-        threshold = min(limit, network.later[0] + step)
-        network.gather = threshold <= min(group.tolerance for group in groups)
-        dive = _Dive(network, threshold, found, keep, nodes, check, accept)
-        dive.visit(network.root())
-        if found.nodes >= nodes:
-            found.cut = True
-            return found
-        all_seen = threshold >= network.ceiling()
-        found.bound = found.ties[0].cost if found.ties else (inf if all_seen else max(found.bound, threshold))
-        if found.ties or threshold >= limit:
-            return found
-        step *= 2.0
+    """Like `search.search`, and with the same result.
+
+    Parameters
+    ----------
+    observer
+        Is told what happens (`paper.observer`). Nothing that was weighed before is used then, so that it is
+        told everything.
+    patience
+        So many partial alignments are taken up before a good alignment is looked for by prealigning and
+        merging; 0: that is done first.
+    """
+    ends = Ends(groups, check) if observer is not None else _kept(groups, check)
+    search = Deepening(ends, cap=cap, keep=keep, check=check, accept=accept, observer=observer)
+    if ends.least > cap + EPS or ends.least == inf:
+        return search.found
+    if patience:
+        search.go(min(nodes, patience))
+    if not patience or (search.found.cut and nodes > patience):
+        search.know(incumbents(groups, ends, cap=cap, check=check, accept=accept, observer=observer))
+        ends.watch(check, observer)
+        search.go(nodes)
+    found = search.result()
+    if accept is None:
+        ends.least = max(ends.least, found.bound)
+    return found
 
 
-class _Dive:
-    """One depth-first pass under a threshold."""
-
-    def __init__(
-        self,
-        network: Network,
-        threshold: float,
-        found: Found,
-        keep: int,
-        nodes: int,
-        check: Callable[[], None] | None,
-        accept: Callable[[Priced], bool] | None,
-    ) -> None:
-        self.network, self.threshold, self.found = network, threshold, found
-        self.keep, self.nodes, self.check, self.accept = keep, nodes, check, accept
-        self.seen = Seen(network, keep)
-
-    def visit(self, path: Path) -> None:
-        found, network = self.found, self.network
-        found.nodes += 1
-        if self.check is not None and not found.nodes & 63:
-            self.check()
-        if found.nodes >= self.nodes:
-            return
-        if network.complete(path):
-            priced = price(network.groups, network.structure(path))
-            if priced is None or priced.cost > self.threshold + EPS:
-                return
-            if self.accept is None or self.accept(priced):
-                found.offer(priced, self.keep)
-                self.threshold = min(self.threshold, priced.cost)
-            return
-        children = network.children(path, -inf, self.threshold)
-        children.sort(key=lambda item: (item[0], sum(len(option.letters) for option in item[1].column)))
-        for bound, child in children:
-            if bound > self.threshold + EPS:
-                return
-            if self.accept is not None or not self.seen.drops(child):
-                self.visit(child)
+def _kept(groups: Sequence[Group], check: Callable[[], None] | None) -> Ends:
+    """The networks of the groups; they are kept with the first, for when the search is taken further."""
+    known: Ends | None = groups[0].edges.get("paper")
+    if known is None or list(map(id, known.forward.groups)) != list(map(id, groups)):
+        known = groups[0].edges["paper"] = Ends(groups, check)
+    return known

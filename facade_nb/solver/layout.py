@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..design.model import Axis, Canvas, Design
+
+if TYPE_CHECKING:
+    from .forces import Sizing
 
 __all__ = ["AxisLayout", "GroupLayout", "Layout", "PlacedLetter", "PlacedShape", "Rect", "RowLayout"]
 
@@ -68,6 +71,9 @@ class AxisLayout:
         Square root of the sizing objective, metres.
     sizes
         Solved size of each symbol in use.
+    sizing
+        The least-squares problem with its multipliers: which constraint pulls where. None in a layout that was read
+        from a document.
     """
 
     cost: float = 0.0
@@ -76,6 +82,7 @@ class AxisLayout:
     proven: bool = True
     sizes: Mapping[str, float] = field(default_factory=dict)
     groups: Mapping[str, GroupLayout] = field(default_factory=dict)
+    sizing: Sizing | None = field(default=None, compare=False, repr=False)
 
     def row(self, layer: str) -> RowLayout:
         """The row of a layer. Raises KeyError for a layer that took no part."""

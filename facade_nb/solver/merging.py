@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections.abc import Iterator, Mapping, Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from itertools import product
 
+import numpy as np
+
+from ..design.errors import NoLayout
 from ..design.model import AXES, Axis, Canvas, Design, Layer, Shape
 from .layout import AxisLayout, PlacedLetter, PlacedShape, Rect
 
@@ -14,6 +17,9 @@ __all__ = ["DEFAULT_SHAPE", "find_holes", "hole_warnings", "merge", "shape_of"]
 
 DEFAULT_SHAPE = Shape("wall", "box", "card", 0.0, 0.2, True)
 """What a shape is where nothing is said: a plain box, as in the paper."""
+
+MAX_SHAPES = 250_000
+"""Most shapes of one layer."""
 
 _NEAR = 1e-6
 
@@ -42,30 +48,84 @@ def shape_of(design: Design, layer: Layer, x: str, y: str) -> Shape:
     return shape
 
 
-def merge(design: Design, x: AxisLayout, y: AxisLayout) -> tuple[PlacedShape, ...]:
+def merge(
+    design: Design, x: AxisLayout, y: AxisLayout, check: Callable[[], None] | None = None
+) -> tuple[PlacedShape, ...]:
     """Visible shapes, bottom layer first.
 
     Letters that are transparent, masked out by the layer or hidden by their pattern make no shape; nor do
     shapes that are not `visible`, nor those wholly behind a visible shape both of whose symbols are opaque.
+
+    Raises
+    ------
+    NoLayout
+        Where there would be more than `MAX_SHAPES`.
     """
-    shapes: list[PlacedShape] = []
-    covers: list[Rect] = []
+    layers: list[list[PlacedShape]] = []
+    fronts: list[_Front] = []
     for layer in design.stack:  # topmost first, so that what covers is known before what is covered
         own: list[PlacedShape] = []
         looks: dict[tuple[str, str], Shape] = {}
-        columns = list(_shown(design, layer, "x", x))
-        for v in _shown(design, layer, "y", y):
-            for h in columns:
+        columns, floors = list(_shown(design, layer, "x", x)), list(_shown(design, layer, "y", y))
+        front = _Front(columns, floors)
+        before = [(f, f.across(columns), f.up(floors)) for f in fronts]
+        opaque = {a.symbol for a in (*columns, *floors) if design.symbol(a.symbol).opaque}
+        for j, v in enumerate(floors):
+            if check is not None:
+                check()
+            if len(own) > MAX_SHAPES:
+                raise _too_many(layer, columns, floors)
+            behind = [(f.solid, across, up[j]) for f, across, up in before if up[j] is not None]
+            for i, h in enumerate(columns):
                 key = (h.symbol, v.symbol)
                 look = looks.get(key)
                 if look is None:
                     look = looks[key] = shape_of(design, layer, *key)
-                rect = (h.start, v.start, h.end, v.end)
-                if look.visible and not any(_covers(cover, rect) for cover in covers):
-                    own.append(_placed(layer, h, v, rect, look))
-        covers += [s.rect for s in own if design.symbol(s.x).opaque and design.symbol(s.y).opaque]
-        shapes[:0] = own
-    return tuple(shapes)
+                if look.visible and not any((across[i], k) in solid for solid, across, k in behind):
+                    own.append(_placed(layer, h, v, (h.start, v.start, h.end, v.end), look))
+                    if h.symbol in opaque and v.symbol in opaque:
+                        front.solid.add((i, j))
+        fronts.append(front)
+        layers.append(own)
+    return tuple(shape for own in reversed(layers) for shape in own)
+
+
+def _too_many(layer: Layer, columns: Sequence[PlacedLetter], floors: Sequence[PlacedLetter]) -> NoLayout:
+    return NoLayout(
+        f"Layer {layer.name!r} has {len(columns):,} by {len(floors):,} cells; a layer may have {MAX_SHAPES:,} shapes "
+        "at most. Larger letters, or a smaller canvas, would do.",
+        patterns=(layer.x.pattern, layer.y.pattern),
+        layers=(layer.name,),
+        constraint="shapes",
+    )
+
+
+class _Front:
+    """A layer in front of others: which of its cells hide what is wholly behind them."""
+
+    def __init__(self, columns: Sequence[PlacedLetter], floors: Sequence[PlacedLetter]) -> None:
+        self._columns, self._floors = columns, floors
+        self.solid: set[tuple[int | None, int | None]] = set()
+
+    def across(self, letters: Sequence[PlacedLetter]) -> list[int | None]:
+        """Per letter: the column of this layer that it is wholly behind."""
+        return _holders(self._columns, letters)
+
+    def up(self, letters: Sequence[PlacedLetter]) -> list[int | None]:
+        """Per letter: the same of rows of cells."""
+        return _holders(self._floors, letters)
+
+
+def _holders(front: Sequence[PlacedLetter], letters: Sequence[PlacedLetter]) -> list[int | None]:
+    """Letters of a row do not overlap, so that only the last one that begins before can hold another."""
+    starts = [a.start for a in front]
+    found: list[int | None] = []
+    for letter in letters:
+        n = bisect_right(starts, letter.start + _NEAR) - 1
+        while n > 0 and front[n].end < letter.end - _NEAR and front[n - 1].end >= letter.end - _NEAR:
+            n -= 1  # it begins a little before the next one does
+        found.append(n if n >= 0 and front[n].end >= letter.end - _NEAR else None)
+    return found
 
 
 def _placed(layer: Layer, h: PlacedLetter, v: PlacedLetter, rect: Rect, look: Shape) -> PlacedShape:
@@ -96,28 +156,18 @@ def _shown(design: Design, layer: Layer, axis: Axis, solved: AxisLayout) -> Iter
         yield letter
 
 
-def _covers(cover: Rect, rect: Rect) -> bool:
-    return (
-        cover[0] <= rect[0] + _NEAR
-        and cover[1] <= rect[1] + _NEAR
-        and cover[2] >= rect[2] - _NEAR
-        and cover[3] >= rect[3] - _NEAR
-    )
-
-
 def find_holes(canvas: Canvas, shapes: Sequence[PlacedShape]) -> tuple[Rect, ...]:
     """Rectangles of the canvas that no shape covers: a partition into as tall, then as wide, pieces as come."""
     xs = _cuts([0.0, canvas.width, *(v for s in shapes for v in (s.rect[0], s.rect[2]))], canvas.width)
     ys = _cuts([0.0, canvas.height, *(v for s in shapes for v in (s.rect[1], s.rect[3]))], canvas.height)
     nx, ny = len(xs) - 1, len(ys) - 1
-    bare = [[True] * ny for _ in range(nx)]
+    grid = np.ones((nx, ny), dtype=bool)
     for shape in shapes:
         left, bottom, right, top = shape.rect
-        rows = range(_index(ys, bottom), _index(ys, top))
-        for i in range(_index(xs, left), _index(xs, right)):
-            column = bare[i]
-            for j in rows:
-                column[j] = False
+        grid[_index(xs, left) : _index(xs, right), _index(ys, bottom) : _index(ys, top)] = False
+    if not grid.any():
+        return ()
+    bare = grid.tolist()
     holes: list[Rect] = []
     open_runs: dict[tuple[int, int], int] = {}
     for i in range(nx + 1):
@@ -151,11 +201,19 @@ def _runs(column: Sequence[bool]) -> Iterator[tuple[int, int]]:
             start = None
 
 
-def hole_warnings(design: Design, x: AxisLayout, y: AxisLayout, holes: Sequence[Rect]) -> list[str]:
+def hole_warnings(
+    design: Design,
+    x: AxisLayout,
+    y: AxisLayout,
+    holes: Sequence[Rect],
+    check: Callable[[], None] | None = None,
+) -> list[str]:
     """A sentence for each letter that pushed the others aside and is itself not to be seen in the hole."""
     told: dict[str, None] = {}
     axes: Mapping[Axis, AxisLayout] = {"x": x, "y": y}
     for hole in holes:
+        if check is not None:
+            check()
         where = f"{hole[0]:.2f} to {hole[2]:.2f} m across, {hole[1]:.2f} to {hole[3]:.2f} m up"
         culprit = next(_pushers(design, axes, hole), None)
         if culprit is None:

@@ -35,7 +35,7 @@ class PairTable:
     Parameters
     ----------
     reference, other
-        The reference has no transparent letters.
+        Two words.
     share
         A row's share in E and Λ.
     pairs
@@ -76,7 +76,10 @@ class PairTable:
         by_empty, by_loose, part, plain = self._empty, self._loose, self._part, self._plain
         last = len(all_b) - 1
         row = [inf] * (last + 1)
-        reach = [(size, own * part, soft and not plain, self._rows[end]) for end, size, own, soft in moves_a]
+        reach = [
+            (size, own * part, soft and not plain, self._rows[end] if end != p else None)
+            for end, size, own, soft in moves_a
+        ]
         for q in range(last, -1, -1):
             best = 0.0 if q == last and not reach else inf
             moves_b = all_b[q]
@@ -89,15 +92,18 @@ class PairTable:
             for size_a, own_a, soft_a, after in reach:
                 if own_a >= best:
                     break  # longer runs share more elements
-                if after is None:
-                    continue
-                value = own_a + by_empty * size_a + after[q]  # the other is empty
-                if value < best:
-                    best = value
+                stays = after is None  # the reference's letter goes on
+                rest = row if after is None else after
+                if not stays:
+                    value = own_a + rest[q] + (by_empty * size_a if size_a > 0 else 0.0)  # the other is empty
+                    if value < best:
+                        best = value
                 up = part * (by_loose if soft_a else 1.0)  # a metre by which the reference is short
                 for end, size, own, soft in moves_b:
+                    if stays and end == q:
+                        continue
                     value = own_a + own
-                    if size >= 0:
+                    if size >= 0 and size_a >= 0:
                         over = size - size_a
                         if over > 0:
                             value += over * up
@@ -105,7 +111,7 @@ class PairTable:
                                 break  # longer runs are dearer still
                         else:
                             value -= over * (by_loose if soft and not plain else part)
-                    value += after[end]
+                    value += rest[end]
                     if value < best:
                         best = value
             row[q] = best
@@ -131,8 +137,14 @@ def _moves(band: Band, by_loose: float) -> list[list[_Move]]:
 
 
 def choose_reference(bands: Sequence[Band]) -> int | None:
-    """The band with the most letters of those without transparent ones, opaque ones first; None where there is none."""
+    """The band with the most letters: of those without transparent ones, if there are any, and opaque ones first."""
     rigid = [
         b for b, band in enumerate(bands) if band.letters and not any(a.transparent for a in band.letters)
     ]
-    return max(rigid, key=lambda b: (not bands[b].soft, len(bands[b].letters)), default=None)
+    if rigid:
+        return max(rigid, key=lambda b: (not bands[b].soft, len(bands[b].letters)))
+    return max(
+        range(len(bands)),
+        key=lambda b: sum(not letter.transparent for letter in bands[b].letters),
+        default=None,
+    )

@@ -13,6 +13,9 @@ __all__ = ["FREE", "Solution", "least_squares"]
 FREE = 1e30
 """Bounds at or beyond this are none."""
 
+_MISSED = 1e-11
+"""By how much the optimality conditions may be missed, in any component."""
+
 _Array = NDArray[np.float64]
 
 
@@ -43,7 +46,6 @@ def least_squares(
     lower: _Array,
     upper: _Array,
     *,
-    rho: float = 1e-3,
     tolerance: float = 1e-11,
 ) -> Solution | None:
     """Minimise ``Σ weight·(x − target)²`` subject to ``lower <= [x; rows @ x] <= upper``.
@@ -51,8 +53,9 @@ def least_squares(
     Parameters
     ----------
     weight, target
-        Shape (n,). Weights may be zero: the Hessian is then singular, and the proximal-point method (a term
-        ``rho·‖x − x_k‖²``, solved again from the answer) leads to an exact minimiser, with few rounds.
+        Shape (n,). Weights may be zero: the Hessian is then singular, and the proximal-point method leads to a
+        minimiser (a term ``rho·‖x − x_k‖²``, solved again from the answer). daqp's own does so within one call;
+        where that leads to numerical trouble it is repeated here, more slowly.
     rows
         Shape (m, n).
     lower, upper
@@ -66,30 +69,57 @@ def least_squares(
     """
     sense = np.zeros(upper.size, dtype=np.int32)
     sense[upper == lower] = 5
-    singular = bool((weight <= 0).any())
-    hessian = np.diag(2.0 * (weight + (rho if singular else 0.0)))
-    base = -2.0 * weight * target
-    x = target.copy()
+    hessian, base = np.diag(2.0 * weight), -2.0 * weight * target
+    if bool((weight > 0).all()):
+        return _solve(hessian, base, rows, lower, upper, sense, tolerance)
+    found = _solve(hessian, base, rows, lower, upper, sense, tolerance, eps_prox=1e-5, eta_prox=1e-12)
+    if found is not None:
+        n = weight.size
+        pull = found.multipliers[:n] + found.multipliers[n:] @ rows
+        if np.abs(hessian.diagonal() * found.x + base + pull).max(initial=0.0) <= _MISSED:
+            return found
+    return _rounds(hessian, base, rows, lower, upper, sense, tolerance, target)
+
+
+def _solve(
+    hessian: _Array,
+    linear: _Array,
+    rows: _Array,
+    lower: _Array,
+    upper: _Array,
+    sense: NDArray[np.int32],
+    tolerance: float,
+    **options: float,
+) -> Solution | None:
+    x, _value, flag, info = daqp.solve(
+        hessian, linear, rows, upper, lower, sense.copy(), primal_tol=tolerance, dual_tol=1e-12,
+        **{"eps_prox": 0.0, **options},
+    )  # fmt: skip
+    return Solution(x, np.asarray(info["lam"]), int(info["iterations"])) if flag == 1 else None
+
+
+def _rounds(
+    hessian: _Array,
+    base: _Array,
+    rows: _Array,
+    lower: _Array,
+    upper: _Array,
+    sense: NDArray[np.int32],
+    tolerance: float,
+    x: _Array,
+    rho: float = 1e-3,
+) -> Solution | None:
+    """The proximal-point method, until the optimality conditions are missed by next to nothing."""
+    convex = hessian + 2.0 * rho * np.eye(x.size)
+    found: Solution | None = None
     iterations = 0
-    lam = np.zeros(upper.size)
-    for _ in range(40 if singular else 1):
-        linear = base - 2.0 * rho * x if singular else base
-        new, _value, flag, info = daqp.solve(
-            hessian,
-            linear,
-            rows,
-            upper,
-            lower,
-            sense.copy(),
-            primal_tol=tolerance,
-            dual_tol=1e-12,
-            eps_prox=0.0,
-        )
-        if flag != 1:
+    for _ in range(40):
+        found = _solve(convex, base - 2.0 * rho * x, rows, lower, upper, sense, tolerance)
+        if found is None:
             return None
-        iterations += int(info["iterations"])
-        moved = float(np.abs(new - x).max(initial=0.0))
-        x, lam = new, np.asarray(info["lam"])
-        if moved <= 1e-10:
+        iterations += found.iterations
+        missed = 2.0 * rho * float(np.abs(found.x - x).max(initial=0.0))
+        x = found.x
+        if missed <= _MISSED:
             break
-    return Solution(x, lam, iterations)
+    return None if found is None else Solution(found.x, found.multipliers, iterations)

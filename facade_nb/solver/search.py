@@ -18,11 +18,16 @@ from itertools import count
 from math import inf
 
 from .columns import EPS, Group
-from .network import Network, Path
+from .network import Network
+from .paths import Path
 from .pricing import Priced, price
 from .seen import Seen
+from .tracing import Walk
 
-__all__ = ["BestFirst", "Found", "Stopped", "plunge", "search"]
+__all__ = ["BestFirst", "Found", "Stopped", "search"]
+
+_STEP = 0.002
+"""How much dearer than a path the first of its columns may be, as a fraction of the canvas, where they are many."""
 
 
 class Stopped(Exception):
@@ -82,6 +87,8 @@ class BestFirst:
         Ties and lower bound so far; where `done`, the ties are all there is to know.
     done
         The optimum is known, or there is none.
+    turn
+        After so many paths it pauses.
     """
 
     def __init__(
@@ -92,8 +99,13 @@ class BestFirst:
         nodes: int = 1_000_000,
         check: Callable[[], None] | None = None,
         accept: Callable[[Priced], bool] | None = None,
+        log: Walk | None = None,
+        turn: float = inf,
     ) -> None:
         self.network = Network(groups, check)
+        self.turn = turn
+        self.paused = False
+        self.log = log
         self.keep, self.nodes, self.check, self.accept = keep, nodes, check, accept
         self.found = Found(bound=self.network.later[0])
         self.done = self.found.bound == inf
@@ -110,20 +122,24 @@ class BestFirst:
         heappush(self._queue, (bound, -item.columns, next(self._serial), item))
 
     def advance(self, limit: float) -> None:
-        """Go on until the optimum is known, or is known to cost more than `limit`."""
+        """Go on until the optimum is known, or is known to cost more than `limit`, or it is the turn of others.
+
+        Then the search is `paused`, and has to be taken up again with the same limit.
+        """
         found, queue = self.found, self._queue
         if self.done or limit < found.bound - EPS:
             return
-        if self.network.gather and limit > self._horizon:
-            self._begin_again()
-        parked, self._parked = self._parked, []
-        for made, path in parked:
-            if not path.dropped:
-                self._expand(path, made, limit)
+        if not self.paused and not self._prepare(limit):
+            return
+        self.paused = False
+        pause = found.nodes + self.turn
         while queue:
             bound = queue[0][0]
             if bound > limit + EPS or (found.ties and bound > found.ties[0].cost + EPS):
                 break
+            if found.nodes >= pause:
+                self.paused = True
+                return
             item = heappop(queue)[3]
             if not found.ties:
                 found.bound = max(found.bound, bound)
@@ -140,34 +156,84 @@ class BestFirst:
             if found.nodes >= self.nodes:
                 found.cut = self.done = True
                 return
+            if self.log is not None:
+                self.log.node(item, bound)
             if self.network.complete(item):
                 priced = price(self.network.groups, self.network.structure(item))
+                if self.log is not None:
+                    self.log.price(item, priced)
                 if priced is not None:
                     self._push(priced.cost, priced)
+            elif self.network.tall:
+                self._expand_a_little(item, bound, limit)
             else:
                 self._expand(item, -inf, limit)
         if found.ties:
             self.done = True
-        elif limit >= self._ceiling:
-            self.done = True
-            found.bound = inf
         else:
-            found.bound = max(found.bound, limit)
+            self._nothing_within(limit)
 
-    def _begin_again(self) -> None:
-        """From here on the tolerance may bind, and paths are not compared by the ranges of their pieces."""
-        self.network.gather = False
+    def _prepare(self, limit: float) -> bool:
+        """Take up what a lesser limit left aside; whether there is anything to search."""
+        if self.log is not None:
+            self.log.limit(limit)
+        if self.network.tall:
+            if not self.network.bind(limit):
+                self._nothing_within(limit)
+                return False
+            self._begin_again(gather=limit <= self._horizon)
+        elif self.network.gather and limit > self._horizon:
+            self._begin_again(gather=False)
+        parked, self._parked = self._parked, []
+        for made, path in parked:
+            if not path.dropped:
+                self._expand(path, made, limit)
+        return True
+
+    def _nothing_within(self, limit: float) -> None:
+        if limit >= self._ceiling:
+            self.done = True
+            self.found.bound = inf
+        else:
+            self.found.bound = max(self.found.bound, limit)
+
+    def _begin_again(self, *, gather: bool) -> None:
+        """Start anew: the bounds hold for another limit, or, without `gather`, the tolerance may bind from here on.
+
+        Then paths are not compared by the ranges of their pieces.
+        """
+        self.network.gather = gather
         self._seen = Seen(self.network, self.keep)
         self._queue.clear()
         self._parked.clear()
-        self._push(self.found.bound, self.network.root())
+        self._push(self.network.later[0], self.network.root())
 
     def _expand(self, path: Path, made: float, limit: float) -> None:
         """Make the columns that a limit allows and an earlier one, `made`, did not."""
         for bound, child in self.network.children(path, made, limit):
-            if self.accept is not None or not self._seen.drops(child):
-                self._push(bound, child)
+            self._take(bound, child)
         self._parked.append((limit, path))
+
+    def _expand_a_little(self, path: Path, bound: float, limit: float) -> None:
+        """Make only the columns that come next by their bound: of many rows there are too many to make them all.
+
+        The path goes back into the queue to wait for its turn to make more.
+        """
+        step = path.step or _STEP * self.network.groups[path.group].canvas
+        upto = min(limit, max(bound, path.made) + step)
+        for least, child in self.network.children(path, path.made, upto):
+            if least <= limit + EPS:
+                self._take(least, child)
+        path.made, path.step = upto, 2.0 * step
+        if upto < limit:
+            self._push(upto, path)
+
+    def _take(self, bound: float, child: Path) -> None:
+        drops = self.accept is None and self._seen.drops(child)
+        if self.log is not None:
+            self.log.edge(child, bound, drops)
+        if not drops:
+            self._push(bound, child)
 
 
 def search(
@@ -203,41 +269,3 @@ def search(
             break
         step *= 1.6
     return run.found
-
-
-def plunge(groups: Sequence[Group], check: Callable[[], None] | None, nodes: int = 3000) -> Priced | None:
-    """Some alignment, soon: paths that have come far go first, whatever they may cost.
-
-    For when there is no time to look for the best one.
-    """
-    network = Network(groups, check, most=50)
-    if network.later[0] == inf:
-        return None
-    canvas = max(group.canvas for group in groups)
-    ceiling = network.ceiling()
-    serial = count()
-    queue: list[tuple[float, int, Path]] = [(0.0, next(serial), network.root())]
-    for _ in range(nodes):
-        if not queue:
-            return None
-        if check is not None:
-            check()
-        _, _, path = heappop(queue)
-        if network.complete(path):
-            priced = price(network.groups, network.structure(path))
-            if priced is not None:
-                return priced
-            continue
-        laid, step = path.cost + path.ahead + network.later[path.group + 1], 1e-5 * canvas
-        children = network.children(path, -inf, laid + step)
-        while not children and laid + step < ceiling:  # the columns that make the bound rise least
-            step *= 2.0
-            children = network.children(path, -inf, laid + step)
-        for least, child in children:
-            bands = groups[child.group].bands if child.group < len(groups) else ()
-            done = sum(
-                (p >> 3) / max(1, len(band.letters)) for band, p in zip(bands, child.state, strict=True)
-            )
-            far = child.group + (done / len(bands) if bands else 0.0)
-            heappush(queue, (least - far * canvas, next(serial), child))
-    return None

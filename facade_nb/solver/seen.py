@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from .columns import EPS
-from .network import Network, Path
+from .network import Network
+from .paths import Path
 
 __all__ = ["Seen"]
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import sqrt
+from typing import Any
 
 import numpy as np
 
@@ -27,6 +28,11 @@ from .pricing import Priced
 from .qp import FREE, Solution, least_squares
 
 __all__ = ["Placement", "Sized", "System", "size_axis"]
+
+_Key = tuple[Any, ...]
+"""What a name is spelled from: its kind, then symbols, indices, or places."""
+_Place = tuple[int, int, int, int]
+"""Group, row, column, and place in the element."""
 
 Placement = tuple[tuple[tuple[tuple[float, float], ...], ...], ...]
 """Per column, per band: the intervals of the letters and pieces in it."""
@@ -43,16 +49,40 @@ class System:
         upper bound of letter k of row i in column j, ``g:ijk.s`` its lower bound where a gap parts it from
         the column's edge.
     rows
-        Names of the equations and inequalities, then the matrix with its bounds.
+        Names of the equations and inequalities.
+    keys, row_keys
+        What the names are spelled from.
+    matrix, lower, upper
+        The rows, shape (m, n); bounds of the variables, then of the rows.
+    weight, target, pull
+        Per variable: weight in the first round, where it would like to be, weight in the second round.
     """
 
-    variables: tuple[str, ...]
-    rows: tuple[str, ...]
+    keys: tuple[_Key, ...]
+    row_keys: tuple[_Key, ...]
     matrix: np.ndarray
     lower: np.ndarray
     upper: np.ndarray
     weight: np.ndarray
     target: np.ndarray
+    pull: np.ndarray
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of the variables; spelled when asked for, because a search poses many systems and shows one."""
+        return tuple(map(_spelled, self.keys))
+
+    @property
+    def rows(self) -> tuple[str, ...]:
+        """Names of the rows."""
+        return tuple(map(_spelled, self.row_keys))
+
+    def kept(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The bounds of the second round: sized symbols keep the sizes that they have in x."""
+        n, kept = x.size, self.weight > 0
+        lower, upper = self.lower.copy(), self.upper.copy()
+        lower[:n][kept] = upper[:n][kept] = x[kept]
+        return lower, upper
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,54 +107,95 @@ class Sized:
     deviation: float
     system: System
     solution: Solution
+    placed: tuple[float, ...]
+    """Every variable after the second round."""
 
 
 class _Builder:
-    """Variables and rows, as they are met."""
+    """Variables and rows, as they are met; rows by kind, so that numpy fills the matrix."""
 
     def __init__(self, canvas: float, symbol: Callable[[str], Symbol], least: float) -> None:
         self.canvas, self.symbol, self.least = canvas, symbol, least
-        self.names: list[str] = []
-        self.low: list[float] = []
-        self.high: list[float] = []
-        self.target: list[float] = []
-        self.weight: list[float] = []
-        self.pull: list[float] = []
-        self.row_names: list[str] = []
-        self.terms: list[dict[int, float]] = []
-        self.row_low: list[float] = []
-        self.row_high: list[float] = []
+        self.keys: list[_Key] = []
+        self.variables: list[tuple[float, float, float, float, float]] = []
+        """Low, high, target, weight, pull."""
+        self.inner = (0.0, canvas, 0.0, 0.0, 0.0)
+        """A boundary between letters."""
+        self.differences: list[tuple[int, int, float]] = []
+        """Greater, less, and by how much at least."""
+        self.difference_keys: list[_Key] = []
+        self.spans: list[tuple[int, int, int]] = []
+        """Start, end and size of a letter, which are the same length."""
+        self.span_keys: list[_Key] = []
+        self.equations: list[Mapping[int, float]] = []
+        """Terms that add up to nothing."""
+        self.equation_keys: list[_Key] = []
         self.size_of: dict[str, int] = {}
         self.extents: dict[tuple[int, int, int, str, int], dict[int, float]] = {}
+        self.open = False
+        """Whether the sizes of the sized symbols leave anything undecided."""
 
     def variable(
-        self, name: str, low: float, high: float, target: float, weight: float = 0.0, pull: float = 0.0
+        self, key: _Key, low: float, high: float, target: float, weight: float = 0.0, pull: float = 0.0
     ) -> int:
-        self.names.append(name)
-        self.low.append(low)
-        self.high.append(high)
-        self.target.append(target)
-        self.weight.append(weight)
-        self.pull.append(pull)
-        return len(self.names) - 1
+        self.keys.append(key)
+        self.variables.append((low, high, target, weight, pull))
+        return len(self.keys) - 1
 
-    def row(self, name: str, terms: Mapping[int, float], low: float, high: float) -> None:
-        self.row_names.append(name)
-        self.terms.append({v: c for v, c in terms.items() if c})
-        self.row_low.append(low)
-        self.row_high.append(high)
+    def difference(self, key: _Key, greater: int, less: int, low: float) -> None:
+        """``greater - less >= low``."""
+        self.difference_keys.append(key)
+        self.differences.append((greater, less, low))
+
+    def equation(self, key: _Key, terms: Mapping[int, float]) -> None:
+        """``terms = 0``."""
+        self.equation_keys.append(key)
+        self.equations.append(terms)
 
     def size(self, name: str, aligned: float) -> int:
-        """The size variable of a symbol; an unsized one is drawn towards its size in the alignment."""
-        v = self.size_of.get(name)
-        if v is None:
-            own = self.symbol(name)
-            low, high = max(self.least, own.min or 0.0), FREE if own.max is None else own.max
-            sized = own.size is not None
-            target = aligned if own.size is None else own.size
-            v = self.variable(f"|{name}|", low, high, target, 1.0 if sized else 0.0, 0.0 if sized else 1.0)
-            self.size_of[name] = v
+        """A variable for the size of a symbol; an unsized one is drawn towards its size in the alignment."""
+        own = self.symbol(name)
+        low, high = max(self.least, own.min or 0.0), FREE if own.max is None else own.max
+        sized = own.size is not None
+        self.open = self.open or not sized
+        target = aligned if own.size is None else own.size
+        v = self.variable(("|", name), low, high, target, 1.0 if sized else 0.0, 0.0 if sized else 1.0)
+        self.size_of[name] = v
         return v
+
+    def system(self) -> System:
+        """The matrices."""
+        n = len(self.keys)
+        low, high, target, weight, pull = np.array(self.variables).T
+        m, k = len(self.differences), len(self.spans)
+        matrix = np.zeros((m + k + len(self.equations), n))
+        floor = np.zeros(len(matrix))
+        ceiling = np.zeros(len(matrix))
+        if m:
+            greater, less, least = zip(*self.differences, strict=True)
+            rows = np.arange(m)
+            matrix[rows, greater] = 1.0
+            matrix[rows, less] = -1.0
+            floor[:m], ceiling[:m] = least, FREE
+        if k:
+            start, end, size = np.array(self.spans).T
+            rows = np.arange(m, m + k)
+            matrix[rows, end] = 1.0
+            matrix[rows, start] = -1.0
+            matrix[rows, size] = -1.0
+        for row, terms in enumerate(self.equations, m + k):
+            for v, coefficient in terms.items():
+                matrix[row, v] = coefficient
+        return System(
+            tuple(self.keys),
+            (*self.difference_keys, *self.span_keys, *self.equation_keys),
+            matrix,
+            np.concatenate((low, floor)),
+            np.concatenate((high, ceiling)),
+            weight,
+            target,
+            np.maximum(pull, 1e-6),
+        )
 
 
 def size_axis(
@@ -160,15 +231,14 @@ def size_axis(
     for (_, _, _, name, _), terms in build.extents.items():
         z = build.size_of.get(name)
         if z is not None:
-            build.row(f"extent of {name} = |{name}|", {**terms, z: terms.get(z, 0.0) - 1.0}, 0.0, 0.0)
-    system = _system(build)
+            build.equation(("extent", name), {**terms, z: terms.get(z, 0.0) - 1.0})
+    system = build.system()
     first = least_squares(system.weight, system.target, system.matrix, system.lower, system.upper)
     if first is None:
         return None
-    x = _settle(system, np.array(build.pull), first.x)
-    at = np.clip(
-        x, system.lower[: x.size], system.upper[: x.size]
-    ).tolist()  # the ends are 0 and the canvas exactly
+    x = _settle(system, first.x) if build.open else first.x
+    # 1 m is to be 1 and not a bit less; the ends are 0 and the canvas exactly
+    at = np.clip(np.round(x, 12), system.lower[: x.size], system.upper[: x.size]).tolist()
     return Sized(
         {name: at[v] for name, v in build.size_of.items()},
         tuple(tuple(at[v] for v in own) for own in edges),
@@ -179,48 +249,30 @@ def size_axis(
         sqrt(float(np.sum(system.weight * (first.x - system.target) ** 2))),
         system,
         first,
+        tuple(at),
     )
 
 
-def _system(build: _Builder) -> System:
-    matrix = np.zeros((len(build.terms), len(build.names)))
-    for r, terms in enumerate(build.terms):
-        for v, coefficient in terms.items():
-            matrix[r, v] = coefficient
-    return System(
-        tuple(build.names),
-        tuple(build.row_names),
-        matrix,
-        np.array([*build.low, *build.row_low]),
-        np.array([*build.high, *build.row_high]),
-        np.array(build.weight),
-        np.array(build.target),
-    )
-
-
-def _settle(system: System, pull: np.ndarray, x: np.ndarray) -> np.ndarray:
+def _settle(system: System, x: np.ndarray) -> np.ndarray:
     """The second round: sized symbols keep their sizes, the rest comes near to the alignment."""
-    n = x.size
-    kept = system.weight > 0
-    lower, upper = system.lower.copy(), system.upper.copy()
-    lower[:n][kept] = upper[:n][kept] = x[kept]
-    second = least_squares(np.maximum(pull, 1e-6), system.target, system.matrix, lower, upper, tolerance=1e-9)
+    lower, upper = system.kept(x)
+    second = least_squares(system.pull, system.target, system.matrix, lower, upper, tolerance=1e-9)
     return x if second is None else second.x
 
 
 def _edges(build: _Builder, g: int, priced: Priced, k: int) -> list[int]:
     """Column boundaries, from 0 to the canvas."""
-    widths = [max(sum(own) for own in column) for column in priced.pieces[k]]
+    widths = [max(map(sum, column)) for column in priced.pieces[k]]
     total = sum(widths)
     scale = build.canvas / total if total > 0 else 1.0
     at = 0.0
-    out = [build.variable(f"{g}:0", 0.0, 0.0, 0.0)]
+    out = [build.variable((":", g, 0), 0.0, 0.0, 0.0)]
     for j, width in enumerate(widths):
         at += width * scale
         last = j == len(widths) - 1
         low, high = (build.canvas, build.canvas) if last else (0.0, build.canvas)
-        out.append(build.variable(f"{g}:{j + 1}", low, high, at))
-        build.row(f"{g}:{j} < {g}:{j + 1}", {out[-1]: 1.0, out[-2]: -1.0}, build.least, FREE)
+        out.append(build.variable((":", g, j + 1), low, high, at))
+        build.difference(("<", g, j), out[-1], out[-2], build.least)
     return out
 
 
@@ -230,60 +282,113 @@ def _letters(
     """The bounds of every letter and piece of a group, per column and band, with the rows they must keep."""
     structure, pieces = priced.structure[k], priced.pieces[k]
     placed: list[list[list[tuple[int, int]]]] = [[[] for _ in group.bands] for _ in structure]
+    keys, variables, inner = build.keys, build.variables, build.inner
+    spans, span_keys = build.spans, build.span_keys
     for row, band in enumerate(group.bands):
-        stands: dict[int, list[tuple[str, int, int, float]]] = {}
+        word, size_of = band.letters, build.size_of
+        # equal words may owe their letters to other contents
+        marked = [(n, origins) for n, origins in enumerate(band.origins) if any(origins)]
+        stands: list[list[tuple[_Place, int, int, float]]] = [[] for _ in word]
         for j, column in enumerate(structure):
             option = column[row]
             if option.empty:
                 continue
-            names = [f"{g}:{row}-{j}-{i}" for i in range(len(option.letters))]
-            start, end = edges[j], edges[j + 1]
+            start, end = left, right = edges[j], edges[j + 1]
+            own_letters, sizes, into = option.letters, pieces[j][row], placed[j][row]
+            final = len(own_letters) - 1
             if option.soft:
-                start, end = _gaps(build, names, [band.letters[i] for i in option.letters], start, end)
+                soft = next(word[i] for i in own_letters if not word[i].opaque)
+                start, end = _gaps(build, (g, row, j), final, soft, start, end)
             at = start
-            for i, (letter, size) in enumerate(zip(option.letters, pieces[j][row], strict=True)):
-                last = i == len(option.letters) - 1
-                to = end if last else build.variable(f"{names[i]}.t", 0.0, build.canvas, 0.0)
-                placed[j][row].append((at, to))
-                stands.setdefault(letter, []).append((names[i], at, to, size))
-                for n, origins in enumerate(
-                    band.origins
-                ):  # equal words may owe their letters to other contents
+            for i, letter in enumerate(own_letters):
+                place = (g, row, j, i)
+                if i == final:
+                    to = end
+                else:
+                    to = len(keys)
+                    keys.append(("t", g, row, j, i))
+                    variables.append(inner)
+                into.append((at, to))
+                stands[letter].append((place, at, to, sizes[i]))
+                for n, origins in marked:
                     origin = origins[letter]
                     if origin is not None:  # the extent of a content takes in the gaps beside it
-                        left, right = edges[j] if i == 0 else at, edges[j + 1] if last else to
                         extent = build.extents.setdefault((g, row, n, *origin), {})
-                        extent[right] = extent.get(right, 0.0) + 1.0
-                        extent[left] = extent.get(left, 0.0) - 1.0
+                        edge = right if i == final else to
+                        extent[edge] = extent.get(edge, 0.0) + 1.0
+                        edge = left if i == 0 else at
+                        extent[edge] = extent.get(edge, 0.0) - 1.0
                 at = to
-        for letter, own in stands.items():
-            symbol = band.letters[letter].symbol
-            z = build.size(symbol, sum(size for *_, size in own))
-            total: dict[int, float] = {z: -1.0}
-            for name, s, t, _ in own:
-                total[t] = total.get(t, 0.0) + 1.0
-                total[s] = total.get(s, 0.0) - 1.0
-                if len(own) > 1:
-                    build.row(f"{name}.s < {name}.t", {t: 1.0, s: -1.0}, build.least, FREE)
-            build.row(" + ".join(name for name, *_ in own) + f" = |{symbol}|", total, 0.0, 0.0)
+        for symbol, own in zip((letter.symbol for letter in word), stands, strict=True):
+            z = size_of.get(symbol)
+            if z is None:
+                z = build.size(symbol, sum(size for *_, size in own))
+            if len(own) == 1:
+                ((place, s, t, _),) = own
+                span_keys.append(("=", symbol, place))
+                spans.append((s, t, z))
+            else:
+                _pieces(build, symbol, own, z)
     return placed
 
 
+def _pieces(build: _Builder, symbol: str, own: Sequence[tuple[_Place, int, int, float]], z: int) -> None:
+    """The pieces of a cut letter add up to its size, and each is longer than nothing."""
+    build.open = True
+    total: dict[int, float] = {z: -1.0}
+    for place, s, t, _ in own:
+        total[t] = total.get(t, 0.0) + 1.0
+        total[s] = total.get(s, 0.0) - 1.0
+        build.difference(("piece", *place), t, s, build.least)
+    build.equation(("=", symbol, *(place for place, *_ in own)), total)
+
+
 def _gaps(
-    build: _Builder, names: Sequence[str], letters: Sequence[Letter], start: int, end: int
+    build: _Builder, place: tuple[int, int, int], final: int, soft: Letter, start: int, end: int
 ) -> tuple[int, int]:
     """Put gap letters γ around an element with a non-opaque letter; the first such letter says how it is placed."""
-    soft = next(letter for letter in letters if not letter.opaque)
+    build.open = True
     placement = build.symbol(soft.symbol).placement
     if soft.mirrored and placement != "center":
         placement = "right" if placement == "left" else "left"
     s, t = start, end
     if placement != "left":
-        s = build.variable(f"{names[0]}.s", 0.0, build.canvas, build.target[start])
-        build.row(f"{names[0]}: gap before ≥ 0", {s: 1.0, start: -1.0}, 0.0, FREE)
+        s = build.variable(("s", *place, 0), 0.0, build.canvas, build.variables[start][2])
+        build.difference(("before", *place, 0), s, start, 0.0)
     if placement != "right":
-        t = build.variable(f"{names[-1]}.t", 0.0, build.canvas, build.target[end])
-        build.row(f"{names[-1]}: gap after ≥ 0", {end: 1.0, t: -1.0}, 0.0, FREE)
+        t = build.variable(("t", *place, final), 0.0, build.canvas, build.variables[end][2])
+        build.difference(("after", *place, final), end, t, 0.0)
     if placement == "center":
-        build.row(f"{names[0]}: gaps equal", {s: 1.0, start: -1.0, end: -1.0, t: 1.0}, 0.0, 0.0)
+        build.equation(("gaps", *place, 0), {s: 1.0, start: -1.0, end: -1.0, t: 1.0})
     return s, t
+
+
+def _spelled(key: _Key) -> str:
+    """The name of a variable or a row."""
+    kind, *rest = key
+    match kind:
+        case "|":
+            return f"|{rest[0]}|"
+        case ":":
+            return f"{rest[0]}:{rest[1]}"
+        case "<":
+            return f"{rest[0]}:{rest[1]} < {rest[0]}:{rest[1] + 1}"
+        case "=":
+            return " + ".join(map(_placed, rest[1:])) + f" = |{rest[0]}|"
+        case "extent":
+            return f"extent of {rest[0]} = |{rest[0]}|"
+    name = _placed(rest)
+    match kind:
+        case "piece":
+            return f"{name}.s < {name}.t"
+        case "before" | "after":
+            return f"{name}: gap {kind} ≥ 0"
+        case "gaps":
+            return f"{name}: gaps equal"
+    return f"{name}.{kind}"
+
+
+def _placed(place: Sequence[int]) -> str:
+    """Group, row, column and place in the element of a letter or piece."""
+    g, row, j, i = place
+    return f"{g}:{row}-{j}-{i}"

@@ -2,33 +2,41 @@
 
 from __future__ import annotations
 
-import time
-from collections import OrderedDict
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from heapq import heappop, heappush
 from itertools import product
 from math import inf
-from threading import Lock
 
 from ..design.errors import DesignError, Fault, NoLayout
 from ..design.model import AXES, Axis, Design
-from .analysis import AnalysisDone, analyse
-from .axis import AxisSearch, Best, Solved
-from .events import StageEnded, SystemSolved, Trace
-from .failure import explain
-from .layout import AxisLayout, GroupLayout, Layout, PlacedLetter, RowLayout
+from .analysis import analyse
+from .axis import AxisSearch, Best, Solved, forget_groups
+from .clock import Clock
+from .failure import explain, ran_out
+from .forces import Sizing
+from .instances import Range, ranges
+from .keeping import Kept
+from .layout import AxisLayout, GroupLayout, Layout, PlacedLetter, PlacedShape, Rect, RowLayout
 from .merging import find_holes, hole_warnings, merge
 from .objective import Objective
 from .problem import AxisProblem, axis_problem
+from .refusal import Blame
 from .search import Stopped
+from .tracing import Recorder, stage
+from .words import forget_words
 
 __all__ = ["TOLERANCES", "forget", "solve"]
 
 TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
 """Fractions of the canvas; the paper's schedule, and, by its last, what the default objective works within."""
 
-_KEEP = 64
-_cache: OrderedDict[object, tuple[AxisSearch, Best]] = OrderedDict()
-_lock = Lock()
+_cache: Kept[dict[Axis, tuple[AxisSearch, Best]]] = Kept(64)
+"""Answers of axes asked for last; of both together, where a counter ties them."""
+
+_REMEDIES = 0.6
+"""Seconds for trying what would help, where there is no layout; of them for one change:"""
+_REMEDY = 0.2
 
 
 def solve(
@@ -88,42 +96,30 @@ def solve(
         )
     if search not in ("best", "ida"):
         raise ValueError(f"search: expected 'best' or 'ida', found {search!r}")
-    log = Trace() if trace else None
-    if not design.stack:
-        return Layout(design.name, design.canvas, design=design, trace=log)
-    clock = _Clock(time_limit, should_stop)
-    run = _Run(design, objective or Objective(), tuple(tolerances), search, clock, log)
-    return run.layout()
+    log = Recorder(design, objective or Objective(), tolerances, search) if trace else None
+    clock = Clock(time_limit, should_stop)
+    try:
+        if design.stack:
+            run = _Run(design, objective or Objective(), tuple(tolerances), search, clock, log)
+            layout = run.layout()
+        else:
+            layout = Layout(design.name, design.canvas, design=design)
+    except NoLayout as error:
+        if log is not None:
+            log.finish(error=error)
+            error.trace = log.trace()
+        raise
+    if log is None:
+        return layout
+    log.finish(layout)
+    return replace(layout, trace=log.trace())
 
 
 def forget() -> None:
-    """Let go of all answers that are kept for unchanged axes."""
-    with _lock:
-        _cache.clear()
-
-
-class _Clock:
-    """The time that a search may take, and whether it is still wanted. The axes share it: x has three quarters."""
-
-    def __init__(self, limit: float | None, should_stop: Callable[[], bool] | None) -> None:
-        self._begin, self._limit, self._should_stop = time.monotonic(), limit, should_stop
-        self.allot(1.0)
-
-    def allot(self, part: float) -> None:
-        """From now on the search may go on until this part of the time has passed, less what a last attempt needs."""
-        self._part = part
-        self._end = 0.85 * part
-
-    def extend(self) -> None:
-        """Let the last attempt begin that follows a search without an answer: it has the rest of the part."""
-        self._end = self._part
-
-    def check(self) -> None:
-        """Raise `Stopped` where the search has to end."""
-        if self._should_stop is not None and self._should_stop():
-            raise Stopped(asked=True)
-        if self._limit is not None and time.monotonic() > self._begin + self._end * self._limit:
-            raise Stopped
+    """Let go of all that is kept for what an edit leaves alone: answers of axes and groups, words of patterns."""
+    _cache.clear()
+    forget_groups()
+    forget_words()
 
 
 class _Run:
@@ -135,54 +131,70 @@ class _Run:
         objective: Objective,
         tolerances: tuple[float, ...],
         search: str,
-        clock: _Clock,
-        trace: Trace | None,
+        clock: Clock,
+        trace: Recorder | None,
+        trial: bool = False,
     ) -> None:
         self.design, self.objective, self.tolerances = design, objective, tolerances
         self.search, self.trace = search, trace
-        self.clock = clock
+        self.clock, self.trial = clock, trial
         self.problems: Mapping[Axis, AxisProblem] = {axis: axis_problem(design, axis) for axis in AXES}
         used = [{name for name, _ in self.problems[axis].counters} for axis in AXES]
         self.shared = sorted(used[0] & used[1])
         self.analysed: set[Axis] = set()
 
     def layout(self) -> Layout:
-        solved: dict[Axis, tuple[AxisSearch, Best]]
-        if self.objective.plain:
-            solved = self._by_tolerance()
-        elif self.shared:
-            solved = self._tied()
-        else:
-            solved = {}
-            for axis, part in zip(AXES, (0.75, 1.0), strict=True):
-                self.clock.allot(part)
-                solved[axis] = self._axis(axis, self.tolerances[-1])
-        return self._assemble(solved)
+        return self._assemble(self._solved(AXES))
 
-    def _axis(self, axis: Axis, tolerance: float) -> tuple[AxisSearch, Best]:
-        """The best of one axis; an axis that has not changed since it was last asked for is not searched again."""
-        problem = self.problems[axis]
-        key = (problem, self.objective, tolerance, self.search)
-        if self.trace is None:
-            with _lock:
-                known = _cache.get(key)
-                if known is not None:
-                    _cache.move_to_end(key)
-                    return known
-        begin = time.perf_counter()
-        walk = self._walk(axis, tolerance)
-        best = walk.best()
-        if best.solved is None:
-            raise explain(self.design, walk, best)
-        if best.complete and self.trace is None:
-            walk.forget()
-            with _lock:
-                _cache[key] = (walk, best)
-                while len(_cache) > _KEEP:
-                    _cache.popitem(last=False)
+    def _solved(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
+        """The best of some axes; of both, where a counter ties them."""
+        try:
+            return self._found(axes)
+        except Stopped:
+            raise ran_out(self.design, self.clock, list(self.problems.values())) from None
+
+    def _found(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
+        if self.shared:
+            return self._unless_known(AXES, self._by_tolerance if self.objective.plain else self._tied)
+        out: dict[Axis, tuple[AxisSearch, Best]] = {}
+        for n, axis in enumerate(axes):
+            self.clock.allot(0.75 if n < len(axes) - 1 else 1.0)
+            out |= self._unless_known((axis,), self._by_tolerance if self.objective.plain else self._axis)
+        return out
+
+    def _unless_known(
+        self, axes: Sequence[Axis], find: Callable[[Sequence[Axis]], dict[Axis, tuple[AxisSearch, Best]]]
+    ) -> dict[Axis, tuple[AxisSearch, Best]]:
+        """Search axes unless they are the same as when they were last asked for."""
         if self.trace is not None:
-            self.trace.events.append(StageEnded(axis, "axis", time.perf_counter() - begin))
-        return walk, best
+            return find(axes)
+        key = (tuple(self.problems[axis] for axis in axes), self.objective, self.tolerances, self.search)
+        known = _cache.get(key)
+        if known is None:
+            known = find(axes)
+            if all(best.complete for _, best in known.values()):
+                for walk, best in known.values():
+                    walk.forget()
+                    for group in best.solved.groups if best.solved else ():
+                        group.edges.clear()
+                _cache.put(key, known)
+        return known
+
+    def _axis(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
+        """The best of one axis."""
+        (axis,) = axes
+        walk = self._walk(axis, self.tolerances[-1])
+        best = self._best(walk)
+        if best.solved is None:
+            raise self._failure(walk, best)
+        return {axis: (walk, best)}
+
+    def _best(self, walk: AxisSearch, cap: float = inf) -> Best:
+        with stage(self.trace, walk.problem.axis, "search"):
+            best = walk.best(cap)
+            if self.trace is not None:
+                self.trace.judged(walk)
+        return best
 
     def _walk(self, axis: Axis, tolerance: float) -> AxisSearch:
         problem = self.problems[axis]
@@ -194,13 +206,54 @@ class _Run:
             self.clock.check,
             self.trace,
             self.clock.extend,
+            self.clock.progress,
         )
+        self.clock.progress.at("words", axis)
         self._analyse(problem)
-        try:
-            walk.enumerate()
-        except Stopped:
-            raise NoLayout("The search was stopped before any layout was found.", axis) from None
+        with stage(self.trace, axis, "words"):
+            walk.enumerate(self._across(axis))
         return walk
+
+    def _across(self, axis: Axis) -> dict[str, Range]:
+        """Between which values of the shared counters the other axis has words."""
+        if not self.shared:
+            return {}
+        other = self.problems["y" if axis == "x" else "x"]
+        symbols, counters = other.symbol, dict(other.counters)
+        limit = other.canvas * (1.0 + self.tolerances[-1])
+        found: dict[str, Range] = {}
+        for _, pattern in other.patterns:
+            own = ranges(pattern, symbols.__getitem__, counters.__getitem__, limit, self.clock.check)
+            for name in own.keys() & set(self.shared):
+                low, high = found.get(name, own[name])
+                found[name] = max(low, own[name][0]), min(high, own[name][1])
+        return found
+
+    def _failure(self, walk: AxisSearch, best: Best, other: AxisSearch | None = None) -> NoLayout:
+        """Why there is no layout; a trial does not ask."""
+        if self.trial:
+            return NoLayout("")
+        end = self.clock.seconds + _REMEDIES
+
+        def works(design: Design, tolerance: float | None) -> Mapping[str, float] | None:
+            left = end - self.clock.seconds
+            if left <= 0:
+                raise Stopped
+            tolerances = self.tolerances if tolerance is None else (tolerance,)
+            clock = Clock(min(left, _REMEDY), parent=self.clock)
+            run = _Run(design, self.objective, tolerances, self.search, clock, None, trial=True)
+            return run.sizes(None if other else walk.problem.axis)
+
+        return explain(Blame(self.design, walk, best, self.clock, self.tolerances, works, other, self.shared))
+
+    def sizes(self, axis: Axis | None) -> dict[str, float] | None:
+        """The solved sizes of an axis, or of both; None where there is no layout."""
+        try:
+            solved = self._solved(AXES if axis is None else (axis,))
+        except NoLayout:
+            return None
+        own = (best.solved.sized.sizes for _, best in solved.values() if best.solved is not None)
+        return {name: size for sizes in own for name, size in sizes.items()}
 
     def _analyse(self, problem: AxisProblem) -> None:
         """Pattern analysis (supplement 3.1): report its systems, and stop where they prove that nothing fits."""
@@ -208,26 +261,27 @@ class _Run:
             return
         if problem.axis not in self.analysed:
             self.analysed.add(problem.axis)
-            self.trace.events.append(AnalysisDone(problem.axis, analyse(problem).to_dict()))
+            with stage(self.trace, problem.axis, "analysis"):
+                self.trace.analysed(problem.axis, analyse(problem))
 
-    def _tied(self) -> dict[Axis, tuple[AxisSearch, Best]]:
+    def _tied(self, axes: Sequence[Axis] = AXES) -> dict[Axis, tuple[AxisSearch, Best]]:
         """Both axes together, where a counter ties them: least J of both, over the values of the shared counters."""
-        walks = {axis: self._walk(axis, self.tolerances[-1]) for axis in AXES}
-        pairs = self._pairs(walks)
+        walks = {axis: self._walk(axis, self.tolerances[-1]) for axis in axes}
         best: Mapping[Axis, Best] | None = None
         rank = (inf, 0, inf)
         bound, complete = inf, True
-        try:
-            floors = [(sum(side.floor for side in pair), n) for n, pair in enumerate(pairs)]
-        except Stopped:
-            raise NoLayout("The search was stopped before any layout was found.") from None
-        for floor, n in sorted(floors):
-            if floor > rank[0] + 1e-9 or floor == inf:
+        pairs = self._by_floor(walks)
+        while True:
+            try:
+                floor, side_x, side_y = next(pairs, (inf, None, None))
+            except Stopped:
+                complete, bound = False, 0.0
+                break
+            if floor > rank[0] + 1e-9 or side_x is None or side_y is None:
                 bound = min(bound, floor)
                 break
-            side_x, side_y = pairs[n]
-            x = side_x.best(rank[0] - side_y.floor)
-            y = side_y.best(rank[0] - x.cost) if x.solved else Best(bound=side_y.floor)
+            x = self._best(side_x, rank[0] - side_y.floor)
+            y = self._best(side_y, rank[0] - x.cost) if x.solved else Best(bound=side_y.floor)
             complete = complete and x.complete and y.complete
             bound = min(bound, x.bound + y.bound)
             if x.solved is not None and y.solved is not None:
@@ -238,9 +292,7 @@ class _Run:
             if not complete:
                 break
         if best is None:
-            raise explain(
-                self.design, walks["x"], Best(complete=complete), other=walks["y"], shared=self.shared
-            )
+            raise self._failure(walks["x"], Best(complete=complete), walks["y"])
         gap = max(0.0, rank[0] - bound)
         for axis in AXES:
             own_best = best[axis]
@@ -248,40 +300,82 @@ class _Run:
             own_best.bound = (own_best.solved.cost if own_best.solved else 0.0) - gap
         return {axis: (walks[axis], best[axis]) for axis in AXES}
 
-    def _pairs(self, walks: Mapping[Axis, AxisSearch]) -> list[tuple[AxisSearch, AxisSearch]]:
+    def _by_floor(self, walks: Mapping[Axis, AxisSearch]) -> Iterator[tuple[float, AxisSearch, AxisSearch]]:
+        """Both axes with the shared counters held at values that both have, by growing lower bound of J."""
+        streams = [walks[axis].restricted({}).stream for axis in AXES]
+        across, up = streams
+        assert across is not None and up is not None
+        least = [across.bound, up.bound]
+        floors: list[dict[tuple[int, ...], float]] = [
+            {},
+            {},
+        ]  # of the first, and so the best, candidate with some values
+        ahead: list[tuple[float, tuple[int, ...]]] = []
+        while True:
+            unseen = min(across.bound + least[1], least[0] + up.bound)
+            if unseen == inf and not ahead:
+                return
+            if ahead and ahead[0][0] <= unseen:
+                floor, values = heappop(ahead)
+                held = dict(zip(self.shared, values, strict=True))
+                yield floor, walks["x"].restricted(held), walks["y"].restricted(held)
+                continue
+            turn = 0 if across.bound + least[1] <= least[0] + up.bound else 1
+            candidate = (across, up)[turn].take()
+            assert candidate is not None
+            values = tuple(candidate.counters[name] for name in self.shared)
+            if values not in floors[turn]:
+                floors[turn][values] = candidate.bound
+                if values in floors[1 - turn]:
+                    heappush(ahead, (floors[0][values] + floors[1][values], values))
+
+    def _pairs(self, walks: Mapping[Axis, AxisSearch]) -> Iterator[tuple[AxisSearch, AxisSearch]]:
         """Both axes with the shared counters held at each of their possible values, in lexicographic order."""
         possible = [
             sorted(set.intersection(*(_values_in(walks[axis], counter) for axis in AXES)))
             for counter in self.shared
         ]
-        pairs: list[tuple[AxisSearch, AxisSearch]] = []
         for combination in product(*possible):
+            self.clock.check()
             values = dict(zip(self.shared, combination, strict=True))
-            pairs.append((walks["x"].restricted(values), walks["y"].restricted(values)))
-        return pairs
+            yield walks["x"].restricted(values), walks["y"].restricted(values)
 
-    def _by_tolerance(self) -> dict[Axis, tuple[AxisSearch, Best]]:
+    def _by_tolerance(self, axes: Sequence[Axis] = AXES) -> dict[Axis, tuple[AxisSearch, Best]]:
         """The paper's schedule: the first candidate, in lexicographic order, that aligns at the least tolerance."""
         out: dict[Axis, tuple[AxisSearch, Best]] = {}
         walks: dict[Axis, AxisSearch] = {}
         for tolerance in self.tolerances:
-            walks = {axis: self._walk(axis, tolerance) for axis in AXES if axis not in out}
+            walks = {axis: self._walk(axis, tolerance) for axis in axes if axis not in out}
             if self.shared:
                 for side_x, side_y in self._pairs(walks):
-                    x = _first_aligned(side_x)
-                    y = _first_aligned(side_y) if x else None
+                    x = self._first_aligned(side_x)
+                    y = self._first_aligned(side_y) if x else None
                     if x is not None and y is not None:
                         return {"x": (walks["x"], x), "y": (walks["y"], y)}
                 continue
             for axis, walk in walks.items():
-                found = _first_aligned(walk)
+                found = self._first_aligned(walk)
                 if found is not None:
                     out[axis] = (walk, found)
-            if len(out) == len(AXES):
+            if len(out) == len(axes):
                 return out
-        failed = next(axis for axis in AXES if axis not in out)
-        other = walks["y"] if self.shared else None
-        raise explain(self.design, walks[failed], Best(), other=other, shared=self.shared)
+        failed = next(axis for axis in axes if axis not in out)
+        raise self._failure(walks[failed], Best(), walks["y"] if self.shared else None)
+
+    def _first_aligned(self, walk: AxisSearch) -> Best | None:
+        """The first candidate, in lexicographic order, that aligns and can be sized."""
+        progress, axis = self.clock.progress, walk.problem.axis
+        whole = all(found.left == inf for found in walk.found.values())
+        with stage(self.trace, axis, "search"):
+            for n, candidate in enumerate(walk.in_order(), 1):
+                progress.at("alignment", axis, candidate=n, of=n)
+                case = walk.case(candidate)
+                solved = walk.solve(case)
+                if self.trace is not None:
+                    self.trace.tried(walk, case)
+                if solved is not None:
+                    return Best(solved, solved.cost if whole else 0.0)
+        return None
 
     def _assemble(self, solved: Mapping[Axis, tuple[AxisSearch, Best]]) -> Layout:
         warnings: list[str] = []
@@ -291,17 +385,16 @@ class _Run:
         for axis in AXES:
             walk, best = solved[axis]
             answer = best.solved
-            if answer is None:
-                raise explain(self.design, walk, best)
+            assert answer is not None
             counters.update(answer.candidate.counters)
             axes[axis] = _axis_layout(self.design, walk.problem, best, answer)
             complete = complete and best.complete
             warnings += _warnings(walk, answer)
             if self.trace is not None:
-                self.trace.events.append(_system_event(axis, answer))
-        shapes = merge(self.design, axes["x"], axes["y"])
-        holes = find_holes(self.design.canvas, shapes)
-        warnings += hole_warnings(self.design, axes["x"], axes["y"], holes)
+                self.trace.answer(walk, answer, axes[axis], best.complete)
+        with stage(self.trace, "", "merging"):
+            shapes, holes, told = self._merged(axes)
+            warnings += told
         return Layout(
             self.design.name,
             self.design.canvas,
@@ -313,8 +406,28 @@ class _Run:
             tuple(warnings),
             complete,
             self.design,
-            self.trace,
         )
+
+    def _merged(
+        self, axes: Mapping[Axis, AxisLayout]
+    ) -> tuple[tuple[PlacedShape, ...], tuple[Rect, ...], list[str]]:
+        """Shapes, holes, and what there is to say about these."""
+        x, y = axes["x"], axes["y"]
+        check = self.clock.closing()
+        self.clock.progress.at("merging", "")
+        try:
+            shapes = merge(self.design, x, y, check)
+        except Stopped:
+            raise ran_out(self.design, self.clock, list(self.problems.values())) from None
+        holes = find_holes(self.design.canvas, shapes)
+        try:
+            return shapes, holes, hole_warnings(self.design, x, y, holes, check)
+        except Stopped:
+            return (
+                shapes,
+                holes,
+                [f"There are {len(holes)} holes; the time was over before they were explained."],
+            )
 
 
 def _less(a: tuple[float, int, float], b: tuple[float, int, float]) -> bool:
@@ -331,18 +444,6 @@ def _values_in(walk: AxisSearch, counter: str) -> set[int]:
         if counter in pattern.counters
     ]
     return set.intersection(*sets)
-
-
-def _first_aligned(walk: AxisSearch) -> Best | None:
-    """The first candidate, in lexicographic order, that aligns and can be sized."""
-    try:
-        for candidate in walk.in_order():
-            solved = walk.solve(walk.case(candidate))
-            if solved is not None:
-                return Best(solved, solved.cost)
-    except Stopped:
-        raise NoLayout("The search was stopped before any layout was found.", walk.problem.axis) from None
-    return None
 
 
 def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solved) -> AxisLayout:
@@ -369,7 +470,13 @@ def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solve
     gap = max(0.0, answer.cost - best.bound) if best.bound < inf else 0.0
     proven = best.complete and gap <= 1e-6
     return AxisLayout(
-        answer.cost, 0.0 if proven else gap, answer.sized.deviation, proven, dict(answer.sized.sizes), groups
+        answer.cost,
+        0.0 if proven else gap,
+        answer.sized.deviation,
+        proven,
+        dict(answer.sized.sizes),
+        groups,
+        Sizing(answer.sized.system, answer.sized.solution),
     )
 
 
@@ -386,18 +493,3 @@ def _warnings(walk: AxisSearch, answer: Solved) -> Iterator[str]:
                 f"Counter {counter!r} in pattern {name!r} repeats nothing that has a size; "
                 f"it was tried up to {answer.candidate.counters.get(counter, 0)} only."
             )
-
-
-def _system_event(axis: Axis, answer: Solved) -> SystemSolved:
-    system, solution = answer.sized.system, answer.sized.solution
-    return SystemSolved(
-        axis,
-        system.variables,
-        system.rows,
-        tuple(tuple(row) for row in system.matrix.tolist()),
-        tuple(system.lower.tolist()),
-        tuple(system.upper.tolist()),
-        tuple(solution.x.tolist()),
-        tuple(solution.multipliers.tolist()),
-        answer.sized.deviation,
-    )

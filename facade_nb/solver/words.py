@@ -1,175 +1,122 @@
-"""From patterns to words that can fit the canvas (the paper's 5.1, Eq. 7, Figure 7)."""
+"""Words of a pattern that fit the canvas (the paper's 5.1, Eq. 7, Figure 7), and those of all patterns of an axis."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
-from math import floor, inf, prod
+from math import floor, inf
 from numbers import Real
 
 from ..design.errors import DesignError, Fault, nearest
 from ..design.model import Counter, Symbol
-from ..design.pattern import Glyph, Pattern, parse
+from ..design.pattern import parse
+from .clock import Progress
 from .columns import EPS
-from .counting import nearest_values
-from .letters import Letter, Word
+from .instances import Instances, Range, instances, ranges
+from .keeping import Kept
+from .letters import Word
+from .problem import AxisProblem
 
-__all__ = ["MAX_COPIES", "MAX_WORDS", "Instances", "instances", "words"]
+__all__ = ["axis_words", "forget_words", "words"]
 
-MAX_COPIES = 16
-"""A counter that repeats only letters without a size could go on for ever; it is tried up to this count."""
-
-MAX_WORDS = 2000
-"""A pattern with three counters or more is left with about so many words, those nearest to the canvas."""
-
-SymbolOf = Callable[[str], Symbol]
+_kept: Kept[Instances] = Kept(4_000_000)
+"""Words of patterns asked for last; weighed by their letters."""
 
 
-@dataclass(frozen=True, slots=True)
-class Instances:
-    """The words of a pattern that are no longer than a limit.
-
-    Attributes
-    ----------
-    words
-        In lexicographic order of counter values, then of alternatives.
-    shortest
-        The shortest word of the pattern, whether or not it is within the limit.
-    endless
-        Counters that repeat nothing with a size, cut off at `MAX_COPIES`.
-    left
-        Words that were left out, as there are too many, miss the canvas by at least so many metres.
-    """
-
-    words: tuple[Word, ...]
-    shortest: Word
-    endless: tuple[str, ...] = ()
-    left: float = inf
+def forget_words() -> None:
+    """Let go of all words that are kept for unchanged patterns."""
+    _kept.clear()
 
 
-def instances(
-    pattern: Pattern,
-    symbol: SymbolOf,
-    counter: Callable[[str], Counter],
-    limit: float,
+def axis_words(
+    problem: AxisProblem,
+    tolerance: float,
+    progress: Progress | None = None,
     check: Callable[[], None] | None = None,
-    canvas: float | None = None,
-) -> Instances:
-    """Every word of a pattern whose sized letters measure at most `limit` metres.
+    across: Mapping[str, Range] | None = None,
+    narrow: bool = True,
+) -> dict[str, Instances]:
+    """The words of every pattern of an axis that Eq. 7 may allow, in the order of `AxisProblem.patterns`.
 
-    Counters are tried outwards from the value nearest to 0; a longer count never makes a word shorter, so
-    that each direction ends where the shortest word has become too long. With `canvas`, a pattern of three counters or
-    more that has more than `MAX_WORDS` words is left with those nearest to the canvas.
+    A counter that stands in several patterns is tried only where each of them has words. A pattern's words are no
+    shorter than what the opaque letters above it can leave; words that depend on nothing that has changed
+    are not listed again.
+
+    Parameters
+    ----------
+    tolerance
+        Metres.
+    across
+        What the other axis says of counters (`ranges`).
+    narrow
+        Whether patterns are asked what they say of the counters of others.
     """
-    names = pattern.counters
-    nearest_zero = {name: _nearest_zero(counter(name)) for name in names}
-    endless: set[str] = set()
-    letters: dict[tuple[Glyph, object], Letter] = {}
-
-    def spell(values: Mapping[str, int]) -> list[Word]:
-        made = []
-        for glyphs in pattern.words(values):
-            word = []
-            for glyph in glyphs:
-                key = (glyph, glyph.origin)  # where it comes from takes no part in a glyph's equality
-                letter = letters.get(key)
-                if letter is None:
-                    letter = letters[key] = _letter(glyph, symbol)
-                word.append(letter)
-            made.append(Word(tuple(word), dict(values)))
-        return made
-
-    found: list[Word] = []
-
-    def descend(k: int, values: dict[str, int]) -> None:
-        if check is not None:
-            check()
-        if k == len(names):
-            found.extend(word for word in spell(values) if word.size <= limit + EPS)
-            return
-        name = names[k]
-        for value in _fitting(counter(name), name, values):
-            descend(k + 1, {**values, name: value})
-
-    def _fitting(bounds: Counter, name: str, values: Mapping[str, int]) -> list[int]:
-        rest = {other: nearest_zero[other] for other in names if other not in values}
-        fits: list[int] = []
-        for direction in (1, -1):
-            value = nearest_zero[name] if direction == 1 else nearest_zero[name] - 1
-            previous: list[float] = []
-            still = 0
-            while _inside(bounds, value):
-                if check is not None:
-                    check()
-                sizes = [word.size for word in spell({**rest, **values, name: value})]
-                within = sorted(size for size in sizes if size <= limit + EPS)
-                if not within:
-                    break
-                still = still + 1 if within == previous else 0
-                if still >= MAX_COPIES and (bounds.max is None or bounds.max - value > MAX_COPIES):
-                    if len(within) == len(
-                        sizes
-                    ):  # else some word has grown too long: what is left has no such count
-                        endless.add(name)
-                    break
-                fits.append(value)
-                previous = within
-                value += direction
-        return sorted(fits)
-
-    shortest = min(spell(nearest_zero), key=lambda word: word.size)
-    left = inf
-    if shortest.size <= limit + EPS:
-        many = _many(
-            names, {name: _fitting(counter(name), name, {}) for name in names} if len(names) > 2 else {}
+    symbols, counters = problem.symbol, dict(problem.counters)
+    limit = problem.canvas + tolerance
+    common = _common(problem, limit, across or {}, check) if narrow else {}
+    canvas = problem.canvas
+    above = {
+        name: [r[: r.index(name)] for _, r in problem.groups if name in r] for name, _ in problem.patterns
+    }
+    opaque: dict[str, float] = {}
+    found: dict[str, Instances] = {}
+    for name, pattern in problem.patterns:
+        if progress is not None:
+            progress.at("words", problem.axis, pattern=name)
+        rooms = [sum(opaque[o] for o in set(rows)) for rows in above[name] if all(o in opaque for o in rows)]
+        low = max((canvas - tolerance - room for room in rooms), default=0.0)
+        used = (*pattern.symbols, *pattern.substituted)
+        own_common = {c: common[c] for c in pattern.counters if c in common}
+        key = (
+            pattern,
+            tuple(symbols.get(s) for s in used),
+            tuple(counters[c] for c in pattern.counters),
+            limit,
+            canvas,
+            low,
+            tuple(own_common.items()),
         )
-        if canvas is None or not many or len(spell(nearest_zero)) > 1:
-            descend(0, {})
-        else:
-            base = shortest.size
-            added = {
-                name: [(v, spell({**nearest_zero, name: v})[0].size - base) for v in values]
-                for name, values in many.items()
-            }
-            chosen, left = nearest_values(added, base, canvas, limit, MAX_WORDS, check)
-            for values in sorted(chosen, key=lambda own: [own[name] for name in names]):
-                found += spell(values)
-    return Instances(tuple(found), shortest, tuple(sorted(endless)), left)
+        own = _kept.get(key)
+        if own is None:
+            try:
+                own = instances(
+                    pattern,
+                    lambda s: symbols.get(s) or Symbol(s),
+                    lambda c: counters[c],
+                    limit,
+                    check,
+                    canvas,
+                    low - EPS if low > 0 else -inf,
+                    own_common,
+                )
+            except DesignError as error:
+                raise DesignError(Fault(f"patterns.{name}", str(error))) from None
+            _kept.put(key, own, 10 + sum(map(len, own.words)))
+        found[name] = own
+        opaque[name] = max((_opaque(word) for word in own.words), default=0.0)
+    return found
 
 
-def _many(names: Sequence[str], fits: Mapping[str, Sequence[int]]) -> Mapping[str, Sequence[int]]:
-    """The counters' values, where there are more combinations than `MAX_WORDS`; else nothing."""
-    return fits if fits and prod(len(fits[name]) for name in names) > MAX_WORDS else {}
+def _common(
+    problem: AxisProblem, limit: float, across: Mapping[str, Range], check: Callable[[], None] | None
+) -> dict[str, Range]:
+    """Values of counters beyond which some pattern has no word."""
+    symbols, counters = problem.symbol, dict(problem.counters)
+    found: dict[str, Range] = dict(across)
+    shared = {c for c in counters if sum(c in p.counters for _, p in problem.patterns) > 1}
+    for _, pattern in problem.patterns:
+        if shared & set(pattern.counters):
+            own = ranges(pattern, lambda s: symbols.get(s) or Symbol(s), lambda c: counters[c], limit, check)
+            for c in shared & own.keys():
+                low, high = found.get(c, own[c])
+                found[c] = max(low, own[c][0]), min(high, own[c][1])
+    # where there is no common value the failure is explained by the values that each pattern has
+    return {c: (low, high) for c, (low, high) in found.items() if low <= high}
 
 
-def _letter(glyph: Glyph, symbol: SymbolOf) -> Letter:
-    own = symbol(glyph.symbol)
-    transparent = glyph.transparent or own.transparent
-    return Letter(
-        glyph.symbol,
-        own.size,
-        transparent=transparent,
-        opaque=own.opaque and not transparent,
-        attached=own.attached,
-        unoccludable=own.unoccludable,
-        mirrored=glyph.mirrored,
-        origin=glyph.origin,
-    )
-
-
-def _inside(bounds: Counter, value: int) -> bool:
-    if bounds.value is not None:
-        return value == bounds.value
-    return bounds.min <= value and (bounds.max is None or value <= bounds.max)
-
-
-def _nearest_zero(bounds: Counter) -> int:
-    if bounds.value is not None:
-        return bounds.value
-    if bounds.min > 0:
-        return bounds.min
-    return 0 if bounds.max is None else min(0, bounds.max)
+def _opaque(word: Word) -> float:
+    return sum(letter.size or 0.0 for letter in word.letters if letter.opaque)
 
 
 def words(
@@ -243,6 +190,7 @@ def words(
         lambda name: Symbol(name, sizes.get(name)),
         lambda name: bounds.get(name) or Counter(name),
         canvas + tolerance,
+        low=canvas - tolerance,
     )
     kept: list[Word] = []
     for word in found.words:

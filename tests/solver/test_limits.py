@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import json
+import re
+import subprocess
+import sys
+import time
 import tracemalloc
 from collections.abc import Callable
 
@@ -11,10 +15,12 @@ import pytest
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.design import edit
-from facade_nb.solver import Objective, solving
+from facade_nb.solver import Objective, clock, solving
 from tests.oracle.designs import design, make_design
+from tests.oracle.nasty import NASTY, nasty
 
-STOPPED = "The search was stopped before any layout was found."
+STOPPED = r"Stopped after \d+\.\d s(, while [^;]+)?; no layout yet\.$"
+OUT_OF_TIME = r"Out of time after \d+\.\d s(, while [^;]+)?; no layout yet\. A longer time limit may find one"
 SIX = "A^a B^b C^c D^d E^e F^f"
 SIZES = {name: 0.3 + 0.07 * n for n, name in enumerate("ABCDEF")}
 
@@ -22,7 +28,7 @@ SIZES = {name: 0.3 + 0.07 * n for n, name in enumerate("ABCDEF")}
 @pytest.fixture(autouse=True)
 def nothing_kept() -> None:
     """Solved axes are kept between calls; here each call does its own work."""
-    solving._cache.clear()
+    solving.forget()
 
 
 class Stopper:
@@ -41,7 +47,7 @@ class TestShouldStop:
         stop = Stopper(0)
         with pytest.raises(NoLayout) as caught:
             solve(gallery.load("terraced-house"), should_stop=stop, time_limit=None)
-        assert str(caught.value) == STOPPED
+        assert re.match(STOPPED, str(caught.value))
         assert stop.calls <= 2
 
     def test_is_not_asked_again_for_long(self) -> None:
@@ -59,7 +65,7 @@ class TestShouldStop:
         one = make_design(seed)
         after = 0
         while True:
-            solving._cache.clear()
+            solving.forget()
             stop = Stopper(after)
             try:
                 layout = solve(one, objective=objective, should_stop=stop, time_limit=None)
@@ -76,11 +82,11 @@ class TestShouldStop:
         full = solve(one)
         seen = set()
         for after in range(0, 400, 4):
-            solving._cache.clear()
+            solving.forget()
             try:
                 layout = solve(one, should_stop=Stopper(after), time_limit=None)
             except NoLayout as error:
-                assert str(error) == STOPPED
+                assert re.match(STOPPED, str(error))
                 continue
             seen.add(layout.complete)
             if not layout.complete:
@@ -98,8 +104,48 @@ class TestShouldStop:
 
 class TestTimeLimit:
     def test_none_at_all(self) -> None:
-        with pytest.raises(NoLayout, match=STOPPED):
+        with pytest.raises(NoLayout, match=OUT_OF_TIME):
             solve(gallery.load("terraced-house"), time_limit=0.0)
+
+    def test_what_it_was_at(self) -> None:
+        """Stopped at any moment, the error names the stage, and what of."""
+        patterns = {"a": "A^k", "b": "(AB)^l", "c": "B^m", "d": "(CD)^n A", "e": "(DBC)^o"}
+        one = design({"A": 1.0, "B": 0.83, "C": 0.61, "D": 0.47}, patterns, list(patterns), 9.0)
+        told: dict[str, set[str]] = {}
+        for after in range(0, 600, 5):
+            solving.forget()
+            with pytest.raises(NoLayout) as caught:
+                solve(one, should_stop=Stopper(after), time_limit=None)
+            error = caught.value
+            assert error.constraint == "stop" and error.axis == "x" and error.suggestions == ()
+            assert re.match(STOPPED, str(error))
+            told.setdefault(error.stage, set()).add(re.split(", while |;", str(error))[1])
+        assert set(told) == {"words", "candidates", "alignment"}
+        assert "listing the words of pattern 'a' on x" in told["words"]
+        assert told["candidates"] == {"putting words together on x"}
+        assert any(re.match(r"aligning candidate \d+.* on x, group 'g'$", text) for text in told["alignment"])
+
+    def test_what_would_help(self) -> None:
+        with pytest.raises(NoLayout) as caught:
+            solve(NASTY["counters on both axes"], time_limit=0.0)
+        error = caught.value
+        assert error.constraint == "time" and error.counters == ("k", "l")
+        assert str(error).endswith(
+            "; no layout yet. A longer time limit may find one; so may a max for counters 'k', 'l'."
+        )
+
+    @pytest.mark.timeout(120)
+    @pytest.mark.parametrize(
+        "one", [*NASTY.values(), *map(nasty, range(8))], ids=[*NASTY, *map(str, range(8))]
+    )
+    def test_is_kept_at_every_stage(self, one: Design) -> None:
+        """A guard against hangs: ten times the limit, of this process's own time."""
+        began = time.process_time()
+        try:
+            solve(one, time_limit=0.2)
+        except NoLayout as error:
+            assert str(error)
+        assert time.process_time() - began < 2.0
 
     @pytest.mark.timeout(30)
     def test_six_counters_and_no_layout(self) -> None:
@@ -135,11 +181,37 @@ class TestTimeLimit:
         """A million combinations of counters are not all kept."""
         tracemalloc.start()
         try:
-            solve(design(SIZES, {"a": SIX}, ["a"], 6.0), time_limit=20.0)
+            solve(design(SIZES, {"a": SIX}, ["a"], 6.0), time_limit=5.0)
             _, peak = tracemalloc.get_traced_memory()
         finally:
             tracemalloc.stop()
         assert peak < 200e6
+
+    def test_the_process_does_not_grow(self) -> None:
+        """Designs that would take gigabytes; each is given up when the process has grown by 400 MB."""
+        code = """
+import resource
+from facade_nb import NoLayout, solve
+from tests.oracle.nasty import NASTY
+for name in ("words of thousands of letters", "1000 m, three counters", "alternatives and a counter"):
+    try:
+        solve(NASTY[name], time_limit=1.0)
+    except NoLayout as error:
+        assert str(error)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, done.stderr
+        assert int(done.stdout) < 900
+
+    def test_a_search_is_given_up_that_takes_too_much(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.setattr(clock, "MEMORY", -1)
+        monkeypatch.setattr(clock, "_LOOK", 0.0)
+        with pytest.raises(
+            NoLayout, match=r"^Out of memory after .* Larger letters or a smaller canvas would help"
+        ) as caught:
+            solve(NASTY["40 layers"], time_limit=5.0)
+        assert caught.value.constraint == "memory"
 
     def test_solved_axes_kept_are_few(self) -> None:
         one = design({"A": 1.0}, {"a": "A^k"}, ["a"])
@@ -185,9 +257,9 @@ def test_both_searches_give_one_cost(name: str) -> None:
 
 def twice(make: Callable[[], Layout]) -> tuple[Layout, Layout]:
     """The same work done twice, nothing kept between."""
-    solving._cache.clear()
+    solving.forget()
     first = make()
-    solving._cache.clear()
+    solving.forget()
     return first, make()
 
 

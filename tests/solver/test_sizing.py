@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import defaultdict
 from itertools import pairwise
 from math import sqrt
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +15,7 @@ from scipy.optimize import linprog, minimize
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.design.model import AXES, Axis
-from facade_nb.solver.events import SystemSolved
+from facade_nb.solver.events import SystemPosed, SystemSolved
 from facade_nb.solver.layout import PlacedLetter
 from facade_nb.solver.qp import FREE, Solution, least_squares
 from tests.oracle.designs import design, make_design
@@ -284,16 +283,16 @@ class TestOptimality:
     def test_of_the_gallery(self, name: str) -> None:
         one = gallery.load(name)
         layout = solve(one, trace=True)
-        systems = [event for event in layout.trace.events if isinstance(event, SystemSolved)]
-        assert [event.axis for event in systems] == ["x", "y"]
-        for event in systems:
+        systems, answers = layout.trace.of_kind(SystemPosed), layout.trace.of_kind(SystemSolved)
+        assert [event.axis for event in systems] == [event.axis for event in answers] == ["x", "y"]
+        for event, solved in zip(systems, answers, strict=True):
             symbols = [one.symbol(v[1:-1]) if v.startswith("|") else None for v in event.variables]
             weight = np.array([1.0 if s is not None and s.size is not None else 0.0 for s in symbols])
             target = np.array([(s.size or 0.0) if s is not None else 0.0 for s in symbols])
-            answer = Solution(np.array(event.solution), np.array(event.multipliers), 0)
-            arrays = (np.array(event.matrix), np.array(event.lower), np.array(event.upper))
+            answer = Solution(np.array(solved.solution), np.array(solved.multipliers), 0)
+            arrays = (event.matrix, np.array(event.lower), np.array(event.upper))
             assert self.residual(weight, target, *arrays, answer) <= 1e-8
-            assert event.deviation == pytest.approx(
+            assert solved.deviation == pytest.approx(
                 sqrt(float(np.sum(weight * (answer.x - target) ** 2))), abs=1e-9
             )
             assert len(event.rows) == arrays[0].shape[0] and len(set(event.variables)) == len(event.variables)
@@ -342,11 +341,11 @@ class TestOptimality:
         """The whole system of a house, minimised again by scipy."""
         one = gallery.load("residential-house")
         layout = solve(one, trace=True)
-        event = next(e for e in layout.trace.events if isinstance(e, SystemSolved) and e.axis == "x")
+        (event,) = layout.trace.of_kind(SystemPosed, "x")
         symbols = [one.symbol(v[1:-1]) if v.startswith("|") else None for v in event.variables]
         weight = np.array([1.0 if s is not None and s.size is not None else 0.0 for s in symbols])
         target = np.array([(s.size or 0.0) if s is not None else 0.0 for s in symbols])
-        arrays = (np.array(event.matrix), np.array(event.lower), np.array(event.upper))
+        arrays = (event.matrix, np.array(event.lower), np.array(event.upper))
         start = feasible(*arrays)
         assert start is not None
         slow = slowly(weight, target, *arrays, start)
@@ -357,6 +356,6 @@ class TestOptimality:
 def test_system_rows_are_named() -> None:
     """A person can read the system: sizes, boundaries, and which letters each row speaks of."""
     layout = solve(design({"A": 1.0, "B": 2.0}, {"a": "ABA"}, ["a"], 4.6), trace=True)
-    event: Any = next(e for e in layout.trace.events if isinstance(e, SystemSolved) and e.axis == "x")
+    (event,) = layout.trace.of_kind(SystemPosed, "x")
     assert {"|A|", "|B|"} <= set(event.variables)
     assert all(event.rows) and any(row.endswith("= |B|") for row in event.rows)
