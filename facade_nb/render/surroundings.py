@@ -24,7 +24,14 @@ def building(layout: Layout, depth: float | None = None) -> Triangles:
     bodies: list[tuple[int, Mesh, Mapping[str, str]]] = [
         (solid.index, solid.mesh(), solid.materials) for solid in scene.solids
     ]
-    walls = [solid for solid in scene.solids if solid.geometry.full and solid.geometry.name not in _ROOFS]
+    roofs = [solid.rect for solid in scene.solids if solid.geometry.name in _ROOFS]
+    walls = [
+        solid
+        for solid in scene.solids
+        if solid.geometry.full
+        and solid.geometry.name not in _ROOFS
+        and not any(_within(solid.rect, roof) for roof in roofs)  # a dormer is no wall of the house
+    ]
     if walls:
         back = min(solid.face - solid.depth for solid in walls)
         bodies += [_mesh(-1, parts, name) for name, parts in _lining(walls, back).items()]
@@ -36,6 +43,12 @@ def building(layout: Layout, depth: float | None = None) -> Triangles:
 
 def _mesh(index: int, parts: Sequence[Part], material: str) -> tuple[int, Mesh, Mapping[str, str]]:
     return index, mesh_parts(parts), {"body": material}
+
+
+def _within(rect: Sequence[float], outer: Sequence[float]) -> bool:
+    return all(a >= b - 1e-6 for a, b in zip(rect[:2], outer[:2], strict=True)) and all(
+        a <= b + 1e-6 for a, b in zip(rect[2:], outer[2:], strict=True)
+    )
 
 
 def _lining(walls: Sequence[Solid], back: float) -> dict[str, list[Part]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -235,3 +236,14 @@ def test_the_body_closes_the_building() -> None:
     assert low[2] < -4
     assert high[2] < 1
     assert len(triangles.positions) > len(build_scene(house()).triangles().positions)
+
+
+def test_a_dormer_does_not_raise_the_body_into_the_roof() -> None:
+    plain = house()
+    roof = next(shape.rect for shape in plain.shapes if shape.kind == "roof")
+    dormer = PlacedShape(
+        "dormers", "M", "T", (2.0, roof[1] + 0.1, 3.0, roof[3] - 0.1), kind="window", geometry="window"
+    )
+    triangles = building(replace(plain, shapes=(*plain.shapes, dormer)))
+    assert triangles.positions[triangles.shapes == -1][:, :, 1].max() <= roof[1] + 1e-5
+    assert triangles.positions[triangles.shapes == len(plain.shapes)].size > 0  # it is there all the same
