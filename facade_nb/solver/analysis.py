@@ -8,7 +8,7 @@ solved exactly. How far an equation can be relied on is its `Strength`; ``docs/a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, product
@@ -49,9 +49,12 @@ from .problem import AxisProblem
 __all__ = ["Analysis", "Conflict", "Equation", "LinearSystem", "Row", "Strength", "analyse"]
 
 
-def analyse(problem: AxisProblem) -> Analysis:
-    """Compare every pair of patterns of an axis (supplement 3.1). Never fails: what it cannot tell, it says."""
-    return _Analyser(problem).result()
+def analyse(problem: AxisProblem, check: Callable[[], None] | None = None) -> Analysis:
+    """Compare every pair of patterns of an axis (supplement 3.1). Never fails: what it cannot tell, it says.
+
+    `check` is called now and then; it may raise `search.Stopped`.
+    """
+    return _Analyser(problem, check).result()
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +70,8 @@ class _Flat:
 
 
 class _Analyser:
-    def __init__(self, problem: AxisProblem) -> None:
-        self.problem = problem
+    def __init__(self, problem: AxisProblem, check: Callable[[], None] | None = None) -> None:
+        self.problem, self.check = problem, check
         self.symbols = problem.symbol
         self.sizes = {n: None if s.size is None else exact_size(s.size) for n, s in problem.symbols}
         self.times = Counters(own for _, own in problem.counters)
@@ -85,6 +88,8 @@ class _Analyser:
         spans = {n: self._spans(n, pattern) for n, pattern in self.problem.patterns if n in self.flat}
         self._extents()
         for p, q in combinations(self.flat, 2):
+            if self.check is not None:
+                self.check()
             self._compare((p, q), self.flat[p], self.flat[q], spans[p] and spans[q])
         variables = {**self.measures, **self.times.variables}
         met = {

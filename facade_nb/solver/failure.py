@@ -81,7 +81,7 @@ def _explain(blame: Blame) -> NoLayout:
     walk, other = blame.walk, blame.other
     sides = [_widely(walk), *([_widely(other)] if other else [])]
     for side in sides:
-        analysis = analyse(side.problem)
+        analysis = analyse(side.problem, blame.clock.check)
         helper = remedies_of(blame, side.problem.axis)
         reason = (
             _contradiction(blame, side, analysis, helper)

@@ -51,7 +51,9 @@ def search_ida(
     if patience:
         search.go(min(nodes, patience))
     if not patience or (search.found.cut and nodes > patience):
-        search.know(incumbents(groups, ends, cap=cap, check=check, accept=accept, observer=observer))
+        search.know(
+            incumbents(groups, ends, cap=cap, keep=keep, check=check, accept=accept, observer=observer)
+        )
         ends.watch(check, observer)
         search.go(nodes)
     found = search.result()

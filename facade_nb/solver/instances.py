@@ -13,10 +13,20 @@ from ..design.pattern import Pattern
 from ..design.tree import Concat, Count, Node, concatenation, spellings, walk
 from .columns import EPS
 from .counting import Sums
+from .keeping import Kept
 from .letters import Letter, Word
 from .measures import Growth, Way, measure
 
-__all__ = ["MAX_COPIES", "MAX_SPELLED", "MAX_WORDS", "Instances", "Range", "instances", "ranges"]
+__all__ = [
+    "MAX_COPIES",
+    "MAX_SPELLED",
+    "MAX_WORDS",
+    "Instances",
+    "Range",
+    "forget_measures",
+    "instances",
+    "ranges",
+]
 
 MAX_COPIES = 16
 """A counter that repeats only letters without a size could go on for ever; it is tried up to this count."""
@@ -36,10 +46,18 @@ _MAX_TOTAL = 400_000
 _WAY = ""
 """In tables of counters: the choice of alternatives. No counter has that name."""
 
+_ways: Kept[tuple[list[Way] | None]] = Kept(50_000)
+"""Measures of patterns asked for last, weighed by their choices of alternatives."""
+
 SymbolOf = Callable[[str], Symbol]
 CounterOf = Callable[[str], Counter]
 Check = Callable[[], None]
 Range = tuple[int, int]
+
+
+def forget_measures() -> None:
+    """Let go of all measures that are kept for unchanged patterns."""
+    _ways.clear()
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +111,7 @@ def instances(
     common
         Values of counters beyond which other patterns have no word (`ranges`).
     """
-    ways = measure(pattern, lambda name: symbol(name).size, check)
+    ways = _measured(pattern, symbol, check)
     speller = _Speller(symbol)
     if ways is None:
         return _one_by_one(pattern, speller, counter, limit, low, check)
@@ -138,7 +156,7 @@ def ranges(
     """Between which values of its counters a pattern has words within the limit, for counters that repeat something
     with a size whatever alternatives are chosen.
     """
-    ways = measure(pattern, lambda name: symbol(name).size, check)
+    ways = _measured(pattern, symbol, check)
     if ways is None:
         return {}
     zero = {name: _nearest_zero(counter(name)) for name in pattern.counters}
@@ -150,6 +168,16 @@ def ranges(
             values = [value for table in tables for value, _ in table]
             found[name] = min(values), max(values)
     return found
+
+
+def _measured(pattern: Pattern, symbol: SymbolOf, check: Check | None) -> list[Way] | None:
+    """What `measure` says, kept for the next time the sizes are the same."""
+    key = (pattern, tuple(symbol(name).size for name in pattern.symbols))
+    known = _ways.get(key)
+    if known is None:
+        known = (measure(pattern, lambda name: symbol(name).size, check),)
+        _ways.put(key, known, len(known[0] or ()) + 1)
+    return known[0]
 
 
 def _alike(ways: Sequence[Way]) -> dict[object, list[tuple[int, Way]]]:

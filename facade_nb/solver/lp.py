@@ -3,8 +3,8 @@
 The alignment search prices hundreds of structures with ten to fifty variables each. A general LP code
 spends a millisecond on any of them before it begins; daqp, a dual active-set QP code, answers in hundredths
 of one. Adding ``ρ/2·‖x − x_k‖²`` to a linear objective and solving again from the answer is the
-proximal-point method; on a linear programme it ends after finitely many rounds (Ferris 1991), here nearly
-always two, with the exact vertex.
+proximal-point method, which daqp has built in (`eps_prox`); on a linear programme it ends after finitely many
+rounds (Ferris 1991), nearly always two, with the exact vertex.
 """
 
 from __future__ import annotations
@@ -40,27 +40,17 @@ def solve_lp(cost: _Array, rows: _Array, upper: _Array, lower: _Array, rho: floa
     n = cost.size
     sense = np.zeros(upper.size, dtype=np.int32)
     sense[upper == lower] = 5
-    hessian = np.eye(n) * rho
-    x = np.zeros(n)
-    best = np.inf
-    for _ in range(60):
-        x_new, _value, flag, _info = daqp.solve(
-            hessian,
-            cost - rho * x,
-            rows,
-            upper,
-            lower,
-            sense.copy(),
-            primal_tol=1e-11,
-            dual_tol=1e-12,
-            eps_prox=0.0,
-        )
-        if flag != 1:
-            return None
-        moved = float(np.abs(x_new - x).max(initial=0.0))
-        x = x_new
-        value = float(cost @ x)
-        if moved <= 1e-11 or abs(best - value) <= 1e-13:
-            break
-        best = value
-    return x
+    x: _Array
+    x, _value, flag, _info = daqp.solve(
+        np.zeros((n, n)),
+        cost,
+        rows,
+        upper,
+        lower,
+        sense,
+        primal_tol=1e-11,
+        dual_tol=1e-12,
+        eps_prox=rho,
+        eta_prox=1e-10,
+    )
+    return x if flag == 1 else None

@@ -12,6 +12,9 @@ from .shortfall import ahead
 
 __all__ = ["Maker", "edges"]
 
+_FURTHER = 0.01
+"""Edges are made a little further than asked, as a fraction of the canvas: limits grow in small steps."""
+
 
 def edges(
     group: Group,
@@ -31,9 +34,10 @@ def edges(
         return Maker(group, state, owed, limit, check, most).make()
     known = group.edges.get((state, owed))
     if known is None or known[0] < limit:
-        fresh = Maker(group, state, owed, limit, check).make()
+        further = limit + _FURTHER * group.canvas
+        fresh = Maker(group, state, owed, further, check).make()
         fresh.sort(key=_by_rise)
-        known = group.edges[state, owed] = (limit, fresh)
+        known = group.edges[state, owed] = (further, fresh)
     found = known[1]
     return found[
         bisect_right(found, made + EPS, key=_by_rise) : bisect_right(found, limit + EPS, key=_by_rise)

@@ -92,7 +92,7 @@ def obstacle(blame: Blame, walk: AxisSearch) -> NoLayout:
             return reason
     nearest = next(walk.in_order(), None)
     words = ", ".join(f"{n} = {short(w)}" for n, w in nearest.words.items()) if nearest else ""
-    advice = analyse(problem).blame("exact")
+    advice = analyse(problem, blame.clock.check).blame("exact")
     text = (
         f"No alignment of {names_of(list(walk.found))} {along} keeps within the canvas of {problem.canvas:.4g} m and a "
         f"tolerance of {walk.tolerance:.4g} m with something opaque behind every gap."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from ..design.errors import NoLayout, Suggestion
@@ -10,7 +10,7 @@ from ..design.model import Axis, Design
 from .axis import AxisSearch, Best
 from .clock import Clock
 from .problem import AxisProblem
-from .remedies import Remedies
+from .remedies import Remedies, Works
 from .search import Stopped
 
 __all__ = [
@@ -49,7 +49,7 @@ class Blame:
     best: Best
     clock: Clock
     tolerances: Sequence[float]
-    works: Callable[[Design, float | None], Mapping[str, float] | None] | None = None
+    works: Works | None = None
     other: AxisSearch | None = None
     shared: Sequence[str] = ()
 

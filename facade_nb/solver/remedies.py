@@ -4,20 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from math import ceil, floor, inf, log10
+from typing import NamedTuple
 
 from ..design.edit import take
 from ..design.errors import DesignError, Suggestion
-from ..design.model import Axis, Design, Symbol
+from ..design.model import Axis, Counter, Design, Symbol
 from .search import Stopped
 
-__all__ = ["Remedies", "nice", "relaxed", "size_of"]
+__all__ = ["Remedies", "Tried", "Works", "nice", "relaxed", "size_of"]
 
 _EXTENT: dict[Axis, str] = {"x": "width", "y": "height"}
 _FACTORS = (1.01, 1.02, 1.05, 1.1, 1.2, 1.35, 1.5, 2.0, 3.0, 5.0)
 _FINER = 4
 
-Works = Callable[[Design, float | None], Mapping[str, float] | None]
-"""Solves a changed design, at a tolerance or the usual ones: the solved sizes of its symbols, or None."""
+
+class Tried(NamedTuple):
+    """The layout of a changed design: solved sizes of its symbols, and values of its counters."""
+
+    sizes: Mapping[str, float]
+    counters: Mapping[str, int]
+
+
+Works = Callable[[Design, float | None], Tried | None]
+"""Solves a changed design, at a tolerance or the usual ones; None: it has no layout."""
 
 
 class Remedies:
@@ -26,10 +35,15 @@ class Remedies:
     def __init__(self, design: Design, axis: Axis, works: Works) -> None:
         self.design, self.axis, self._works = design, axis, works
         self.over = False
-        self._known: dict[tuple[tuple[str, ...], object], Mapping[str, float] | None] = {}
+        self._known: dict[tuple[tuple[str, ...], object], Tried | None] = {}
 
     def sizes(self, suggestion: Suggestion) -> Mapping[str, float] | None:
         """The solved sizes of the changed design; None where it has no layout, or the time is over."""
+        found = self.tried(suggestion)
+        return None if found is None else found.sizes
+
+    def tried(self, suggestion: Suggestion) -> Tried | None:
+        """What the changed design comes to; None where it has no layout, or the time is over."""
         key = (suggestion.path, suggestion.value)
         if key not in self._known and not self.over:
             try:
@@ -38,7 +52,7 @@ class Remedies:
                 self.over = True
         return self._known.get(key)
 
-    def _solved(self, suggestion: Suggestion) -> Mapping[str, float] | None:
+    def _solved(self, suggestion: Suggestion) -> Tried | None:
         if suggestion.path == ("tolerances",):
             return self._works(self.design, float(suggestion.value[-1]))
         try:
@@ -121,14 +135,23 @@ class Remedies:
         for name in names:
             own = self.design.counter(name)
             if own.value is not None:
-                near = (own.value + way * step for step in range(1, 7) for way in (1, -1))
-                inside = [v for v in near if min(own.min, 0) <= v and (own.max is None or v <= own.max)]
-                yield from self.working(_counter(name, "value", f"at {v}", v) for v in inside)
+                yield from self._value(name, own)
                 continue
             if own.min > 0 and self.sizes(_counter(name, "min", "from 0 on", 0)) is not None:
                 yield from self.working(_counter(name, "min", f"from {v} on", v) for v in _down(own.min))
             if own.max is not None and self.sizes(_counter(name, "max", "without a max", None)) is not None:
                 yield from self.working(_counter(name, "max", f"up to {v}", v) for v in _up(own.max))
+
+    def _value(self, name: str, own: Counter) -> list[Suggestion]:
+        """Another value of a counter: what it would be if it were free, and from there back to where it just works."""
+        free = self.tried(_counter(name, "value", "without a value", None))
+        if free is None or name not in free.counters or own.value is None:
+            return []
+        bad, good = own.value, free.counters[name]
+        while abs(good - bad) > 1 and not self.over:
+            middle = (good + bad) // 2
+            good, bad = (middle, bad) if self.sizes(_at(name, middle)) is not None else (good, middle)
+        return self.working([_at(name, good)])
 
 
 def _down(value: int) -> Iterator[int]:
@@ -145,6 +168,10 @@ def _up(value: int) -> Iterator[int]:
     while step < 2000:
         yield value + step
         step = step + 1 if step < 6 else step * 2
+
+
+def _at(name: str, value: int) -> Suggestion:
+    return _counter(name, "value", f"at {value}", value)
 
 
 def _counter(name: str, field: str, text: str, value: int | None) -> Suggestion:

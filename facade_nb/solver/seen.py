@@ -19,7 +19,7 @@ class Seen:
     The price of a path also depends on the lengths of pieces that answer to an equation. Where a column holds one such
     piece, all that matters of it is the range of lengths that cost nothing, and what a metre beyond costs;
     the ranges of a letter's pieces add up, and of two paths the one with the wider ranges can only be
-    cheaper, as long as the tolerance on ω does not bind (`Network.gather`). Other columns with such pieces
+    cheaper, as long as the tolerance on ω does not bind (`paths.gathered`). Other columns with such pieces
     have to be the same (`trail`).
     """
 

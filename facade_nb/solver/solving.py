@@ -22,6 +22,7 @@ from .merging import find_holes, hole_warnings, merge
 from .objective import Objective
 from .problem import AxisProblem, axis_problem
 from .refusal import Blame
+from .remedies import Tried
 from .search import Stopped
 from .tracing import Recorder, stage
 from .words import forget_words
@@ -172,7 +173,7 @@ class _Run:
         known = _cache.get(key)
         if known is None:
             known = find(axes)
-            if all(best.complete for _, best in known.values()):
+            if not self.trial and all(best.complete for _, best in known.values()):
                 for walk, best in known.values():
                     walk.forget()
                     for group in best.solved.groups if best.solved else ():
@@ -235,25 +236,28 @@ class _Run:
             return NoLayout("")
         end = self.clock.seconds + _REMEDIES
 
-        def works(design: Design, tolerance: float | None) -> Mapping[str, float] | None:
+        def works(design: Design, tolerance: float | None) -> Tried | None:
             left = end - self.clock.seconds
             if left <= 0:
                 raise Stopped
             tolerances = self.tolerances if tolerance is None else (tolerance,)
             clock = Clock(min(left, _REMEDY), parent=self.clock)
             run = _Run(design, self.objective, tolerances, self.search, clock, None, trial=True)
-            return run.sizes(None if other else walk.problem.axis)
+            return run.tried(None if other else walk.problem.axis)
 
         return explain(Blame(self.design, walk, best, self.clock, self.tolerances, works, other, self.shared))
 
-    def sizes(self, axis: Axis | None) -> dict[str, float] | None:
-        """The solved sizes of an axis, or of both; None where there is no layout."""
+    def tried(self, axis: Axis | None) -> Tried | None:
+        """What an axis comes to, or both; None where there is no layout."""
         try:
             solved = self._solved(AXES if axis is None else (axis,))
         except NoLayout:
             return None
-        own = (best.solved.sized.sizes for _, best in solved.values() if best.solved is not None)
-        return {name: size for sizes in own for name, size in sizes.items()}
+        own = [best.solved for _, best in solved.values() if best.solved is not None]
+        return Tried(
+            {name: size for one in own for name, size in one.sized.sizes.items()},
+            {name: value for one in own for name, value in one.candidate.counters.items()},
+        )
 
     def _analyse(self, problem: AxisProblem) -> None:
         """Pattern analysis (supplement 3.1): report its systems, and stop where they prove that nothing fits."""
@@ -262,7 +266,7 @@ class _Run:
         if problem.axis not in self.analysed:
             self.analysed.add(problem.axis)
             with stage(self.trace, problem.axis, "analysis"):
-                self.trace.analysed(problem.axis, analyse(problem))
+                self.trace.analysed(problem.axis, analyse(problem, self.clock.check))
 
     def _tied(self, axes: Sequence[Axis] = AXES) -> dict[Axis, tuple[AxisSearch, Best]]:
         """Both axes together, where a counter ties them: least J of both, over the values of the shared counters."""

@@ -13,7 +13,7 @@ from ..design.model import Counter, Symbol
 from ..design.pattern import parse
 from .clock import Progress
 from .columns import EPS
-from .instances import Instances, Range, instances, ranges
+from .instances import Instances, Range, forget_measures, instances, ranges
 from .keeping import Kept
 from .letters import Word
 from .problem import AxisProblem
@@ -27,6 +27,7 @@ _kept: Kept[Instances] = Kept(4_000_000)
 def forget_words() -> None:
     """Let go of all words that are kept for unchanged patterns."""
     _kept.clear()
+    forget_measures()
 
 
 def axis_words(

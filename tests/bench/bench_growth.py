@@ -1,7 +1,7 @@
 """How solving time grows with layers, letters and counters, for consistent designs; the exponents are fitted.
 
 Consistent: all sizes fit, so that what is measured is how the search walks straight on, not how it decides. The rows
-are distinct words. Each point is the median of a few cold solves, wall time, with a limit; what is not proven within
+are distinct words. Each point is the median of a few cold solves, CPU time, with a limit; what is not proven within
 it is told, with its gap, and takes no part in the fit.
 """
 
@@ -56,12 +56,12 @@ def _point(design: Design, limit: float) -> tuple[float, str]:
     note = ""
     for _ in range(RUNS):
         solving.forget()
-        begin = time.perf_counter()
+        begin = time.process_time()
         try:
             layout = solve(design, time_limit=limit)
         except NoLayout:
-            return time.perf_counter() - begin, "no layout in time"
-        times.append(time.perf_counter() - begin)
+            return time.process_time() - begin, "no layout in time"
+        times.append(time.process_time() - begin)
         if not (layout.complete and layout.x.proven):
             note = f"not proven, J {layout.x.cost:.3f}, gap {layout.x.gap:.3f}"
         if times[-1] > 2.0:

@@ -255,6 +255,11 @@ class TestMore:
         assert error.constraint == "analysis" and set(error.patterns) == {"a", "b"}
         assert str(error).endswith("It would work with counter 'k' at 3, or with counter 'l' at 1.")
 
+    def test_a_counter_far_off(self) -> None:
+        """The largest value with which the word is no longer than the canvas and half as much."""
+        error = refused(design({"A": 1.0}, {"a": "A^k"}, ["a"], counters={"k": {"value": 90}}))
+        assert error.counters == ("k",) and "It would work with counter 'k' at 6, or with" in str(error)
+
     def test_one_size_for_all_letters_of_a_symbol(self) -> None:
         """A^k is no longer than 2 |A|, and AAB would have to be of the same length."""
         one = design(

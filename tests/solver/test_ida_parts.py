@@ -112,7 +112,7 @@ class TestWeighing:
                 state, owed = chosen.state, chosen.owed
 
     def test_whoever_is_not_opaque_need_not_fill_the_column(self) -> None:
-        """The reference's A B is 3 m shorter than C, of a tolerance of 1 m; with D it is opaque nowhere, and as free."""
+        """The reference's A B is 3 m shorter than C, at a tolerance of 1 m."""
         group = group_of(("A:1 B°:1 D:1", "C:5"), 5.0, 1.0, Objective())
         assert Hierarchy(group).reference == 0
         columns, _ = Lattice(group).columns(group.start, False, 1e9)
@@ -238,6 +238,24 @@ class TestBounds:
         assert excess(stretch, 3.5) == (pytest.approx(0.3 + 0.2 * 1.2), pytest.approx(0.5))
         assert excess(stretch, 3.7)[0] == excess(stretch, 0.8)[0] == float("inf")
 
+    def test_pieces_may_be_shorter_than_is_free_of_cost(self) -> None:
+        """f, of 1 m, over A and B of 1.5 m: half a metre off, within the tolerance; without it, impossible."""
+        for tolerance, possible in ((1.0, True), (0.2, False)):
+            side = Ends([group_of(("f:1 g:1", "A:1 B:.5 C:.5"), 2.0, tolerance)], None).forward
+            half = side.root()
+            found = True
+            for own in ((0,), (1,)):
+                steps = [
+                    child
+                    for child in side.onward(half, 1e9)
+                    if child.column is not None
+                    and [o.letters for o in child.column.options] == [(0,), own]
+                    and not child.column.options[0].ends
+                ]
+                found = bool(steps)
+                half = steps[0] if steps else half
+            assert found == possible
+
     def test_letters_of_one_unsized_symbol(self) -> None:
         """One is at most 1 m long at no cost, the other at least 1.4 m."""
         group = group_of(("u A:1 u", "B:1 C:1 D:1.4"), 4.0, 1.0)
@@ -260,6 +278,16 @@ class TestTranspositions:
         assert not table.drops(halves[2])
         assert halves[1].dropped, "the better one came later"
         assert table.drops(replace_half(halves[1]))
+
+    def test_a_wider_path_replaces_no_narrower_one(self) -> None:
+        """W of the narrower one may fit the canvas where that of the wider does not."""
+        side = Ends([group_of(("A:1 B:1", "C:1 D:1"), 3.0, 1.0)], None).forward
+        state = (8, 8)
+        wide, narrow = Half(0, state, width=2.0, columns=2), Half(0, state, width=1.0, columns=1, cost=0.5)
+        table = Transpositions(side, 8)
+        assert not table.drops(wide)
+        assert not table.drops(narrow) and not wide.dropped
+        assert table.drops(Half(0, state, width=2.0, columns=2, cost=1.0))
 
     def test_fewer_nodes_and_the_same_answer(self) -> None:
         """`accept` keeps the table from being used, as it may look at anything."""

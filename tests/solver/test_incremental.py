@@ -231,6 +231,16 @@ class TestReuse:
         solving.forget()
         assert solve(self.ONE).complete
 
+    def test_trials_push_nothing_out(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """What is tried in order to say what would help is not kept."""
+        monkeypatch.setattr(solving, "_REMEDIES", 1.0)
+        solve(self.ONE)
+        before = len(solving._cache)
+        with pytest.raises(NoLayout) as caught:
+            solve(edit.with_counter(self.ONE, "k", value=30))
+        assert caught.value.suggestions
+        assert len(solving._cache) == before
+
     def test_from_several_threads(self) -> None:
         """Two studios in one kernel share what is kept."""
         designs = [edit.with_canvas(self.ONE, width=6.0 + n / 50) for n in range(3)]

@@ -14,8 +14,14 @@ from collections.abc import Callable
 import pytest
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
-from facade_nb.design import edit
+from facade_nb.design import Counter, Symbol, edit, parse
 from facade_nb.solver import Objective, clock, solving
+from facade_nb.solver.analysis import analyse
+from facade_nb.solver.clock import Clock
+from facade_nb.solver.instances import instances
+from facade_nb.solver.merging import merge
+from facade_nb.solver.problem import axis_problem
+from facade_nb.solver.search import Stopped
 from tests.oracle.designs import design, make_design
 from tests.oracle.nasty import NASTY, nasty
 
@@ -172,7 +178,7 @@ class TestTimeLimit:
     def test_many_alternatives(self) -> None:
         one = design({"A": 1.0, "B": 0.9}, {"a": "(A|B)" * 13}, ["a"], 12.0)
         try:
-            layout = solve(one, time_limit=3.0)
+            layout = solve(one, time_limit=20.0)
         except NoLayout as error:
             pytest.fail(f"8192 words, one of which fits at once: {error}")
         assert layout.x.cost < 0.5
@@ -218,6 +224,86 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
         for n in range(150):
             solve(edit.with_canvas(one, width=4.0 + n / 100))
         assert len(solving._cache) <= 64
+
+
+class TestClock:
+    @pytest.fixture
+    def now(self, monkeypatch: pytest.MonkeyPatch) -> list[float]:
+        """The time, to be set."""
+        at = [0.0]
+        monkeypatch.setattr(clock.time, "monotonic", lambda: at[0])
+        return at
+
+    def test_the_search_leaves_time_for_a_last_attempt(self, now: list[float]) -> None:
+        own = Clock(10.0)
+        now[0] = 8.4
+        own.check()
+        now[0] = 8.6
+        with pytest.raises(Stopped):
+            own.check()
+        assert own.over and not own.asked
+        own.extend()
+        own.check()
+        now[0] = 10.1
+        with pytest.raises(Stopped):
+            own.check()
+
+    def test_the_first_axis_leaves_time_for_the_second(self, now: list[float]) -> None:
+        own = Clock(10.0)
+        own.allot(0.75)
+        now[0] = 6.5
+        with pytest.raises(Stopped):
+            own.check()
+        own.allot(1.0)
+        own.check()
+
+    def test_a_clock_within_another(self, now: list[float]) -> None:
+        outer = Clock(10.0)
+        inner = Clock(1.0, parent=outer)
+        inner.check()
+        now[0] = 1.0
+        with pytest.raises(Stopped):
+            inner.check()
+        assert inner.over and not outer.over
+        later = Clock(100.0, parent=outer)
+        now[0] = 9.0
+        with pytest.raises(Stopped):
+            later.check()
+        assert outer.over
+
+    def test_merging_has_a_moment_more(self, now: list[float]) -> None:
+        """A layout that was found in time is not lost for want of a tenth of a second."""
+        own = Clock(10.0)
+        now[0] = 10.05
+        closing = own.closing()
+        closing()
+        now[0] = 10.3
+        with pytest.raises(Stopped):
+            closing()
+        stopped = Clock(None, lambda: True)
+        with pytest.raises(Stopped):
+            stopped.check()
+        stopped.closing()()  # it has been asked; what there is, is merged
+        asked = Clock(None, lambda: now[0] > 11.0)
+        closing = asked.closing()
+        closing()
+        now[0] = 12.0
+        with pytest.raises(Stopped):
+            closing()
+
+    def test_stages_that_are_no_search_are_stopped_too(self) -> None:
+        def check() -> None:
+            raise Stopped
+
+        one = gallery.load("qualifiers-a")
+        layout = solve(one)
+        with pytest.raises(Stopped):
+            merge(one, layout.x, layout.y, check)
+        with pytest.raises(Stopped):
+            analyse(axis_problem(one, "x"), check)
+        for counters in ("A^k", "(A|B)(A|B)", "(A^k B)^.2"):
+            with pytest.raises(Stopped):
+                instances(parse(counters), lambda name: Symbol(name, 1.0), Counter, 5.0, check)
 
 
 class TestArguments:

@@ -131,8 +131,14 @@ class Meeting:
                 stack.append((child, iter(side.onward(child, self.limit))))
 
     def _hopeless(self, side: Side, half: Half) -> bool:
-        """Whether it cannot lead to anything better than what is known, not even by its number of columns."""
-        return self._no_better(half.bound, half.columns + side.total - side.progress(half))
+        """Whether it cannot lead to anything better than what is known, not even by its number of columns.
+
+        Where a column ends, a letter begins or ends; and where the next one begins, if no letter is cut there.
+        """
+        left = side.total - side.progress(half)
+        if left and (half.owed or not any(p & 4 for p in half.state)):
+            left -= 1
+        return self._no_better(half.bound, half.columns + left)
 
     def _beyond(self, side: Side, half: Half) -> bool:
         """Whether lengths that depend on each other make it too dear (`relaxation`)."""

@@ -111,6 +111,7 @@ class Deepening:
         self.observer, self.alone = observer, alone
         self.found = Found(bound=ends.least)
         self.known: Priced | None = None
+        self._alike: list[Priced] = []  # all that are as good as `known`
         self.limit = cap
         groups = ends.forward.groups
         self._step = 0.01 * max(group.canvas for group in groups)
@@ -120,7 +121,11 @@ class Deepening:
         """Tell of alignments that exist, so that nothing dearer is looked for."""
         for priced in alignments:
             if self.known is None or _better(priced, self.known):
-                self.known = priced
+                self.known, self._alike = priced, [priced]
+            elif not _better(self.known, priced) and all(
+                priced.structure != other.structure for other in self._alike
+            ):
+                self._alike.append(priced)
         if self.known is not None:
             self.limit = min(self.limit, self.known.cost)
             self._threshold = min(self._threshold, self.limit)
@@ -154,7 +159,9 @@ class Deepening:
         """Deepen; whether the last pass left something out for the length of its pieces."""
         found, known = self.found, self.known
         forward, backward = self.ends.forward, self.ends.backward
-        found.cut, found.ties = False, []
+        # above the limit they are of no use: then something cheaper is looked for
+        given = known is not None and known.cost <= self.limit + EPS
+        found.cut, found.ties = False, self._alike[: self.keep] if given else []
         while True:
             if self.observer is not None:
                 self.observer.deepened(self._threshold)
@@ -180,9 +187,11 @@ class Deepening:
                 self.know(found.ties)
                 return thinned
             beyond = min(forward.beyond, backward.beyond)
+            done = bool(found.ties) and found.ties[0].cost <= self._threshold + EPS
             if not thinned:
-                found.bound = found.ties[0].cost if found.ties else max(found.bound, beyond)
-            if found.ties or self._threshold >= self.limit or beyond == inf:
+                least = max(found.bound, beyond if known is None else min(beyond, known.cost))
+                found.bound = found.ties[0].cost if done else least
+            if done or self._threshold >= self.limit or beyond == inf:
                 return thinned
             self._threshold = min(self.limit, max(beyond, self.ends.least + self._step))
             self._step *= _GROWTH if found.nodes - before < _DEAR else _GROWTH**3

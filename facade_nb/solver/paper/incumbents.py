@@ -29,11 +29,12 @@ def incumbents(
     ends: Ends,
     *,
     cap: float = inf,
+    keep: int = 8,
     check: Callable[[], None] | None = None,
     accept: Callable[[Priced], bool] | None = None,
     observer: Observer | None = None,
 ) -> Iterator[Priced]:
-    """Alignments along prealigned control words, and along words merged pair by pair."""
+    """What one walk meets first, and alignments along prealigned control words, and along words merged pair by pair."""
 
     def along(guides: Sequence[Guide], cap: float) -> Priced | None:
         search = Deepening(
@@ -49,6 +50,11 @@ def incumbents(
         best = search.result().best
         return None if best is None else best.structure
 
+    search = Deepening(ends, cap=cap, keep=keep, check=check, accept=accept, alone=True)
+    search.go(_NODES)
+    for priced in search.result().ties:
+        cap = min(cap, priced.cost)
+        yield priced
     controls = [control_group(group) or group for group in groups]
     if any(control is not group for control, group in zip(controls, groups, strict=True)):
         aligned = apart(controls)
