@@ -64,7 +64,7 @@ class TestKnownAnswers:
         assert found.best is not None and found.best.omega == 0.0 and found.best.widths == (11.0,)
 
 
-SEEDS = range(3000, 3090)
+SEEDS = range(3000, 3060)
 
 
 class TestExactness:
@@ -93,7 +93,7 @@ class TestExactness:
 
     def test_good_alignments_first_or_not(self) -> None:
         """Prealigning and merging are heuristics; the answer does not depend on them."""
-        for seed in SEEDS[:20]:
+        for seed in SEEDS[:12]:
             case = random_case(seed)
             if not any(case.rows):
                 continue
@@ -105,7 +105,7 @@ class TestExactness:
 
     def test_from_the_other_end(self) -> None:
         """Nothing depends on the direction of reading."""
-        for seed in SEEDS[:30]:
+        for seed in SEEDS[:16]:
             case = random_case(seed)
             if not any(case.rows):
                 continue

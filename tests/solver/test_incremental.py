@@ -233,7 +233,8 @@ class TestReuse:
 
     def test_trials_push_nothing_out(self, monkeypatch: pytest.MonkeyPatch) -> None:
         """What is tried in order to say what would help is not kept."""
-        monkeypatch.setattr(solving, "_REMEDIES", 1.0)
+        monkeypatch.setattr(solving, "_REMEDIES", 6.0)
+        monkeypatch.setattr(solving, "_REMEDY", 3.0)
         solve(self.ONE)
         before = len(solving._cache)
         with pytest.raises(NoLayout) as caught:

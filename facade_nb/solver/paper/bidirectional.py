@@ -226,10 +226,10 @@ class Meeting:
         if self.accept is not None and not self.accept(priced):
             return
         before = len(self.found.ties), self.found.best
-        if any(other.structure == structure for other in self.found.ties):
-            return
-        self.found.offer(priced, self.keep)
-        if before != (len(self.found.ties), self.found.best):
+        known = any(other.structure == structure for other in self.found.ties)
+        if not known:
+            self.found.offer(priced, self.keep)
+        if known or before != (len(self.found.ties), self.found.best):
             self._idle = 0
             if self.observer is not None:
                 self.observer.met(*key, priced.cost, priced.columns)
