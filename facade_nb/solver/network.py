@@ -126,10 +126,9 @@ class Network:
                 if bound == inf:
                     continue
                 if ranges or width < group.canvas - group.tolerance - EPS:
-                    trail = (
-                        *trail,
-                        path,
-                    )  # too narrow as it is: only its price can tell, so it is like no other
+                    trail = (*trail, path)  # only its price can tell how wide it gets, so it is like no other
+                elif trail:
+                    trail = (*trail, round(width, 9))  # what the pieces come to is added to this
                 g = path.group + 1
                 state = self.groups[g].start if g < len(self.groups) else ()
                 child = Path(g, state, cost, 0.0, path.columns + 1, True, False, trail, path, edge.column)

@@ -123,3 +123,13 @@ def test_a_row_that_has_no_letters(search: str) -> None:
     found = align([[Letter("A", 3.0)], []], canvas=3.0, search=search)
     assert found is not None and found.error == 0.0
     assert [[len(cell) for cell in column] for column in found.columns] == [[1, 0]]
+
+
+@pytest.mark.parametrize("search", ["best", "ida"])
+def test_wider_paths_with_the_same_pieces(search: str) -> None:
+    """A path with more columns is not the better one where its pieces make it too wide for the tolerance."""
+    soft = Letter("A", 1.13, opaque=False)
+    rows = [[soft, soft, Letter("a", 1.13, transparent=True)], [soft, soft]]
+    found = align(rows, 3.39, 1.695, search=search)
+    assert found is not None and found.cost == pytest.approx(0.0, abs=1e-9)
+    assert len(found.columns) == 5
