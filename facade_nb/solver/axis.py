@@ -482,6 +482,7 @@ class AxisSearch:
     def _open(self, case: _Case) -> None:
         """Find the candidate's groups, and the searches that other candidates share with it."""
         case.groups, case.clusters = self._groups(case.candidate)
+        runs: list[_Run] = []
         for cluster in case.clusters:
             key = tuple(group.identity for group in (case.groups[g] for g in cluster))
             run = self.runs.get(key)
@@ -489,9 +490,10 @@ class AxisSearch:
                 known = _kept.get(self._known_as(key)) if self.trace is None else None
                 run = self._run([case.groups[g] for g in cluster], None, cluster, known)
                 self.runs[key] = run
-            case.runs.append(run)
+            runs.append(run)
             for g, group in zip(cluster, run.groups, strict=True):
                 case.groups[g] = group
+        case.runs = runs  # all of them or none: the clock may have stopped this before
 
     def _run(
         self,
