@@ -13,6 +13,7 @@ from ..design.model import Symbol
 from .candidates import Candidate, CandidateStream, candidates, rows_of
 from .clock import Progress
 from .columns import EPS, Group, lone_unsized, make_group
+from .compiled import CompiledDives, best_first, dives
 from .dive import Dives
 from .ida import search_ida
 from .instances import Instances, Range
@@ -21,7 +22,7 @@ from .letters import Word
 from .objective import Objective
 from .pricing import Priced
 from .problem import AxisProblem
-from .search import BestFirst, Found, Stopped
+from .search import Found, Stopped
 from .sizing import Sized, size_axis
 from .tracing import Recorder, Walk, sizing
 from .words import axis_words
@@ -117,7 +118,7 @@ class _Run:
     ) -> None:
         self.groups, self.log, self._fits = groups, log, fits
         self._options = (method, nodes, check, accept)
-        self._dives: Dives | None = None
+        self._dives: Dives | CompiledDives | None = None
         self._spent = self._dived = 0.0
         self._again = False
         if known is None:
@@ -127,7 +128,7 @@ class _Run:
 
     def _begin(self) -> None:
         method, nodes, check, accept = self._options
-        self._first = BestFirst(
+        self._first = best_first(
             self.groups, keep=_TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_LONG
         )
         self._ida = method == "ida"
@@ -162,7 +163,7 @@ class _Run:
         if self.done or accept is not None:
             return
         if self._dives is None:
-            self._dives = Dives(self.groups, self.floor, check, self._fits)
+            self._dives = dives(self.groups, self.floor, check, self._fits)
         begin, before = time.perf_counter(), self._dived
         while not self._dives.done and (self._dived <= self._spent or (at_once and self._dives.best is None)):
             self._dives.dive()

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from math import inf
 from typing import Any
 
@@ -127,6 +128,7 @@ class Band:
         self.soft_rest = [0.0] * (len(self.letters) + 1)
         self._unsized: dict[int, tuple[tuple[str, int], ...]] = {}
         self._options: dict[Position, tuple[Option, ...]] = {}
+        self._single: dict[tuple[Position, int], Option] = {}
 
     def back(self, thinnest: float) -> None:
         """Fill `soft_rest`: least Σ (column − element) over the runs with non-opaque letters still to come.
@@ -176,6 +178,16 @@ class Band:
                 self.check()
             found = self._options[position] = tuple(self._make(position))
         return found
+
+    def option(self, position: Position, index: int) -> Option:
+        """One of them, without making all the others that are longer."""
+        found = self._options.get(position)
+        if found is not None:
+            return found[index]
+        one = self._single.get((position, index))
+        if one is None:
+            one = self._single[position, index] = next(islice(self._make(position), index, None))
+        return one
 
     def _make(self, position: Position) -> Iterator[Option]:
         i, mid, gap, held = position >> 3, position & 4, position & 2, position & 1

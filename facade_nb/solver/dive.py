@@ -14,7 +14,7 @@ from itertools import count
 from math import inf
 
 from .columns import EPS, Band, Group
-from .network import Network
+from .network import Network, ceiling
 from .pairs import PairTable
 from .paths import Path
 from .pricing import Priced, price
@@ -95,7 +95,7 @@ class Dives:
         self.best: Priced | None = None
         self.done = self.network.later[0] == inf
         self._canvas = max(group.canvas for group in groups)
-        self._ceiling = self.network.ceiling()
+        self._ceiling = ceiling(groups)
         self._serial = count()
         self._limit = max(least, self.network.later[0])
         self._waiting: list[list[tuple[float, int, float, Path]]] = []

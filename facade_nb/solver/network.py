@@ -27,7 +27,7 @@ from .shortfall import ahead, shortfall
 from .skeleton import Skeleton
 from .stepping import steps
 
-__all__ = ["Network"]
+__all__ = ["Network", "ceiling"]
 
 
 class Network:
@@ -59,18 +59,6 @@ class Network:
         for g in range(len(self.groups) - 1, -1, -1):
             self.later[g] = self.later[g + 1] + floors[g]
         return self.later[0] <= limit + EPS
-
-    def ceiling(self) -> float:
-        """No alignment within the tolerances costs more, so that a larger budget changes nothing."""
-        total = 0.0
-        for group in self.groups:
-            objective = group.objective
-            width = group.canvas + group.tolerance
-            columns = sum(len(band.letters) + 1 for band in group.bands)
-            letters = sum(letter.size or 0.0 for band in group.bands for letter in band.letters)
-            total += columns * group.tolerance + objective.empty * width + objective.fit * group.tolerance
-            total += objective.loose * (letters + width)
-        return total
 
     def root(self) -> Path:
         """The path without columns."""
@@ -206,3 +194,16 @@ class Network:
         return (
             group.objective.fit * over if over > 0 else -(group.objective.fit if firm else group.under) * over
         )
+
+
+def ceiling(groups: Sequence[Group]) -> float:
+    """No alignment within the tolerances costs more, so that a larger budget changes nothing."""
+    total = 0.0
+    for group in groups:
+        objective = group.objective
+        width = group.canvas + group.tolerance
+        columns = sum(len(band.letters) + 1 for band in group.bands)
+        letters = sum(letter.size or 0.0 for band in group.bands for letter in band.letters)
+        total += columns * group.tolerance + objective.empty * width + objective.fit * group.tolerance
+        total += objective.loose * (letters + width)
+    return total

@@ -1,0 +1,102 @@
+// An alignment group, ready to be aligned: the same as columns.Group, which it is read from.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "arena.hpp"
+#include "pairs.hpp"
+#include "words.hpp"
+
+/// A column that may come next (see paths.Edge).
+struct Edge {
+  const Option* const* column;  // per band
+  const Position* state;        // per band
+  double cost, omega, width, least, rise, ahead, up;
+  bool firm, owed, tied, pieces;
+};
+
+/// The edges of a node that have been made, the least rise first, and up to which.
+struct Known {
+  double limit;
+  std::vector<Edge> edges;
+};
+
+struct Group {
+  std::vector<std::unique_ptr<Band>> bands;
+  double canvas, tolerance, share, under;
+  Prices prices;
+  bool waived, stiff, tied, tall;
+  int reference;  // −1: none
+  std::vector<double> weights;
+  std::vector<std::vector<int>> guards;
+  std::vector<std::unique_ptr<PairTable>> pairs;  // per band; none for the reference
+
+  Arena arena;  // of the edges
+  std::unordered_map<std::uint64_t, std::vector<std::pair<const Position*, Known>>> known;
+
+  int count() const { return static_cast<int>(bands.size()); }
+
+  /// What the rows still cost each other, by pairs with the reference.
+  double ahead(const Position* state) {
+    if (reference < 0) return 0.0;
+    double total = 0.0;
+    for (int b = 0; b < count(); ++b)
+      if (pairs[b]) total += pairs[b]->at(state[reference], state[b]);
+    return total;
+  }
+
+  /// Reads what compiled.py writes; see there for the order.
+  static Group* read(const double* at) {
+    auto group = std::make_unique<Group>();
+    auto next = [&at] { return *at++; };
+    auto whole = [&at] { return static_cast<int>(*at++); };
+    auto flag = [&at] { return *at++ != 0.0; };
+    const int n = whole();
+    group->canvas = next();
+    group->tolerance = next();
+    group->share = next();
+    group->under = next();
+    group->prices = {next(), next(), next(), flag()};
+    group->waived = flag();
+    group->stiff = flag();
+    group->tied = flag();
+    group->tall = flag();
+    group->reference = whole();
+    for (int b = 0; b < n; ++b) {
+      group->weights.push_back(next());
+      const int guards = whole();
+      group->guards.emplace_back();
+      for (int k = 0; k < guards; ++k) group->guards.back().push_back(whole());
+      auto band = std::make_unique<Band>();
+      band->cuts = flag();
+      const int letters = whole();
+      for (int i = 0; i < letters; ++i) {
+        Letter letter{};
+        letter.size = next();
+        letter.symbol = whole();
+        const int flags = whole();
+        letter.sized = flags & 1;
+        letter.transparent = flags & 2;
+        letter.opaque = flags & 4;
+        letter.attached = flags & 8;
+        letter.unoccludable = flags & 16;
+        letter.free = flags & 32;
+        band->letters.push_back(letter);
+      }
+      band->soft_rest.assign(at, at + letters + 1);
+      at += letters + 1;
+      band->finish();
+      group->bands.push_back(std::move(band));
+    }
+    for (int b = 0; b < n; ++b) {
+      const bool paired = group->reference >= 0 && b != group->reference;
+      group->pairs.push_back(paired ? std::make_unique<PairTable>(*group->bands[group->reference], *group->bands[b],
+                                                                  group->prices, group->share, n - 1)
+                                    : nullptr);
+    }
+    return group.release();
+  }
+};
