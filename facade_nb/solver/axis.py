@@ -10,7 +10,7 @@ from itertools import islice, product
 from math import inf
 
 from ..design.model import Symbol
-from .candidates import Candidate, CandidateStream, candidates, rows_of
+from .candidates import Candidate, CandidateStream, candidates, inputs_of, rows_of
 from .clock import Progress
 from .columns import EPS, Group, lone_unsized, make_group
 from .compiled import CompiledDives, best_first, dives
@@ -18,7 +18,7 @@ from .dive import Dives
 from .ida import search_ida
 from .instances import Instances, Range
 from .keeping import Kept
-from .letters import Word
+from .letters import Letter, Word
 from .objective import Objective
 from .pricing import Priced
 from .problem import AxisProblem
@@ -35,8 +35,10 @@ _STEP = 0.004
 """How far above its lower bound a candidate goes first, as a fraction of the canvas."""
 _GROWTH = 1.5
 """Each turn takes it so many times further."""
-_LONG = 150
-"""A search of more paths than this is a long one, and gives way to others after as many again."""
+_TURN = 150
+"""After so many paths a search gives way to those of other candidates."""
+_LONG = 3_000
+"""A search of more paths than this is a long one, and dives help it."""
 
 _kept: Kept[tuple[list[Priced], float]] = Kept(512)
 """What has been found for groups, so that those that an edit leaves alone are not searched again."""
@@ -129,7 +131,7 @@ class _Run:
     def _begin(self) -> None:
         method, nodes, check, accept = self._options
         self._first = best_first(
-            self.groups, keep=_TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_LONG
+            self.groups, keep=_TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_TURN
         )
         self._ida = method == "ida"
         self._found = self._first.found
@@ -256,6 +258,16 @@ class _Case:
         return max(self.least, sum(run.floor for run in self.runs))
 
 
+class _Rows:
+    """The rows of a group, and the words they were made of (which keeps those, and so their identities, alive)."""
+
+    __slots__ = ("letters", "unsized", "words")
+
+    def __init__(self, letters: list[tuple[Letter, ...]], words: tuple[Word, ...]) -> None:
+        self.letters, self.words = letters, words
+        self.unsized = {letter.symbol for row in letters for letter in row if letter.size is None}
+
+
 @dataclass(slots=True)
 class AxisSearch:
     """The search on one axis at one tolerance, with what it has learnt so far."""
@@ -271,6 +283,9 @@ class AxisSearch:
     found: dict[str, Instances] = field(default_factory=dict)
     cases: list[_Case] = field(default_factory=list)
     runs: dict[object, _Run] = field(default_factory=dict)
+    rows: dict[object, _Rows] = field(default_factory=dict)
+    by_words: dict[object, _Run] = field(default_factory=dict)
+    inputs: list[tuple[str, ...]] | None = None
     stream: CandidateStream | None = None
 
     def enumerate(self, across: Mapping[str, Range] | None = None) -> None:
@@ -310,6 +325,8 @@ class AxisSearch:
             self.progress,
             found,
             runs=self.runs,
+            rows=self.rows,
+            by_words=self.by_words,
         )
         other.stream = other._stream()
         return other
@@ -333,6 +350,8 @@ class AxisSearch:
                 group.edges.clear()
         self.cases.clear()
         self.runs.clear()
+        self.rows.clear()
+        self.by_words.clear()
         self.stream = None
 
     def in_order(self) -> Iterator[Candidate]:
@@ -482,19 +501,40 @@ class AxisSearch:
 
     def _open(self, case: _Case) -> None:
         """Find the candidate's groups, and the searches that other candidates share with it."""
-        case.groups, case.clusters = self._groups(case.candidate)
+        rows, keys, clusters = self._rows(case.candidate)
+        groups: list[Group | None] = [None] * len(rows)
         runs: list[_Run] = []
-        for cluster in case.clusters:
-            key = tuple(group.identity for group in (case.groups[g] for g in cluster))
+        for cluster in clusters:
+            run = self._same_words(rows, cluster, tuple(keys[g] for g in cluster))
+            runs.append(run)
+            for g, group in zip(cluster, run.groups, strict=True):
+                groups[g] = group
+        case.clusters, case.groups = clusters, [group for group in groups if group is not None]
+        case.runs = runs  # all of them or none: the clock may have stopped this before
+
+    def _same_words(self, rows: Sequence[_Rows], cluster: Sequence[int], words: object) -> _Run:
+        """The search of a cluster: the one that there is for the same words, or others with the same letters."""
+        run = self.by_words.get(words)
+        if run is None:
+            free = lone_unsized(*(dict.fromkeys(rows[g].letters) for g in cluster))
+            groups = [
+                make_group(
+                    rows[g].letters,
+                    self.problem.canvas,
+                    self.tolerance,
+                    self.objective,
+                    free=free,
+                    check=self.check,
+                )
+                for g in cluster
+            ]
+            key = tuple(group.identity for group in groups)
             run = self.runs.get(key)
             if run is None:
                 known = _kept.get(self._known_as(key)) if self.trace is None else None
-                run = self._run([case.groups[g] for g in cluster], None, cluster, known)
-                self.runs[key] = run
-            runs.append(run)
-            for g, group in zip(cluster, run.groups, strict=True):
-                case.groups[g] = group
-        case.runs = runs  # all of them or none: the clock may have stopped this before
+                run = self.runs[key] = self._run(groups, None, cluster, known)
+            self.by_words[words] = run
+        return run
 
     def _run(
         self,
@@ -521,31 +561,29 @@ class AxisSearch:
     def _known_as(self, key: object) -> object:
         return key, self.problem.canvas, self.tolerance, self.objective, self.method
 
-    def _groups(self, candidate: Candidate) -> tuple[list[Group], list[list[int]]]:
-        """The groups of a candidate, and which of them share an unsized symbol and so are aligned together."""
-        flat = iter(
-            rows_of(self.problem, candidate.words, [n for _, names in self.problem.groups for n in names])
-        )
-        rows = [[next(flat) for _ in names] for _, names in self.problem.groups]
-        unsized = [{a.symbol for row in own for a in row if a.size is None} for own in rows]
+    def _rows(self, candidate: Candidate) -> tuple[list[_Rows], list[object], list[list[int]]]:
+        """The rows of each group, what they depend on, and which groups are aligned together.
+
+        Those are that share an unsized symbol.
+        """
+        if self.inputs is None:
+            self.inputs = inputs_of(self.problem)
+        rows: list[_Rows] = []
+        keys: list[object] = []
+        for g, (names, (_, standing)) in enumerate(zip(self.inputs, self.problem.groups, strict=True)):
+            words = tuple(candidate.words[name] for name in names)
+            key = (g, *map(id, words))
+            own = self.rows.get(key)
+            if own is None:
+                own = self.rows[key] = _Rows(rows_of(self.problem, candidate.words, standing), words)
+            rows.append(own)
+            keys.append(key)
         clusters: list[list[int]] = []
-        for g, symbols in enumerate(unsized):
-            joined = [c for c in clusters if any(unsized[o] & symbols for o in c)]
+        for g, one in enumerate(rows):
+            joined = [c for c in clusters if any(rows[o].unsized & one.unsized for o in c)]
             clusters = [c for c in clusters if c not in joined]
             clusters.append(sorted([g, *(o for c in joined for o in c)]))
-        groups: list[Group] = [None] * len(rows)  # type: ignore[list-item]
-        for cluster in clusters:
-            free = lone_unsized(*(dict.fromkeys(rows[g]) for g in cluster))
-            for g in cluster:
-                groups[g] = make_group(
-                    rows[g],
-                    self.problem.canvas,
-                    self.tolerance,
-                    self.objective,
-                    free=free,
-                    check=self.check,
-                )
-        return groups, clusters
+        return rows, keys, clusters
 
     def _size(self, case: _Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
         """Size every combination of equally good structures; the least deviation wins."""

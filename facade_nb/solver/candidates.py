@@ -17,7 +17,7 @@ from .letters import Letter, Word
 from .objective import Objective
 from .problem import AxisProblem
 
-__all__ = ["Candidate", "CandidateStream", "candidates", "lower_bound", "rows_of"]
+__all__ = ["Candidate", "CandidateStream", "candidates", "inputs_of", "lower_bound", "rows_of"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -148,14 +148,8 @@ class _Bounds:
 
     def __init__(self, problem: AxisProblem, tolerance: float, objective: Objective) -> None:
         self._problem, self._tolerance, self._objective = problem, tolerance, objective
-        patterns = problem.pattern
-        self._inputs: list[tuple[str, ...]] = []
-        self._rows: list[tuple[str, ...]] = []
-        for _, rows in problem.groups:
-            standing = {symbol for name in rows for symbol in patterns[name].placeholders}
-            givers = [name for name, pattern in problem.patterns if standing & set(pattern.substituted)]
-            self._rows.append(tuple(dict.fromkeys(rows)))
-            self._inputs.append(tuple(dict.fromkeys([*rows, *givers])))
+        self._rows = [tuple(dict.fromkeys(rows)) for _, rows in problem.groups]
+        self._inputs = inputs_of(problem)
         self._known: dict[tuple[int, ...], float] = {}
 
     def of(self, words: Mapping[str, Word]) -> float:
@@ -174,6 +168,17 @@ class _Bounds:
             if total == inf:
                 break
         return total
+
+
+def inputs_of(problem: AxisProblem) -> list[tuple[str, ...]]:
+    """Per group: the patterns on whose words its rows depend, its own and those that give its symbols a size."""
+    patterns = problem.pattern
+    out: list[tuple[str, ...]] = []
+    for _, rows in problem.groups:
+        standing = {symbol for name in rows for symbol in patterns[name].placeholders}
+        givers = [name for name, pattern in problem.patterns if standing & set(pattern.substituted)]
+        out.append(tuple(dict.fromkeys([*rows, *givers])))
+    return out
 
 
 def _above(problem: AxisProblem) -> dict[str, list[list[str]]]:

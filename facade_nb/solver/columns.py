@@ -176,11 +176,14 @@ class Band:
         if found is None:
             if self.check is not None:
                 self.check()
-            found = self._options[position] = tuple(self._make(position))
+            single = self._single
+            found = self._options[position] = tuple(
+                [single.get((position, k), option) for k, option in enumerate(self._make(position))]
+            )
         return found
 
     def option(self, position: Position, index: int) -> Option:
-        """One of them, without making all the others that are longer."""
+        """One of them, the same as in `options`, without making all the others that are longer."""
         found = self._options.get(position)
         if found is not None:
             return found[index]

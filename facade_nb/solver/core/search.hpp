@@ -81,17 +81,17 @@ class Search {
 
   static double rounded(double bound) { return bound < kInf ? std::nearbyint(bound * 1e10) / 1e10 : bound; }
 
-  /// Whether a structure as dear as the best is no better: proper ones come first, then those of more columns.
-  bool needless(const Waiting& item) {
-    const bool fewer = item.columns < columns_ || (item.columns == columns_ && full_);
-    if (proper_ && fewer) return true;
-    if (!proper_ && !fewer) return false;
-    bool proper = item.proper;
-    if (!proper) {
-      price_(network, item.path);
-      proper = !stopped && price_.proper(false);
-    }
-    return proper ? proper_ && fewer : proper_ || fewer;
+  /// Whether a structure has fewer columns than the best, or as many as enough others that are as good.
+  bool fewer(const Path& path) const { return path.columns < columns_ || (path.columns == columns_ && full_); }
+
+  /// Whether it matters for a structure as dear as the best if its pieces can all be longer than nothing.
+  bool doubtful(const Path& path) const { return proper_ != fewer(path); }
+
+  /// Whether the structure priced last, as dear as the best, is no better: proper ones come first, then more columns.
+  bool needless(const Path& path, bool proper) {
+    if (!doubtful(path)) return fewer(path);
+    proper = proper || price_.proper(false);
+    return proper ? proper_ && fewer(path) : proper_ || fewer(path);
   }
 
   void push(double least, Path* path) { queue_.push({rounded(least), path->columns, serial_++, path, false, false}); }
@@ -105,8 +105,11 @@ class Search {
       if (best_ == kInf) bound = std::max(bound, top.bound);
       Path& path = *top.path;
       if (top.priced) {
-        if (!judged_ && best_ < kInf && needless(top)) continue;
-        if (stopped) return kStopped;
+        if (!judged_ && best_ < kInf) {
+          if (!top.proper && doubtful(path)) price_(network, &path);
+          if (needless(path, top.proper)) continue;
+          if (stopped) return kStopped;
+        }
         asked_ = &path;
         return kLeft;
       }
@@ -117,7 +120,10 @@ class Search {
       if (network.complete(path)) {
         const double cost = price_(network, &path);
         if (stopped) return kStopped;
-        if (cost < kInf) queue_.push({rounded(cost), path.columns, serial_++, &path, true, price_.proper(true)});
+        if (cost == kInf) continue;
+        const bool proper = price_.proper(true);
+        if (!judged_ && cost <= best_ + kEps && best_ < kInf && needless(path, proper)) continue;
+        queue_.push({rounded(cost), path.columns, serial_++, &path, true, proper});
         continue;
       }
       if (network.tall)
