@@ -26,7 +26,7 @@ from .columns import EPS, Group, Option
 from .dive import Dives
 from .network import ceiling
 from .pricing import Priced, Structure, price
-from .search import BestFirst, Found
+from .search import BestFirst, Found, Stopped
 from .tracing import Walk
 
 __all__ = ["CompiledDives", "CompiledSearch", "available", "best_first", "dives"]
@@ -81,7 +81,7 @@ class _Core:
         self._groups: WeakKeyDictionary[Group, int] = WeakKeyDictionary()
         self._alive: set[tuple[str, int]] = set()
         self._dead: list[tuple[str, int]] = []
-        self.busy = False
+        self.busy = self.broken = False
         self._room = self._at = 0
         self.call("_initialize")
         _cores.add(self)
@@ -102,9 +102,16 @@ class _Core:
 
     def ask(self, check: Callable[[], None] | None, name: str, *arguments: float) -> int:
         """Call what takes long; what `check` raises meanwhile is raised once the call has come back."""
+        import wasmtime
+
         self._check, self.busy = check, True
         try:
             status = int(self.call(name, *arguments))
+        except wasmtime.Trap:
+            if self._memory.data_len(self._store) < 0.9 * _MOST:
+                raise
+            self.broken = True  # out of memory before anybody looked
+            raise Stopped from None
         finally:
             self._check, self.busy = None, False
         raised, self._raised = self._raised, None
@@ -143,7 +150,7 @@ class _Core:
 
     def _bury(self) -> None:
         """Let go of what has no owner any more: not at once, as that may happen in any thread, at any time."""
-        while self._dead and not self.busy:
+        while self._dead and not self.busy and not self.broken:
             self._dead.sort(key=lambda own: own[0] == "group_free")  # searches refer to groups
             free, number = self._dead.pop(0)
             self._alive.discard((free, number))
@@ -216,7 +223,7 @@ def _core() -> _Core:
     core: _Core | None = getattr(_local, "core", None)
     if core is not None and core.busy:
         return _Core()  # `should_stop` solves something itself
-    if core is None or core.large:
+    if core is None or core.broken or core.large:
         core = _local.core = _Core()
     return core
 

@@ -119,11 +119,12 @@ class Maker {
   }
 
   void descend(int n, const Part& part) {
+    if (stopped || pause()) return;
     if (n == static_cast<int>(order_.size())) {
       close(part);
       return;
     }
-    if (stopped || pause() || made_.size() >= enough_) return;
+    if (made_.size() >= enough_) return;
     const int b = order_[n];
     const bool paired = group_.reference >= 0;
     for (const Option& option : *choices_[b]) {
@@ -256,11 +257,11 @@ class Stepper : public Maker {
   }
 
   void choose(int n, double height, double price, double low, bool hit) {
+    if (stopped || pause()) return;
     if (n == static_cast<int>(options_.size())) {
       if (hit) finish(height);
       return;
     }
-    if (stopped || pause()) return;
     if ((!hit && !hits_[n]) || made_.size() >= enough_) return;
     const double room = slack_ - price - after_[n + 1];
     for (const Choice& choice : options_[n].own) {

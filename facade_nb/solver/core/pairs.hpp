@@ -22,7 +22,8 @@ class PairTable {
         empty_(prices.empty * share),
         loose_(prices.loose * share),
         plain_(prices.plain),
-        rows_(2 * reference.letters.size() + 1) {}
+        rows_(2 * reference.letters.size() + 1),
+        nothing_(2 * other.letters.size() + 1, kInf) {}
 
   double at(Position reference, Position other) { return row(reference)[other >> 2]; }
 
@@ -30,8 +31,13 @@ class PairTable {
   const Row& row(Position reference) {
     const int place = reference >> 2;
     if (!rows_[place])
-      for (int p = static_cast<int>(rows_.size()) - 1; p >= place; --p)
+      for (int p = static_cast<int>(rows_.size()) - 1; p >= place; --p) {
         if (!rows_[p]) fill(p);
+        if (stopped) {  // the row is not to be relied on, but something has to be said
+          rows_[p].reset();
+          return nothing_;
+        }
+      }
     return *rows_[place];
   }
 
@@ -51,11 +57,12 @@ class PairTable {
   double part_, empty_, loose_;
   bool plain_, made_ = false;
   std::vector<std::unique_ptr<Row>> rows_;
+  Row nothing_;
   std::vector<std::vector<Move>> moves_a_, moves_b_;
 
   std::vector<std::vector<Move>> moves(Band& band) const {
     std::vector<std::vector<Move>> out(2 * band.letters.size() + 1);
-    for (int place = 0; place < static_cast<int>(out.size()); ++place) {
+    for (int place = 0; place < static_cast<int>(out.size()) && !stopped; ++place) {
       const int i = place >> 1, mid = place & 1;
       if (mid && !band.letters[i].transparent) continue;
       for (const Option& o : band.options(8 * i + 4 * mid))
@@ -65,19 +72,19 @@ class PairTable {
   }
 
   void fill(int p) {
+    rows_[p] = std::make_unique<Row>(2 * other_.letters.size() + 1, kInf);
     if (!made_) {
       moves_a_ = moves(reference_);
       moves_b_ = moves(other_);
-      made_ = true;
+      made_ = !stopped;
     }
     const int last = static_cast<int>(moves_b_.size()) - 1;
-    rows_[p] = std::make_unique<Row>(last + 1, kInf);
     Row& row = *rows_[p];
     std::vector<Reach> reach;
     for (const Move& m : moves_a_[p])
       reach.push_back({m.size, m.own * part_, m.soft && !plain_, m.end != p ? rows_[m.end].get() : nullptr});
-    unsigned work = 0;
-    for (int q = last; q >= 0; --q) {
+    for (int q = last; q >= 0 && !stopped; --q) {
+      unsigned work = 10;
       double best = q == last && reach.empty() ? 0.0 : kInf;
       const std::vector<Move>& others = moves_b_[q];
       const bool solid = !others.empty() && !other_.letters[q >> 1].transparent;
@@ -106,8 +113,8 @@ class PairTable {
         }
       }
       row[q] = best;
+      check(work);
     }
-    check(work);
   }
 
   static double least(double a, double b) { return b < a ? b : a; }

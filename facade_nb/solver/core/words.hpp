@@ -60,6 +60,7 @@ class Band {
 
  private:
   std::vector<std::unique_ptr<Options>> options_;
+  Options scrap_;
   std::vector<std::unique_ptr<std::vector<Counted>>> unsized_;
 
   void make(Position position, Options& out) const;
@@ -107,9 +108,11 @@ inline const std::vector<Counted>& Band::unsized_from(int i) {
 inline const Options& Band::options(Position position) {
   auto& found = options_[position];
   if (!found) {
-    found = std::make_unique<Options>();
-    make(position, *found);
-    for (std::size_t k = 0; k < found->size(); ++k) (*found)[k].index = static_cast<int>(k);
+    scrap_.clear();
+    make(position, scrap_);
+    for (std::size_t k = 0; k < scrap_.size(); ++k) scrap_[k].index = static_cast<int>(k);
+    if (stopped) return scrap_;  // these may not be all
+    found = std::make_unique<Options>(scrap_);
   }
   return *found;
 }
