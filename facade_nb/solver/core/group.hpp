@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 #include "arena.hpp"
 #include "pairs.hpp"
+#include "table.hpp"
 #include "words.hpp"
 
 /// A column that may come next (see paths.Edge).
@@ -20,8 +20,11 @@ struct Edge {
 
 /// The edges of a node that have been made, the least rise first, and up to which.
 struct Known {
+  const Position* state;
+  bool owed;
   double limit;
-  std::vector<Edge> edges;
+  const Edge* edges;
+  std::size_t count;
 };
 
 struct Group {
@@ -35,7 +38,7 @@ struct Group {
   std::vector<std::unique_ptr<PairTable>> pairs;  // per band; none for the reference
 
   Arena arena;  // of the edges
-  std::unordered_map<std::uint64_t, std::vector<std::pair<const Position*, Known>>> known;
+  Table<Known> known;
 
   int count() const { return static_cast<int>(bands.size()); }
 

@@ -128,33 +128,28 @@ class Maker {
     const int b = order_[n];
     const bool paired = group_.reference >= 0;
     for (const Option& option : *choices_[b]) {
-      Part own = part;
       if (paired && n == 0) enter(option);
-      const PairTable::Row* row = rows_[b];
-      if (row != nullptr && n > 0) own.ahead += (*row)[option.target >> 2];
-      if (option.empty) {
-        ++own.empties;
-      } else if (option.elastic) {
-        own.elastic = true;
-      } else {
-        const double size = option.size;
-        if (size > part.high) own.high = size;
-        if (size < part.low_all) own.low_all = size;
-        if (size < part.low && (plain_ || !option.soft)) own.low = size;
-        own.loose += option.loose;
-        if (option.soft) {
-          ++own.softs;
-          own.soft_sizes += size;
-        }
-      }
-      const double omega = own.low < kInf ? own.high - own.low : 0.0;
-      const double bound = omega + by_empty_ * own.empties * own.high + by_loose_ * own.loose + own.ahead +
-                           (paired ? rest_[n + 1] : 0.0);
+      const PairTable::Row* row = n > 0 ? rows_[b] : nullptr;
+      const double ahead = row != nullptr ? part.ahead + (*row)[option.target >> 2] : part.ahead;
+      const bool sized = !option.empty && !option.elastic;
+      const double size = option.size;
+      const double high = sized && size > part.high ? size : part.high;
+      const double low = sized && size < part.low && (plain_ || !option.soft) ? size : part.low;
+      const double loose = sized ? part.loose + option.loose : part.loose;
+      const int empties = part.empties + option.empty;
+      const double omega = low < kInf ? high - low : 0.0;
+      const double bound =
+          omega + by_empty_ * empties * high + by_loose_ * loose + ahead + (paired ? rest_[n + 1] : 0.0);
       if (omega > mu_ || bound > limit_) {
-        const bool sized = !option.elastic;
-        if (sized && option.size > part.low && omega > std::min(mu_, limit_) && !option.transparent)
+        if (!option.elastic && size > part.low && omega > std::min(mu_, limit_) && !option.transparent)
           break;  // longer runs are dearer still
         continue;
+      }
+      Part own{high, low, sized && size < part.low_all ? size : part.low_all, empties, loose, part.softs,
+               part.soft_sizes, part.elastic || option.elastic, ahead};
+      if (sized && option.soft) {
+        ++own.softs;
+        own.soft_sizes += size;
       }
       chosen_[b] = &option;
       descend(n + 1, own);

@@ -83,13 +83,13 @@ class Network {
       begin = edges_.data();
       end = begin + edges_.size();
     } else {
-      const std::vector<Edge>& known = edges(group, path.state, path.owed, limit - laid);
+      const Known& known = edges(group, path.state, path.owed, limit - laid);
       auto upto = [&](double rise) {
-        return std::upper_bound(known.begin(), known.end(), rise + kEps,
+        return std::upper_bound(known.edges, known.edges + known.count, rise + kEps,
                                 [](double value, const Edge& edge) { return value < edge.rise; });
       };
-      begin = known.data() + (upto(made - laid) - known.begin());
-      end = known.data() + (upto(limit - laid) - known.begin());
+      begin = upto(made - laid);
+      end = upto(limit - laid);
     }
     if (stopped) return;
     for (const Edge* edge = begin; edge < end; ++edge) {
@@ -185,32 +185,33 @@ class Network {
   }
 
   /// Edges of a node that rise by at most `limit`, and perhaps more; kept with the group, as other paths lead to it too.
-  static const std::vector<Edge>& edges(Group& group, const Position* state, bool owed, double limit) {
+  const Known& edges(Group& group, const Position* state, bool owed, double limit) {
     constexpr double kFurther = 0.01;  // a fraction of the canvas: limits grow in small steps
     const int n = group.count();
     std::uint64_t hash = mixed(3, owed);
     for (int b = 0; b < n; ++b) hash = mixed(hash, state[b]);
-    auto& same = group.known[hash];
-    Known* known = nullptr;
-    for (auto& [own, found] : same)
-      if (std::equal(state, state + n, own)) known = &found;
+    Known*& known = group.known.find(
+        hash, [&](const Known& other) { return other.owed == owed && std::equal(state, state + n, other.state); });
     if (known == nullptr) {
       Position* own = group.arena.room<Position>(n);
       std::copy(state, state + n, own);
-      same.push_back({own, {-kInf, {}}});
-      known = &same.back().second;
+      known = group.arena.room<Known>(1);
+      *known = {own, owed, -kInf, nullptr, 0};
     }
     if (known->limit < limit) {
       const double further = limit + kFurther * group.canvas;
-      std::vector<Edge> fresh;
-      Maker(group, state, owed, group.arena, fresh).make(state, further, SIZE_MAX);
-      std::stable_sort(fresh.begin(), fresh.end(), [](const Edge& a, const Edge& b) { return a.rise < b.rise; });
+      edges_.clear();
+      Maker(group, state, owed, group.arena, edges_).make(state, further, SIZE_MAX);
+      std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.rise < b.rise; });
       if (!stopped) {
+        Edge* own = group.arena.room<Edge>(edges_.size());
+        std::copy(edges_.begin(), edges_.end(), own);
         known->limit = further;
-        known->edges = std::move(fresh);
+        known->edges = own;
+        known->count = edges_.size();
       }
     }
-    return known->edges;
+    return *known;
   }
 
   /// What the pieces in a column say about the letters they belong to.

@@ -34,14 +34,11 @@ struct Path {
   const Span* spans;
   const Learnt* learnt;
   double ahead, made, step;
+  Path* next;  // another one that is known at the same node (see seen.hpp)
   int trail, n_ranges, n_learnt;
   bool firm, owed, dropped;
 };
 
-inline std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
-  hash ^= value + 0x9e3779b97f4a7c15ull + (hash << 6) + (hash >> 2);
-  return hash * 0xff51afd7ed558ccdull;
-}
 
 /// The columns whose price depends on the lengths of pieces; equal trails have equal numbers, 0 is the empty one.
 class Trails {

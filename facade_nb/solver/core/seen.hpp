@@ -2,8 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <unordered_map>
-#include <vector>
 
 #include "network.hpp"
 
@@ -13,27 +11,29 @@ class Seen {
 
   /// Whether a known path makes this one needless; if not, it becomes known, and what it beats is dropped.
   bool drops(Path& path) {
-    std::vector<std::vector<Path*>>& same = known_[hash(path)];
-    std::vector<Path*>* known = nullptr;
-    for (auto& own : same)
-      if (alike(*own.front(), path)) known = &own;
+    Path*& known = known_.find(hash(path), [&](const Path& other) { return alike(other, path); });
     if (known == nullptr) {
-      same.push_back({&path});
+      known = &path;
       return false;
     }
     int equals = 0;
-    for (const Path* other : *known) {
+    for (const Path* other = known; other != nullptr; other = other->next) {
       const int verdict = beats(*other, path);
       if (verdict > 0) return true;
       equals += verdict == 0;
     }
     if (equals >= keep_) return true;
-    auto left = std::remove_if(known->begin(), known->end(), [&](Path* other) {
-      if (beats(path, *other) > 0) other->dropped = true;
-      return other->dropped;
-    });
-    known->erase(left, known->end());
-    known->push_back(&path);
+    Path** at = &known;
+    while (*at != nullptr) {
+      Path& other = **at;
+      other.dropped = other.dropped || beats(path, other) > 0;
+      if (other.dropped)
+        *at = other.next;
+      else
+        at = &other.next;
+    }
+    path.next = known;
+    known = &path;
     return false;
   }
 
@@ -42,7 +42,7 @@ class Seen {
  private:
   const Network& network_;
   int keep_;
-  std::unordered_map<std::uint64_t, std::vector<std::vector<Path*>>> known_;
+  Table<Path> known_;
 
   int bands(const Path& path) const {
     return network_.complete(path) ? 0 : network_.groups[path.group]->count();
