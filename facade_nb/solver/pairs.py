@@ -139,8 +139,8 @@ def _moves(band: Band, by_loose: float) -> list[list[_Move]]:
 def choose_reference(bands: Sequence[Band]) -> int | None:
     """The longest band: of those without transparent letters, if there are any, and opaque ones first.
 
-    Next to the longest one the pairs see what all the others lack. Where every band has transparent letters, the one with
-    the most others.
+    Next to the longest one the pairs see what all the others lack. Where every band has transparent letters: the one
+    with the most others.
     """
     rigid = [
         b for b, band in enumerate(bands) if band.letters and not any(a.transparent for a in band.letters)
