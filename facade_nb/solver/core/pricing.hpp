@@ -98,20 +98,8 @@ class Pricer {
  public:
   /// Least J of a complete path; infinite where no sizes keep within the tolerances.
   double operator()(const Network& network, const Path* path) {
-    x_.clear();
-    groups_ = &network.groups;
-    read(path);
-    programme_.clear();
-    pieces_.clear();
-    unsized_.clear();
-    floors_.clear();
-    largest_.clear();
-    impossible_ = false;
-    parts_.resize(columns_.size());
-    for (std::size_t g = 0; g < columns_.size(); ++g) make_parts(static_cast<int>(g));
+    if (!pose(network, path)) return kInf;
     if (programme_.cost.empty()) return measure({});
-    for (std::size_t g = 0; g < columns_.size(); ++g) add_columns(static_cast<int>(g));
-    if (impossible_) return kInf;
     x_ = solve_with_floor({});
     return x_.empty() ? kInf : measure(x_);
   }
@@ -121,7 +109,13 @@ class Pricer {
   bool proper(bool roughly) {
     bool positive = true;
     for (const int piece : pieces_) positive = positive && x_[piece] >= kLeast;
-    return positive || (!roughly && spread());
+    return positive || (!roughly && spread(objective(x_) + 1e-10));
+  }
+
+  /// Whether a complete path has sizes by which every piece is longer than nothing and J is at most `cost`.
+  bool proper_within(const Network& network, const Path* path, double cost) {
+    if (!pose(network, path)) return false;
+    return pieces_.empty() ? (*this)(network, path) <= cost : spread(cost - constant_);
   }
 
  private:
@@ -150,8 +144,28 @@ class Pricer {
   std::vector<Programme::Terms> floors_;
   std::vector<std::vector<Top>> largest_;
   bool impossible_ = false;
+  double constant_ = 0.0;  // J less the programme's objective
 
   const Group& group(int g) const { return *(*groups_)[g]; }
+
+  /// Sets the programme up; false where it is clear that no sizes keep within the tolerances.
+  bool pose(const Network& network, const Path* path) {
+    x_.clear();
+    groups_ = &network.groups;
+    read(path);
+    programme_.clear();
+    pieces_.clear();
+    unsized_.clear();
+    floors_.clear();
+    largest_.clear();
+    impossible_ = false;
+    constant_ = 0.0;
+    parts_.resize(columns_.size());
+    for (std::size_t g = 0; g < columns_.size(); ++g) make_parts(static_cast<int>(g));
+    if (!programme_.cost.empty())
+      for (std::size_t g = 0; g < columns_.size(); ++g) add_columns(static_cast<int>(g));
+    return !impossible_;
+  }
 
   void read(const Path* path) {
     columns_.resize(groups_->size());
@@ -263,6 +277,10 @@ class Pricer {
       }
       const int empties = own.count() - static_cast<int>(bands.size());
       auto rests = [&](int b) { return !rigid || prices.plain || !column[b]->soft; };
+      for (std::size_t k = 0; k < bands.size(); ++k) {
+        const double soft = !prices.plain && column[bands[k]]->soft ? sizes[k].constant : 0.0;
+        constant_ += own.share * prices.loose * (column[bands[k]]->loose - soft);
+      }
       if (!elastic) {
         double most = -kInf, least = kInf;
         for (std::size_t k = 0; k < bands.size(); ++k) {
@@ -271,6 +289,7 @@ class Pricer {
         }
         if (most - least > mu + kEps) impossible_ = true;
         constant_width += most;
+        constant_ += most - least + own.share * (prices.empty * empties + prices.loose * softs) * most;
         continue;
       }
       const int high = programme_.variable(
@@ -375,9 +394,9 @@ class Pricer {
     return x;
   }
 
-  /// Equally good sizes with the smallest piece as large as possible; false where that is nothing.
-  bool spread() {
-    Programme::Constraint budget{{}, -Programme::kFree, objective(x_) + 1e-10};
+  /// Sizes of at most this objective with the smallest piece as large as possible; false where that is nothing.
+  bool spread(double most) {
+    Programme::Constraint budget{{}, -Programme::kFree, most};
     for (std::size_t v = 0; v < programme_.cost.size(); ++v)
       if (programme_.cost[v] != 0.0) budget.terms.push_back({static_cast<int>(v), programme_.cost[v]});
     const int least = programme_.variable();

@@ -118,12 +118,18 @@ class Search {
       if (check(500)) return kStopped;
       if (nodes >= most_) return kCut;
       if (network.complete(path)) {
+        if (!judged_ && best_ < kInf) {  // it can be as good as the best, not better
+          if (doubtful(path)) {
+            const bool proper = price_.proper_within(network, &path, best_ + kEps);
+            if (stopped) return kStopped;
+            if (proper) queue_.push({rounded(best_), path.columns, serial_++, &path, true, true});
+            continue;
+          }
+          if (fewer(path)) continue;
+        }
         const double cost = price_(network, &path);
         if (stopped) return kStopped;
-        if (cost == kInf) continue;
-        const bool proper = price_.proper(true);
-        if (!judged_ && cost <= best_ + kEps && best_ < kInf && needless(path, proper)) continue;
-        queue_.push({rounded(cost), path.columns, serial_++, &path, true, proper});
+        if (cost < kInf) queue_.push({rounded(cost), path.columns, serial_++, &path, true, price_.proper(true)});
         continue;
       }
       if (network.tall)
