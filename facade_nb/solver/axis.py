@@ -13,7 +13,7 @@ from ..design.model import Symbol
 from .candidates import Candidate, CandidateStream, candidates, inputs_of, rows_of
 from .clock import Progress
 from .columns import EPS, Group, lone_unsized, make_group
-from .compiled import CompiledDives, best_first, dives
+from .compiled import CompiledDives, CompiledSearch, best_first, dives, start_afresh
 from .dive import Dives
 from .ida import search_ida
 from .instances import Instances, Range
@@ -22,7 +22,7 @@ from .letters import Letter, Word
 from .objective import Objective
 from .pricing import Priced
 from .problem import AxisProblem
-from .search import Found, Stopped
+from .search import BestFirst, Found, Stopped
 from .sizing import Sized, size_axis
 from .tracing import Recorder, Walk, sizing
 from .words import axis_words
@@ -130,12 +130,11 @@ class _Run:
 
     def _begin(self) -> None:
         method, nodes, check, accept = self._options
-        self._first = best_first(
+        self._first: BestFirst | CompiledSearch | None = best_first(
             self.groups, keep=_TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_TURN
         )
         self._ida = method == "ida"
-        self._found = self._first.found
-        self.done = self._first.done
+        self._found, self.done = self._first.found, self._first.done
         self._base = self._found.bound
         self._step = _STEP * max((group.canvas for group in self.groups), default=1.0)
         self._stepwise = True
@@ -153,6 +152,11 @@ class _Run:
                 self._go_on(limit, top)
             self.log.known(self.floor, len(self.ties), self.cut)
         self._spent += time.perf_counter() - begin
+        self._tidy()
+
+    def _tidy(self) -> None:
+        if self.done:
+            self._first = self._dives = None  # they take much memory
 
     @property
     def long(self) -> bool:
@@ -170,6 +174,11 @@ class _Run:
         while not self._dives.done and (self._dived <= self._spent or (at_once and self._dives.best is None)):
             self._dives.dive()
             self._dived = before + time.perf_counter() - begin
+
+    def give_up(self) -> None:
+        """Let go of the search, but not of what it has found."""
+        if not self.done:
+            self._first = self._dives = None
 
     @property
     def known(self) -> list[Priced]:
@@ -204,10 +213,11 @@ class _Run:
     @property
     def paused(self) -> bool:
         """It has not come to the end of what it was asked for."""
-        return not self.done and self._first.paused
+        return not self.done and self._first is not None and self._first.paused
 
     def _go_to(self, limit: float) -> None:
         if not self._ida:
+            assert self._first is not None, "a search that was given up is not gone on with"
             self._first.advance(limit)
             self.done = self._first.done
         else:
@@ -423,6 +433,10 @@ class AxisSearch:
         if self.extend is not None:
             self.extend()
         likely = sorted(self.cases, key=lambda case: case.floor)[:3]
+        if start_afresh():
+            for case in self.cases:
+                for run in case.runs:
+                    run.give_up()
         try:
             if not likely:
                 stream = CandidateStream(

@@ -26,7 +26,7 @@ from .letters import Letter
 from .objective import Objective
 from .pairs import PairTable, choose_reference
 
-__all__ = ["EPS", "Band", "Group", "Option", "Position", "lone_unsized", "make_group"]
+__all__ = ["EPS", "Band", "Group", "Option", "Position", "lone_unsized", "make_group", "unsizable"]
 
 EPS = 1e-9
 """Costs and sizes closer than this are equal."""
@@ -408,6 +408,35 @@ def make_group(
             free,
         ),
     )
+
+
+def unsizable(group: Group, column: Sequence[Option]) -> bool:
+    """Whether no sizes of the symbols can make such a column, for one element of it holds more than another.
+
+    Every symbol has one size, more than nothing, and so has every piece. A row without non-opaque letters fills its
+    column; if the letters that it has at most are all among those that another row has as a whole, and either has more
+    than that, they cannot be equally wide. The objective allows it; sizing does not.
+    """
+    for a, filling in enumerate(column):
+        if filling.empty or filling.soft:
+            continue
+        most = [group.bands[a].letters[i].symbol for i in filling.letters]
+        cut = filling.transparent and not (filling.begins and filling.ends)
+        for b, other in enumerate(column):
+            if a == b or other.empty:
+                continue
+            parts = other.transparent and not (other.begins and other.ends)
+            whole = list(other.letters)
+            if other.transparent and not other.begins:
+                whole = whole[1:]
+            if other.transparent and not other.ends:
+                whole = whole[:-1]
+            if len(most) > len(whole) or not (cut or parts or len(most) < len(whole)):
+                continue
+            least = [group.bands[b].letters[i].symbol for i in whole]
+            if all(most.count(symbol) <= least.count(symbol) for symbol in most):
+                return True
+    return False
 
 
 def lone_unsized(*words: Iterable[tuple[Letter, ...]]) -> frozenset[str]:

@@ -20,7 +20,7 @@ from math import inf
 from pathlib import Path as File
 from struct import unpack_from
 from typing import Any
-from weakref import WeakKeyDictionary, WeakSet, finalize
+from weakref import WeakKeyDictionary, WeakSet, finalize, ref
 
 from .columns import EPS, Group, Option
 from .dive import Dives
@@ -29,7 +29,7 @@ from .pricing import Priced, Structure, price
 from .search import BestFirst, Found, Stopped
 from .tracing import Walk
 
-__all__ = ["CompiledDives", "CompiledSearch", "available", "best_first", "dives"]
+__all__ = ["CompiledDives", "CompiledSearch", "available", "best_first", "dives", "start_afresh"]
 
 _MODULE = File(__file__).parent / "core" / "core.wasm"
 _LARGE = 64 * 2**20
@@ -66,7 +66,13 @@ class _Core:
         self._store: Any = wasmtime.Store(engine)
         self._store.set_limits(memory_size=_MOST)
         linker = wasmtime.Linker(engine)
-        linker.define_func("host", "check", wasmtime.FuncType([], [wasmtime.ValType.i32()]), self._asked)
+        me = ref(self)  # wasmtime keeps what it may call until the store is gone
+
+        def check() -> int:
+            core = me()
+            return 1 if core is None else core._asked()
+
+        linker.define_func("host", "check", wasmtime.FuncType([], [wasmtime.ValType.i32()]), check)
         for wanted in module.imports:  # the C++ library could write a message; it has nowhere to write to
             if wanted.module != "host":
                 linker.define_func(wanted.module, str(wanted.name), wanted.type, lambda *_: _BAD_FILE)
@@ -91,10 +97,15 @@ class _Core:
         self._store.close()
 
     @property
+    def size(self) -> int:
+        """Its memory, in bytes."""
+        return int(self._memory.data_len(self._store))
+
+    @property
     def large(self) -> bool:
         """It takes much memory, and nothing is left in it."""
         self._bury()
-        return not self._alive and self._memory.data_len(self._store) > _LARGE
+        return not self._alive and self.size > _LARGE
 
     def call(self, name: str, *arguments: float) -> Any:
         """Call what returns soon."""
@@ -108,7 +119,7 @@ class _Core:
         try:
             status = int(self.call(name, *arguments))
         except wasmtime.Trap:
-            if self._memory.data_len(self._store) < 0.9 * _MOST:
+            if self.size < 0.9 * _MOST:
                 raise
             self.broken = True  # out of memory before anybody looked
             raise Stopped from None
@@ -228,6 +239,18 @@ def _core() -> _Core:
     return core
 
 
+def start_afresh() -> bool:
+    """Have the next searches of this thread begin with little memory, if those until now have taken much; whether so.
+
+    The memory is given back when the last of them is gone.
+    """
+    core: _Core | None = getattr(_local, "core", None)
+    if core is None or (not core.broken and core.size <= _LARGE):
+        return False
+    _local.core = None
+    return True
+
+
 def _structure(groups: Sequence[Group], numbers: Sequence[int]) -> Structure:
     """A structure from the numbers of the options that were taken."""
     at = 0
@@ -340,7 +363,7 @@ class CompiledDives:
         self.groups, self.check, self._accept = tuple(groups), check, accept
         self.best: Priced | None = None
         core = self._core = _core()
-        self._dives = int(core.ask(check, "dives_new", core.groups(groups), float(least)))
+        self._dives = int(core.ask(check, "dives_new", core.groups(groups), float(least), accept is not None))
         core.owned(self, "dives_free", self._dives)
         core.ask(check, "dives_begin", self._dives, ceiling(groups))
 

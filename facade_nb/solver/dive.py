@@ -72,7 +72,7 @@ class Dives:
     least
         Lower bound of J: alignments not much dearer are looked for first.
     accept
-        Says whether a structure will do.
+        Says whether a structure will do. If there is one, it is taken to refuse what cannot be sized.
 
     Attributes
     ----------
@@ -91,6 +91,7 @@ class Dives:
     ) -> None:
         tall = any(group.tall for group in groups)
         self.network = Network(groups, check, most=_MOST if tall else inf)
+        self.network.sizable = accept is not None
         self.check, self._accept = check, accept
         self.best: Priced | None = None
         self.done = self.network.later[0] == inf

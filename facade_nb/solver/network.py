@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from math import inf
 
-from .columns import EPS, Group, Option
+from .columns import EPS, Group, Option, unsizable
 from .making import edges
 from .paths import Edge, Path, Trailed, gathered
 from .shortfall import ahead, shortfall
@@ -31,7 +31,10 @@ __all__ = ["Network", "ceiling"]
 
 
 class Network:
-    """The network of one group, or of several that share unsized symbols, with lower bounds for what is to come."""
+    """The network of one group, or of several that share unsized symbols, with lower bounds for what is to come.
+
+    With `sizable`, columns are left out that no sizes of symbols can make.
+    """
 
     def __init__(
         self, groups: Sequence[Group], check: Callable[[], None] | None = None, most: float = inf
@@ -40,6 +43,7 @@ class Network:
         self.check = check
         self.most = most
         self.gather = True
+        self.sizable = False
         self.tall = any(group.tall for group in groups)
         self.skeletons: list[Skeleton | None] = [None] * len(groups)
         self.later = [0.0] * (len(groups) + 1)
@@ -99,6 +103,8 @@ class Network:
         else:
             found = edges(group, path.state, path.owed, made - laid, limit - laid, self.check, self.most)
         for edge in found:
+            if self.sizable and unsizable(group, edge.column):
+                continue
             cost = path.cost + edge.cost
             width = path.width + edge.width
             firm = path.firm and edge.firm

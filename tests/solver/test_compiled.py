@@ -12,7 +12,7 @@ import pytest
 from facade_nb import gallery, solve
 from facade_nb.design.errors import NoLayout
 from facade_nb.design.model import Design
-from facade_nb.solver import columns, compiled, solving
+from facade_nb.solver import Letter, columns, compiled, solving
 from facade_nb.solver.columns import Group
 from facade_nb.solver.compiled import CompiledDives, CompiledSearch, available, best_first
 from facade_nb.solver.dive import Dives
@@ -239,3 +239,76 @@ class TestControl:
         solving.forget()
         assert layout.trace is not None
         assert solve(gallery.load("residential-house")) == layout
+
+    def test_a_thread_that_ends_leaves_nothing(self) -> None:
+        seen = []
+
+        def work() -> None:
+            best_first([case_group(random_case(3))]).advance(0.5)
+            seen.append(compiled.ref(compiled._core()))
+
+        thread = Thread(target=work)
+        thread.start()
+        thread.join()
+        gc.collect()
+        assert seen[0]() is None
+
+    def test_what_takes_too_much_memory_makes_room_for_a_last_attempt(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setattr(compiled, "_LARGE", 0)
+        search = best_first([self.hard()])
+        core = compiled._core()
+        assert compiled.start_afresh()
+        assert compiled._core() is not core
+        search.advance(0.01)  # what is there already can still be used
+
+
+class TestUnsizable:
+    """Columns that no sizes can make, because one element holds more than another that fills the same column."""
+
+    @pytest.mark.parametrize(
+        ("rows", "expected"),
+        [
+            (["A:1 B:1", "A:1"], True),
+            (["A:1 B:1", "B:1 A:1"], False),
+            (["A:1 B:1", "A:1 C:1"], False),
+            (["A:1 B:1", "A°:1"], False),  # need not fill
+            (["A°:1 B:1", "A:1"], True),
+            (["a:1", "a"], False),
+        ],
+    )
+    def test_whole_letters(self, rows: list[str], expected: bool) -> None:
+        group = group_of(rows, tolerance=12.0)
+        column = [band.options(0)[-1] for band in group.bands]
+        assert [len(option.letters) for option in column] == [len(band.letters) for band in group.bands]
+        assert columns.unsizable(group, column) == expected
+
+    def test_a_piece_is_shorter_than_its_letter(self) -> None:
+        group = columns.make_group(
+            [(Letter("G", 3.0, transparent=True),), (Letter("G", 3.0),)], 3.0, 3.0, columns.Objective()
+        )
+        part, whole = group.bands[0].options(0)[1:]
+        solid = group.bands[1].options(0)[1]
+        assert columns.unsizable(group, (part, solid))
+        assert not columns.unsizable(group, (whole, solid))
+
+    @pytest.mark.parametrize("seed", range(40))
+    def test_dives_of_both_kinds_leave_them_out(self, seed: int) -> None:
+        case = random_case(5000 + seed)
+        found = []
+        for kind in (Dives, CompiledDives):
+            dives = kind([case_group(case)], 0.0, accept=lambda _: True)
+            for _ in range(30):
+                if dives.done:
+                    break
+                dives.dive()
+            best = dives.best
+            found.append(spelled([best] if best else []))
+            if best is not None:
+                assert not any(
+                    columns.unsizable(dives_group, c)
+                    for dives_group, own in zip([case_group(case)], best.structure, strict=True)
+                    for c in own
+                )
+        assert found[0] == found[1]

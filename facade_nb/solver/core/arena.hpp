@@ -24,6 +24,22 @@ class Arena {
     return static_cast<T*>(at);
   }
 
+  struct Mark {
+    std::size_t blocks, used, size;
+  };
+
+  Mark mark() const { return {blocks_.size(), used_, size_}; }
+
+  /// Takes back what was given since.
+  void rewind(const Mark& mark) {
+    while (blocks_.size() > mark.blocks) {
+      std::free(blocks_.back());
+      blocks_.pop_back();
+    }
+    used_ = mark.used;
+    size_ = mark.size;
+  }
+
   void clear() {
     for (char* block : blocks_) std::free(block);
     blocks_.clear();

@@ -83,9 +83,9 @@ EXPORT(search_structure) const int* search_structure(Search* search) {
   return spell(search->network, search->asked());
 }
 
-EXPORT(dives_new) Dives* dives_new(int groups, double least) {
+EXPORT(dives_new) Dives* dives_new(int groups, double least, int sizable) {
   stopped = false;
-  return new Dives(groups_of(groups), least);
+  return new Dives(groups_of(groups), least, sizable != 0);
 }
 EXPORT(dives_free) void dives_free(Dives* dives) { delete dives; }
 EXPORT(dives_begin) int dives_begin(Dives* dives, double ceiling) { return dives->begin(ceiling); }

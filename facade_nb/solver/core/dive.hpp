@@ -47,7 +47,8 @@ class Dives {
  public:
   double limit, done = 0.0;
 
-  Dives(std::vector<Group*> groups, double least) : network(groups, most(groups)) {
+  Dives(std::vector<Group*> groups, double least, bool sizable) : network(groups, most(groups)) {
+    network.sizable = sizable;
     const double canvas = [&] {
       double own = 0.0;
       for (const Group* group : groups) own = std::max(own, group->canvas);
@@ -127,10 +128,14 @@ class Dives {
     }
   };
   using Queue = std::priority_queue<Rank>;
+  struct Child {
+    double bound;
+    Path* path;
+  };
 
   std::vector<std::vector<std::unique_ptr<BothWays>>> pairs_;
   std::vector<Queue> waiting_;
-  std::vector<Child> children_;
+  std::vector<Child> children_;  // pushed together, as what is pushed may change what waits
   double canvas_ = 0.0, ceiling_ = kInf;
   long long serial_ = 0;
   int idle_ = 0;
@@ -207,7 +212,10 @@ class Dives {
     children_.clear();
     do {
       upto = std::min(limit, std::max(bound, path.made) + step);
-      network.children(path, path.made, upto, children_);
+      network.children(path, path.made, upto, [&](double least, Path& child) {
+        children_.push_back({least, &child});
+        return true;
+      });
       if (stopped) return false;
       path.made = upto;
       step *= 2.0;

@@ -51,6 +51,25 @@ struct Group {
     return total;
   }
 
+  /// Whether no sizes of the symbols can make such a column (see columns.unsizable).
+  bool unsizable(const Option* const* column) const {
+    for (int a = 0; a < count(); ++a) {
+      const Option& filling = *column[a];
+      if (filling.empty || filling.soft) continue;
+      const bool cut = filling.transparent && !(filling.begins && filling.ends);
+      for (int b = 0; b < count(); ++b) {
+        const Option& other = *column[b];
+        if (a == b || other.empty) continue;
+        const int first = other.first + (other.transparent && !other.begins);
+        const int last = other.first + other.count - (other.transparent && !other.ends);
+        const bool parts = other.transparent && !(other.begins && other.ends);
+        if (filling.count > last - first || !(cut || parts || filling.count < last - first)) continue;
+        if (within(*bands[a], filling.first, filling.first + filling.count, *bands[b], first, last)) return true;
+      }
+    }
+    return false;
+  }
+
   /// Reads what compiled.py writes; see there for the order.
   static Group* read(const double* at) {
     auto group = std::make_unique<Group>();
@@ -101,5 +120,18 @@ struct Group {
                                     : nullptr);
     }
     return group.release();
+  }
+
+ private:
+  /// Whether all symbols of some letters, as often as they stand there, are among those of others.
+  static bool within(const Band& a, int from_a, int to_a, const Band& b, int from_b, int to_b) {
+    for (int i = from_a; i < to_a; ++i) {
+      const int symbol = a.letters[i].symbol;
+      int here = 0, there = 0;
+      for (int k = from_a; k < to_a; ++k) here += a.letters[k].symbol == symbol;
+      for (int k = from_b; k < to_b; ++k) there += b.letters[k].symbol == symbol;
+      if (here > there) return false;
+    }
+    return true;
   }
 };

@@ -11,11 +11,6 @@
 #include "shortfall.hpp"
 #include "skeleton.hpp"
 
-struct Child {
-  double bound;
-  Path* path;
-};
-
 class Network {
  public:
   std::vector<Group*> groups;
@@ -24,6 +19,7 @@ class Network {
   Trails trails;
   Gatherer gatherer;
   bool gather = true, tall = false;
+  bool sizable = false;  // leave columns out that no sizes of symbols can make
   std::size_t most;
 
   explicit Network(std::vector<Group*> own, std::size_t most_ = SIZE_MAX) : groups(std::move(own)), most(most_) {
@@ -65,8 +61,10 @@ class Network {
     gatherer.clear();
   }
 
-  /// Paths longer by one column that keep within `limit`, but did not within `made`.
-  void children(const Path& path, double made, double limit, std::vector<Child>& out) {
+  /// Gives to `take` each path longer by one column, with its bound, that keeps within `limit`, but did not within `made`.
+  /// Those that it does not want are forgotten at once.
+  template <class Take>
+  void children(const Path& path, double made, double limit, const Take& take) {
     Group& group = *groups[path.group];
     const int n = group.count(), last = static_cast<int>(groups.size());
     const double after = later[path.group + 1], laid = path.cost + path.ahead + after;
@@ -93,6 +91,8 @@ class Network {
     }
     if (stopped) return;
     for (const Edge* edge = begin; edge < end; ++edge) {
+      if (sizable && group.unsizable(edge->column)) continue;
+      const Arena::Mark before = arena.mark();
       Path* child = arena.room<Path>(1);
       *child = {};
       child->parent = &path;
@@ -125,7 +125,10 @@ class Network {
       if (done) {
         child->cost += closing(group, width, firm);
         bound = child->cost + after;
-        if (bound == kInf) continue;
+        if (bound == kInf) {
+          arena.rewind(before);
+          continue;
+        }
         if (child->n_ranges > 0 || width < group.canvas - group.tolerance - kEps)
           trail = trails.alone(trail);  // only its price can tell how wide it gets, so it is like no other
         else if (trail != 0)
@@ -150,10 +153,9 @@ class Network {
         double rest = shortfall_(group, *child);
         if (skeleton != nullptr) rest = std::max(rest, skeleton->ahead(width, group.stiff ? width : skeleton->width));
         bound = child->cost + rest + after;
-        if (bound == kInf) continue;
       }
       child->trail = trail;
-      out.push_back({bound, child});
+      if (bound == kInf || !take(bound, *child)) arena.rewind(before);
     }
   }
 

@@ -71,7 +71,6 @@ class Search {
   Seen seen_;
   std::priority_queue<Waiting, std::vector<Waiting>, Later> queue_;
   std::vector<std::pair<double, Path*>> parked_;
-  std::vector<Child> children_;
   long long serial_ = 0;
   double horizon_ = kInf, limit_ = 0.0, best_ = kInf, pause_ = 0.0;
   int columns_ = 0;
@@ -169,25 +168,24 @@ class Search {
   }
 
   void expand(Path& path, double made) {
-    children_.clear();
-    network.children(path, made, limit_, children_);
-    for (const Child& child : children_) take(child);
+    network.children(path, made, limit_, [&](double least, Path& child) { return take(least, child); });
     parked_.push_back({limit_, &path});
   }
 
   void expand_a_little(Path& path, double least) {
     const double step = path.step > 0 ? path.step : kStep * network.groups[path.group]->canvas;
     const double upto = std::min(limit_, std::max(least, path.made) + step);
-    children_.clear();
-    network.children(path, path.made, upto, children_);
-    for (const Child& child : children_)
-      if (child.bound <= limit_ + kEps) take(child);
+    network.children(path, path.made, upto, [&](double bound, Path& child) {
+      return bound <= limit_ + kEps && take(bound, child);
+    });
     path.made = upto;
     path.step = 2.0 * step;
     if (upto < limit_) push(upto, &path);
   }
 
-  void take(const Child& child) {
-    if (judged_ || !seen_.drops(*child.path)) push(child.bound, child.path);
+  bool take(double least, Path& child) {
+    if (!judged_ && seen_.drops(child)) return false;
+    push(least, &child);
+    return true;
   }
 };
