@@ -24,6 +24,7 @@ from .pricing import Priced
 from .problem import AxisProblem
 from .search import BestFirst, Found, Stopped
 from .sizing import Sized, size_axis
+from .sweeping import can_sweep, sweeps
 from .tracing import Recorder, Walk, sizing
 from .words import axis_words
 
@@ -37,6 +38,8 @@ _GROWTH = 1.5
 """Each turn takes it so many times further."""
 _TURN = 150
 """After so many paths a search gives way to those of other candidates."""
+_SLOW = 0.03
+"""A search that takes more seconds than this is helped by sweeps."""
 _LONG = 3_000
 """A search of more paths than this is a long one, and dives help it."""
 
@@ -104,7 +107,7 @@ class _Run:
     so far allows less than the next of them it goes no further than that; if it ends there with more answers than
     are kept, the search is repeated in steps. That makes an answer the same whatever was searched before.
 
-    A search that takes long is helped by dives, which take as long again.
+    A search that takes long is helped by sweeps, where there are no wildcards, and by dives, which take as long again.
     """
 
     def __init__(
@@ -121,6 +124,8 @@ class _Run:
         self.groups, self.log, self._fits = groups, log, fits
         self._options = (method, nodes, check, accept)
         self._dives: Dives | CompiledDives | None = None
+        self._sweeps = sweeps(groups[0], check) if accept is None and can_sweep(groups) else None
+        self._swept: Priced | None = None
         self._spent = self._dived = 0.0
         self._again = False
         if known is None:
@@ -161,15 +166,25 @@ class _Run:
     @property
     def long(self) -> bool:
         """The search has taken long."""
-        return not self.done and self._found.nodes >= _LONG
+        slow = self._sweeps is not None and self._spent > _SLOW
+        return not self.done and (slow or self._found.nodes >= _LONG)
 
     def dive(self, *, at_once: bool = False) -> None:
         """Look for some alignment as long as the search has taken; or, `at_once`, until there is one."""
         _, _, check, accept = self._options
         if self.done or accept is not None:
             return
+        if self._sweeps is not None:
+            for priced in self._sweeps:
+                if self._fits is None or self._fits(priced):
+                    self._swept = priced
+            self._sweeps = None
+        if self._found.nodes < _LONG and self._swept is not None:
+            return
         if self._dives is None:
             self._dives = dives(self.groups, self.floor, check, self._fits)
+            if self._swept is not None:
+                self._dives.offer(self._swept)
         begin, before = time.perf_counter(), self._dived
         while not self._dives.done and (self._dived <= self._spent or (at_once and self._dives.best is None)):
             self._dives.dive()
@@ -183,7 +198,7 @@ class _Run:
     @property
     def known(self) -> list[Priced]:
         """The optimal structures; else the best so far."""
-        best = self._dives.best if self._dives is not None else None
+        best = self._swept if self._dives is None else self._dives.best
         return self.ties or ([best] if best is not None else [])
 
     def _go_on(self, limit: float, top: float) -> None:

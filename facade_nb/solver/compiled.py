@@ -14,6 +14,7 @@ import atexit
 import threading
 from array import array
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
 from math import inf
@@ -50,9 +51,15 @@ def available() -> bool:
 
 @cache
 def _module() -> tuple[Any, Any]:
+    """The engine and the module: made into machine code once, which wasmtime keeps in the user's cache if it can."""
     import wasmtime
 
-    engine = wasmtime.Engine()
+    config = wasmtime.Config()
+    with suppress(
+        wasmtime.WasmtimeError
+    ):  # no place for a cache: then it takes a fifth of a second in each process
+        config.cache = True
+    engine = wasmtime.Engine(config)
     return engine, wasmtime.Module.from_file(engine, str(_MODULE))
 
 
@@ -387,9 +394,13 @@ class CompiledDives:
         ):
             core.call("dives_missed", self._dives)
             return False
-        self.best = priced
-        core.ask(self.check, "dives_found", self._dives, priced.cost)
+        self.offer(priced)
         return True
+
+    def offer(self, priced: Priced) -> None:
+        """An alignment that is known already: only cheaper ones are looked for."""
+        self.best = priced
+        self._core.ask(self.check, "dives_found", self._dives, priced.cost)
 
 
 def best_first(

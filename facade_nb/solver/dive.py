@@ -123,6 +123,12 @@ class Dives:
             self._begin()
         return found
 
+    def offer(self, priced: Priced) -> None:
+        """An alignment that is known already: only cheaper ones are looked for."""
+        self.best = priced
+        self._limit = priced.cost - 2 * EPS
+        self._begin()
+
     def _go_deeper(self, waiting: list[tuple[float, int, float, Path]]) -> bool:
         """Take up the first path that waits at a depth; whether it ends in a better alignment."""
         while waiting:
