@@ -10,10 +10,12 @@ from .mesh import write_glb
 from .overlay import overlay_svg
 from .picture import render_png
 from .scene import Scene, Solid, build_scene
+from .texture import Grammar
 
 __all__ = [
     "GEOMETRIES",
     "MATERIALS",
+    "Grammar",
     "Scene",
     "Solid",
     "build_scene",
