@@ -19,7 +19,7 @@ def plaster(canvas: Canvas, seed: int, colour: str, *, rough: float = 1.0) -> No
     tint = 1 + 0.010 * cloud + rough * (0.010 * trowel + 0.008 * grain)
     base = paint(colour) * tint[..., None]
     base[..., 2] *= 1 - 0.006 * cloud  # clouds are a little warmer where they are lighter
-    height = rough * (0.00045 * grain + 0.0016 * trowel)
+    height = rough * (0.00022 * grain + 0.0011 * trowel)
     canvas.lay(canvas.full(), np.clip(base, 0, 1), height=height.astype(np.float32), gloss=0.04)
 
 

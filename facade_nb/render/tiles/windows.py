@@ -1,4 +1,7 @@
-"""Windows of several periods. Each is drawn twice: glazed, and as a frame whose panes are open to the room behind."""
+"""Windows of several periods. Each is drawn twice: glazed, and as a frame whose panes are open to the room behind.
+
+They fill their rectangle, so that no room shows beside them; around an arch goes `mask-arch`.
+"""
 
 from __future__ import annotations
 
@@ -48,10 +51,10 @@ def casement(
     w, h = canvas.width, canvas.tall
     edge, foot = 0.1 * w, 0.075 * h
     inner = (edge, foot, w - edge, h - (0.13 if crown else 0.08) * h)
-    surround(canvas, (0.02 * w, foot, w - 0.02 * w, inner[3] + 0.08 * w), inner, stone, height=0.035, steps=3)
+    top = inner[3] + 0.08 * w if crown else h
+    surround(canvas, (0.0, foot, w, top), inner, stone, height=0.035, steps=3)
     if crown:
-        top = inner[3] + 0.08 * w
-        canvas.slab(0.03 * w, top, 0.97 * w, h - 0.035 * h, stone, 0.05, edge=0.012, fall=0.02, gloss=0.08)
+        canvas.slab(0.0, top, w, h - 0.035 * h, stone, 0.05, edge=0.012, fall=0.02, gloss=0.08)
         canvas.slab(0.0, h - 0.035 * h, w, h, stone, 0.085, edge=0.01, fall=0.015, gloss=0.08)
     reveal(canvas, inner, "#b9b1a1", 0.1)
     box = boxed(canvas, (inner[0] + 0.012, inner[1], inner[2] - 0.012, inner[3] - 0.012), wood, -0.075, 0.028)
@@ -69,7 +72,7 @@ def casement(
         middle - 0.03, box[1], middle + 0.03, bar_y - 0.03, wood, -0.05, edge=0.01, fall=0.01, gloss=0.35
     )
     _close(canvas, panes, seed, behind, -0.1, within=box)
-    sill(canvas, 0.0, w, foot, stone, thick=foot * 0.95, out=0.08)
+    sill(canvas, 0.0, w, foot, stone, thick=foot, out=0.08)
 
 
 def sash(
@@ -105,7 +108,7 @@ def sash(
         rail=0.036,
     )
     _close(canvas, panes, seed, behind, -0.125, within=box)
-    sill(canvas, 0.0, w, foot, stone, thick=foot * 0.9, out=0.06)
+    sill(canvas, 0.0, w, foot, stone, thick=foot, out=0.06)
 
 
 def _voussoirs(canvas: Canvas, pane: Pane, stone: str, seed: int) -> None:
@@ -224,7 +227,7 @@ def arched(
         cover,
         within=(left, base, right, h - 0.1),
     )
-    sill(canvas, 0.0, w, foot, stone, thick=foot * 0.95, out=0.07)
+    sill(canvas, 0.0, w, foot, stone, thick=foot, out=0.07)
 
 
 def gothic(canvas: Canvas, seed: int, behind: str | None) -> None:
