@@ -10,7 +10,16 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from typing import Any
 
-__all__ = ["DesignError", "FacadeError", "Fault", "GrammarError", "NoLayout", "PatternError", "Suggestion", "nearest"]
+__all__ = [
+    "DesignError",
+    "FacadeError",
+    "Fault",
+    "GrammarError",
+    "NoLayout",
+    "PatternError",
+    "Suggestion",
+    "nearest",
+]
 
 
 class FacadeError(Exception):
