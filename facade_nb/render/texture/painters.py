@@ -2,54 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...design.errors import nearest
 from ..backends import BackendError
-from .evaluating import Question, Surface, evaluate
-from .view import Sight
+from .evaluating import Question, evaluate
+from .gl import EGL, OSMESA
+from .shot import Painter, Shot, spread
+from .view import Looks, Sight
 
-__all__ = ["PAINTERS", "Painter", "choose_painter"]
-
-
-class Painter(Protocol):
-    """A way to evaluate a grammar at the pixels of a picture."""
-
-    name: str
-
-    @property
-    def why_not(self) -> str:
-        """Why it cannot be used here and the command that would help; empty if it can."""
-        ...
-
-    @property
-    def available(self) -> bool:
-        """Whether it can be used here."""
-        ...
-
-    def paint(
-        self,
-        question: Question,
-        sight: Sight,
-        chosen: NDArray[np.intp] | None,
-        shift: tuple[float, float],
-        mips: bool,
-    ) -> Surface:
-        """The surface at pixels of a view; where the façade is not, nothing.
-
-        Parameters
-        ----------
-        chosen
-            Numbers of the pixels (n,), row by row from the top; None: all.
-        shift
-            The place in each pixel, from its lower left corner.
-        mips
-            Whether tiles are read in the size that fits a pixel.
-        """
-        ...
+__all__ = ["PAINTERS", "choose_painter"]
 
 
 class _Cpu:
@@ -59,37 +23,31 @@ class _Cpu:
     why_not = ""
     available = True
 
-    def paint(
-        self,
-        question: Question,
-        sight: Sight,
-        chosen: NDArray[np.intp] | None,
-        shift: tuple[float, float],
-        mips: bool,
-    ) -> Surface:
-        looks = sight.looks(chosen, shift)
+    def paint(self, question: Question, sight: Sight, *, mips: bool = False) -> Shot:
+        return self.paint_at(question, sight.looks(), mips=mips)
+
+    def paint_at(self, question: Question, looks: Looks, *, mips: bool = False) -> Shot:
         inside = looks.inside
-        if inside.all():
-            return evaluate(question, looks.points, looks.rays, looks.footprint if mips else None)
-        found = evaluate(
-            question,
-            looks.points[inside],
-            None if looks.rays is None else looks.rays[inside],
-            looks.footprint[inside] if mips else None,
-        )
-        color, normal, specular = (np.zeros((len(inside), 4), np.float32) for _ in range(3))
-        surface = Surface(color, normal, specular, np.full(len(inside), -1, np.int32))
-        for whole, part in zip(surface, found, strict=True):
-            whole[inside] = part
-        return surface
+        points, rays, footprint = looks.points, looks.rays, looks.footprint
+        if not inside.all():
+            points, rays, footprint = (
+                points[inside],
+                None if rays is None else rays[inside],
+                footprint[inside],
+            )
+        margin = np.zeros(len(points), np.float32) if mips else None
+        surface = evaluate(question, points, rays, footprint if mips else None, margin=margin)
+        return spread(Shot(surface, np.zeros(len(points), np.float32) if margin is None else margin), inside)
 
 
-PAINTERS: dict[str, Painter] = {"cpu": _Cpu()}
-"""The backends by name, the preferred one first."""
+PAINTERS: dict[str, Painter] = {"osmesa": OSMESA, "egl": EGL, "cpu": _Cpu()}
+"""The backends by name."""
 
 
 def choose_painter(name: str | None = None) -> Painter:
-    """The backend of that name, or the first that works here.
+    """The backend of that name, or the best that works here.
+
+    That is EGL where there is a graphics card, else OSMesa, else EGL, else NumPy.
 
     Raises
     ------
@@ -99,11 +57,15 @@ def choose_painter(name: str | None = None) -> Painter:
         If the one asked for cannot be used here; its text says what would help.
     """
     if name is None:
-        return next(painter for painter in PAINTERS.values() if painter.available)
+        order = ("egl", "osmesa", "cpu") if _has_card() else ("osmesa", "egl", "cpu")
+        return next(PAINTERS[one] for one in order if PAINTERS[one].available)
     if name not in PAINTERS:
-        raise ValueError(
-            f"backend: expected one of {', '.join(PAINTERS)}; found {name!r}{nearest(name, PAINTERS)}"
-        )
+        known = ", ".join(PAINTERS)
+        raise ValueError(f"backend: expected one of {known}; found {name!r}{nearest(name, PAINTERS)}")
     if PAINTERS[name].why_not:
         raise BackendError(PAINTERS[name].why_not)
     return PAINTERS[name]
+
+
+def _has_card() -> bool:
+    return Path("/dev/nvidia0").exists() or any(Path("/dev/dri").glob("renderD*"))

@@ -97,7 +97,7 @@ def texture_pixels(
     """As `render_texture`, but the pixels: (h, w, 4) uint8, row 0 at the top, colour not multiplied by alpha."""
     sight = _sight(size, pixels, camera)
     question = grammar.question(size, seed, start, tiles)
-    color = choose_painter(backend).paint(question, sight, None, (0.5, 0.5), False).color
+    color = choose_painter(backend).paint(question, sight).surface.color
     return _bytes(color).reshape(sight.pixels[1], sight.pixels[0], 4)
 
 
@@ -115,7 +115,7 @@ def rules_seen(
     """(h, w) int32, row 0 at the top: the topmost terminal rule that gave colour at each pixel's centre; -1: none."""
     sight = _sight(size, pixels, camera)
     question = grammar.question(size, seed, start, tiles)
-    rule = choose_painter(backend).paint(question, sight, None, (0.5, 0.5), False).rule
+    rule = choose_painter(backend).paint(question, sight).surface.rule
     return rule.reshape(sight.pixels[1], sight.pixels[0])
 
 
