@@ -34,7 +34,7 @@ BELOW_ONE = np.float32(0.9999999)
 """The largest place in a scope of size 1: what lies on its far edge belongs to its last part."""
 
 _CHUNK = 1 << 16
-_TINY, _HUGE = np.float32(1e-30), np.float32(1e30)
+_TINY, _HUGE, _FAR = np.float32(1e-30), np.float32(1e30), np.float32(1e9)
 _USAGES = {number: name for name, number in USAGES.items()}
 
 
@@ -65,8 +65,10 @@ class Question(NamedTuple):
 
     Attributes
     ----------
+    texture
+        The grammar's texture.
     records
-        The rules, read from the grammar's texture.
+        The rules, read from it.
     names
         Of the rules.
     start
@@ -81,6 +83,7 @@ class Question(NamedTuple):
         Whether a rule can come back to itself: only then steps are counted, for otherwise there are few enough.
     """
 
+    texture: NDArray[Any]
     records: Sequence[Record]
     names: Sequence[str]
     start: int
@@ -96,16 +99,29 @@ def evaluate(
     rays: Floats | None = None,
     footprint: Floats | None = None,
     steps: list[Step] | None = None,
+    margin: Floats | None = None,
 ) -> Surface:
-    """The surface at `points` (n, 2), seen along `rays` (n, 3); `steps` gathers the derivation of a single point.
+    """The surface at points of a façade.
 
-    `footprint` (n,) is how many metres of the façade a pixel covers, from which the sizes of tiles follow; None: the
-    largest, everywhere.
+    Parameters
+    ----------
+    points
+        (n, 2) metres.
+    rays
+        (n, 3); None: straight on.
+    footprint
+        (n,) metres that a pixel covers, from which the sizes of tiles follow; None: the largest, everywhere.
+    steps
+        Gathers the derivation, of a single point.
+    margin
+        (n,) is filled with how near each point came to a boundary, in footprints.
     """
     count = len(points)
     color, normal, specular = (np.zeros((count, 4), np.float32) for _ in range(3))
     surface = Surface(color, normal, specular, np.full(count, -1, np.int32))
-    run = _Run(question, surface, footprint, steps)
+    run = _Run(question, surface, footprint, steps, margin)
+    if margin is not None:
+        margin[:] = _FAR
     zero, (width, height) = np.zeros(1, np.float32), (np.full(1, v, np.float32) for v in question.size)
     ahead = (zero, zero, np.full(1, -1, np.float32))
     for first in range(0, count, _CHUNK):
@@ -125,9 +141,15 @@ class _Run:
     """One evaluation: what all batches share."""
 
     def __init__(
-        self, question: Question, surface: Surface, footprint: Floats | None, steps: list[Step] | None
+        self,
+        question: Question,
+        surface: Surface,
+        footprint: Floats | None,
+        steps: list[Step] | None,
+        margin: Floats | None,
     ) -> None:
-        self.question, self.surface, self.footprint, self.steps = question, surface, footprint, steps
+        self.question, self.surface, self.steps = question, surface, steps
+        self.footprint, self.margin = footprint, margin
         self.passing = np.zeros(len(surface.rule), np.int32)  # layers that a point still has to pass over
         self.taken = np.zeros(len(surface.rule), np.int32)  # operators on the way of each point
         self.sums = (surface.color, surface.normal, surface.specular)
@@ -171,6 +193,12 @@ class _Run:
             return batch
         return batch.take(np.flatnonzero(np.broadcast_to(alive, len(batch))))
 
+    def _near(self, batch: Batch, at: Floats, extent: Floats) -> None:
+        """Note how near points are to the ends of their part: `at` metres from the lower one, of `extent` metres."""
+        if self.margin is not None and self.footprint is not None:
+            here = np.minimum(at, extent - at) / np.maximum(self.footprint[batch.index], np.float32(1e-9))
+            self.margin[batch.index] = np.minimum(self.margin[batch.index], here)
+
     # Arrangement ------------------------------------------------------------------------------------------
 
     def _split(self, rule: int, record: Record, batch: Batch, axis: int) -> list[tuple[int, Batch]]:
@@ -195,6 +223,10 @@ class _Run:
         onward = []
         for k, target in enumerate(record.targets):
             for chosen, some in _those(part, k, batch):
+                if record.count > 1:
+                    self._near(
+                        some, at[chosen] - _pick(ends[k], chosen), _pick(ends[k + 1] - ends[k], chosen)
+                    )
                 ours = some.within(axis, _pick(low + ends[k], chosen), _pick(low + ends[k + 1], chosen))
                 onward.append((target, ours))
                 if self.steps is not None:
@@ -214,6 +246,12 @@ class _Run:
         width = size / count
         at = np.clip(place - low, 0, size * BELOW_ONE)
         part = np.minimum(np.floor(at / width), count - 1)
+        if (
+            self.margin is not None
+            and (several := np.flatnonzero(np.broadcast_to(count > 1, len(batch)))).size
+        ):
+            some = (at - part * width)[several]
+            self._near(batch.take(several), some, np.broadcast_to(width, len(batch))[several])
         onward = batch.within(axis, low + part * width, low + (part + 1) * width)
         if self.steps is not None:
             bounds = tuple(float(v[0]) for v in onward.span(axis)[1:])
@@ -301,6 +339,8 @@ class _Run:
         """SkipMask: Skip by the tile's mask, which is stretched over the scope."""
         tile = int(record.head["m"])
         value = self.question.atlas.mask(tile, self._fit(tile, batch, (0.0, 0.0, 1.0, 1.0)))
+        if self.margin is not None:
+            self.margin[batch.index[(value > np.float32(0.02)) & (value < np.float32(0.98))]] = 0
         levels = np.where(value >= np.float32(0.5), int(record.head["l1"]), int(record.head["l0"]))
         self.passing[batch.index] = levels
         if self.steps is not None:
@@ -350,6 +390,8 @@ class _Run:
                     shift=batch.shift + k + 1,
                     faces=(*batch.faces, k + 1),
                 )
+                self._near(ours, u, np.broadcast_to(wide, len(u)))
+                self._near(ours, v, np.broadcast_to(tall, len(v)))
                 onward.append((target, ours))
                 if self.steps is not None:
                     count = (0, 1, 1, 2, 2)[k]

@@ -20,7 +20,7 @@ from ..camera import Camera
 from ..tiles import TileSet
 from .facades import Facade, box
 from .grammar import Grammar
-from .photograph import STANDPOINT, Shot, flat, photograph, picture_png
+from .photograph import STANDPOINT, Photo, flat, photograph, picture_png
 
 __all__ = ["EXHIBITS", "Exhibit", "View", "exhibit", "street"]
 
@@ -44,7 +44,7 @@ class View:
     hour
         Of the day; None: colours as they are, seen straight on.
     camera, frame
-        As of `Shot`.
+        As of `Photo`.
     street
         Whether it shows a street of houses instead of one façade.
     """
@@ -67,7 +67,7 @@ class View:
             if self.street
             else [Facade(grammar, self.size, seed=self.seed, start=self.start)]
         )
-        return photograph(facades, Shot(self.pixels, self.hour, self.camera, self.frame, samples))
+        return photograph(facades, Photo(self.pixels, self.hour, self.camera, self.frame, samples))
 
 
 @dataclass(frozen=True, slots=True)

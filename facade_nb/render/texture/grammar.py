@@ -190,6 +190,7 @@ class Grammar:
             raise ValueError(f"seed: expected two numbers; found {seed}")
         names = tuple(rule.name for rule in self.rules)
         return Question(
+            self.texture(),
             self._records,
             names,
             self.index(start),

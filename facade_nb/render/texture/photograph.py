@@ -24,7 +24,7 @@ from .evaluating import OPAQUE, evaluate
 from .facades import Facade, Hits, meet, sees
 from .grammar import Grammar
 
-__all__ = ["STANDPOINT", "Shot", "flat", "photograph", "picture_png"]
+__all__ = ["STANDPOINT", "Photo", "flat", "photograph", "picture_png"]
 
 Floats = NDArray[np.float32]
 
@@ -34,7 +34,7 @@ STANDPOINT = Camera(azimuth=18.0, angle=40.0, fill=0.86)
 
 
 @dataclass(frozen=True, slots=True)
-class Shot:
+class Photo:
     """How a photograph is taken.
 
     Attributes
@@ -58,7 +58,7 @@ class Shot:
     samples: int = 2
 
 
-def photograph(facades: Sequence[Facade], shot: Shot = Shot()) -> NDArray[np.uint8]:
+def photograph(facades: Sequence[Facade], photo: Photo = Photo()) -> NDArray[np.uint8]:
     """Take a photograph: (h, w, 3) uint8.
 
     Raises
@@ -68,14 +68,14 @@ def photograph(facades: Sequence[Facade], shot: Shot = Shot()) -> NDArray[np.uin
     """
     if not facades:
         raise ValueError("expected at least one façade")
-    if min(shot.pixels) < 1 or shot.samples < 1:
-        raise ValueError(f"expected at least one pixel and sample; found {shot.pixels}, {shot.samples}")
-    daytime = Daytime.at(shot.hour)
-    large = (shot.pixels[0] * shot.samples, shot.pixels[1] * shot.samples)
-    view = shot.camera.look(_aimed(facades, shot), large)
+    if min(photo.pixels) < 1 or photo.samples < 1:
+        raise ValueError(f"expected at least one pixel and sample; found {photo.pixels}, {photo.samples}")
+    daytime = Daytime.at(photo.hour)
+    large = (photo.pixels[0] * photo.samples, photo.pixels[1] * photo.samples)
+    view = photo.camera.look(_aimed(facades, photo), large)
     rays = view.rays(large).reshape(-1, 3)
     seen = developed(_seen(facades, view, rays, daytime, large), daytime.exposure)
-    small = binned(seen.reshape(large[1], large[0], 3), shot.samples)
+    small = binned(seen.reshape(large[1], large[0], 3), photo.samples)
     return (np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8)
 
 
@@ -125,10 +125,10 @@ def picture_png(pixels: NDArray[np.uint8], path: str | Path | None = None) -> by
     return stream.getvalue()
 
 
-def _aimed(facades: Sequence[Facade], shot: Shot) -> NDArray[np.float64]:
+def _aimed(facades: Sequence[Facade], photo: Photo) -> NDArray[np.float64]:
     """The points that the camera brings into the picture."""
-    if shot.frame is not None:
-        left, bottom, right, top = shot.frame
+    if photo.frame is not None:
+        left, bottom, right, top = photo.frame
         return np.array([_world(facades[0], x, y) for x in (left, right) for y in (bottom, top)])
     return np.array([_world(f, x, y) for f in facades for x in (0, f.size[0]) for y in (0, f.size[1])])
 
