@@ -1,4 +1,4 @@
-"""Designs and texture grammars that ship; docs/gallery.md tells where each comes from and what it shows.
+"""Designs and texture grammars that ship; docs/gallery.md and docs/grammars.md tell where each comes from.
 
 >>> from facade_nb import gallery
 >>> gallery.load("residential-house").canvas.width

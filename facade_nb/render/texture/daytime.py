@@ -78,7 +78,8 @@ class Daytime:
         if not 0 <= hour <= 24:
             raise ValueError(f"hour: expected 0 to 24; found {hour!r}")
         day = (hour - _DAWN) / (_DUSK - _DAWN)
-        height = sin(pi * day) if 0 <= day <= 1 else -abs(sin(pi * (day % 1.0))) - 0.02
+        night_share = (hour - _DUSK) % 24 / (24 - _DUSK + _DAWN)
+        height = sin(pi * day) if 0 <= day <= 1 else -sin(pi * night_share)
         elevation = radians(max(_STEEPEST * height, 3.0))
         turn = radians(-_SWING + 2 * _SWING * min(max(day, 0.0), 1.0))
         towards = (cos(elevation) * sin(turn), sin(elevation), cos(elevation) * cos(turn))

@@ -1,4 +1,4 @@
-"""The texture grammars of the gallery as pictures: ``python -m facade_nb.render.texture.exhibits [FOLDER] [NAME …]``.
+"""The texture grammars of the gallery as pictures: ``python -m facade_nb.render.texture.exhibits FOLDER [NAME …]``.
 
 Each exhibit is the counterpart of a figure of the texture paper: one or more views of a grammar, side by side.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -20,7 +20,7 @@ from ..camera import Camera
 from ..tiles import TileSet
 from .facades import Facade, box
 from .grammar import Grammar
-from .photograph import STANDPOINT, Photo, flat, photograph, picture_png
+from .photograph import STANDPOINT, Photo, flat, photograph, save_picture
 
 __all__ = ["EXHIBITS", "Exhibit", "View", "exhibit", "street"]
 
@@ -293,8 +293,6 @@ def exhibit(name: str, *, samples: int = 3, scale: float = 1.0) -> NDArray[np.ui
 
 
 def _scaled(view: View, scale: float) -> View:
-    from dataclasses import replace
-
     return replace(
         view, pixels=(max(16, round(view.pixels[0] * scale)), max(16, round(view.pixels[1] * scale)))
     )
@@ -322,14 +320,17 @@ def _below(rows: Sequence[NDArray[np.uint8]]) -> NDArray[np.uint8]:
     return page
 
 
-def main(folder: Path, names: Sequence[str]) -> None:
-    """Write the exhibits of those names, or all, as PNG files into a folder."""
+def main(arguments: Sequence[str]) -> None:
+    """Write the exhibits of those names, or all, into a folder: PNG, or with ``--small`` JPEG as the docs have them."""
+    small = "--small" in arguments
+    words = [word for word in arguments if word != "--small"]
+    folder = Path(words[0] if words else "gallery")
     folder.mkdir(parents=True, exist_ok=True)
-    for name in names or EXHIBITS:
-        path = folder / f"{name}.png"
-        picture_png(exhibit(name), path)
+    for name in words[1:] or EXHIBITS:
+        path = folder / f"{name}{'.jpg' if small else '.png'}"
+        save_picture(exhibit(name, scale=0.75 if small else 1.0), path)
         print(path, flush=True)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "gallery"), sys.argv[2:])
+    main(sys.argv[1:])

@@ -24,7 +24,7 @@ from .evaluating import OPAQUE, evaluate
 from .facades import Facade, Hits, meet, sees
 from .grammar import Grammar
 
-__all__ = ["STANDPOINT", "Photo", "flat", "photograph", "picture_png"]
+__all__ = ["STANDPOINT", "Photo", "flat", "photograph", "save_picture"]
 
 Floats = NDArray[np.float32]
 
@@ -114,15 +114,22 @@ def flat(
     return (np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8)
 
 
-def picture_png(pixels: NDArray[np.uint8], path: str | Path | None = None) -> bytes:
-    """Pixels as a PNG file, written atomically if a path is given."""
+def save_picture(pixels: NDArray[np.uint8], path: str | Path) -> None:
+    """Write pixels (h, w, 3) as a picture, atomically: JPEG where the name ends in ``.jpg``, else PNG.
+
+    Raises
+    ------
+    DesignError
+        For a file that cannot be written.
+    """
     from PIL import Image
 
     stream = BytesIO()
-    Image.fromarray(pixels).save(stream, "PNG")
-    if path is not None:
-        write_atomically(path, stream.getvalue())
-    return stream.getvalue()
+    if str(path).lower().endswith((".jpg", ".jpeg")):
+        Image.fromarray(pixels).save(stream, "JPEG", quality=88, optimize=True)
+    else:
+        Image.fromarray(pixels).save(stream, "PNG")
+    write_atomically(path, stream.getvalue())
 
 
 def _aimed(facades: Sequence[Facade], photo: Photo) -> NDArray[np.float64]:

@@ -34,8 +34,9 @@ def panelled(
     """A front door of frames and panels below a fanlight, in a stone surround with a step."""
     w, h = canvas.width, canvas.tall
     step, edge = 0.13, 0.09 * w
+    canvas.lay(canvas.full(), stone, gloss=0.08)
     inner = (edge, step, w - edge, h - 0.11 * h)
-    surround(canvas, (0.01, 0.0, w - 0.01, inner[3] + edge), inner, stone, height=0.035, steps=3)
+    surround(canvas, (0.0, 0.0, w, inner[3] + edge), inner, stone, height=0.035, steps=3)
     canvas.slab(0.0, inner[3] + edge, w, h - 0.05, stone, 0.05, edge=0.012, fall=0.015, gloss=0.08)
     canvas.slab(0.0, h - 0.07, w, h, stone, 0.1, edge=0.015, fall=0.02, gloss=0.08)
     timber = _grained(canvas, wood, seed, grain)

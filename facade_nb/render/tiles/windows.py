@@ -50,6 +50,7 @@ def casement(
     """Two leaves below a transom and two above it, in a moulded surround: a town house of about 1890."""
     w, h = canvas.width, canvas.tall
     edge, foot = 0.1 * w, 0.075 * h
+    canvas.lay(canvas.full(), stone, gloss=0.08)
     inner = (edge, foot, w - edge, h - (0.13 if crown else 0.08) * h)
     top = inner[3] + 0.08 * w if crown else h
     surround(canvas, (0.0, foot, w, top), inner, stone, height=0.035, steps=3)
@@ -89,7 +90,7 @@ def sash(
     w, h = canvas.width, canvas.tall
     foot = 0.07 * h
     inner = (0.06 * w, foot, 0.94 * w, h - 0.135 * h)
-    reveal(canvas, (0.0, foot, w, h), "#d0c9ba", 0.0)
+    reveal(canvas, (0.0, 0.0, w, h), "#d0c9ba", 0.0)
     _voussoirs(canvas, (0.0, inner[3], w, h), stone, seed)
     reveal(canvas, inner, "#cfc8b9", 0.11)
     box = boxed(
@@ -168,7 +169,7 @@ def arched(
     foot, band = 0.06 * h, 0.1 * w
     outer_r = w / 2 - 0.012
     spring = h - outer_r - 0.02 * h
-    outer = canvas.arch_distance(0.012, foot, w - 0.012, spring)
+    outer = canvas.arch_distance(0.012, 0.0, w - 0.012, spring)  # on behind the sill
     inner = canvas.arch_distance(band, foot, w - band, spring)
     angle = np.arctan2(canvas.y - spring, canvas.x - w / 2)
     stones = 11

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -29,7 +28,9 @@ def test_as_numpy(text: str, ray: tuple[float, float, float], steps: tuple[int, 
     directions = np.tile(np.array(ray, np.float32), (len(points), 1))
     question = grammar.question(SIZE, (steps[0] / 8, steps[1] / 10))
     wanted = evaluate(question, points, directions)
-    shot = OSMESA.paint_at(question, Looks(points, directions, np.zeros(4000, np.float32), np.ones(4000, bool)))
+    shot = OSMESA.paint_at(
+        question, Looks(points, directions, np.zeros(4000, np.float32), np.ones(4000, bool))
+    )
     found = shot.surface
     wrong = found.rule != wanted.rule
     for a, b in zip(found[:3], wanted[:3], strict=True):
