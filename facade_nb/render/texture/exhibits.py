@@ -1,5 +1,7 @@
 """The texture grammars of the gallery as pictures: ``python -m facade_nb.render.texture.exhibits FOLDER [NAME …]``.
 
+The name of a design of the gallery gives its layout drawn by a grammar, by day and by night.
+
 Each exhibit is the counterpart of a figure of the texture paper: one or more views of a grammar, side by side.
 """
 
@@ -16,13 +18,16 @@ from numpy.typing import NDArray
 
 from ...design.errors import DesignError, Fault, nearest
 from ...gallery import grammar as grammar_text
+from ...gallery import load, names
+from ...solver import solve
 from ..camera import Camera
 from ..tiles import TileSet
 from .facades import Facade, box
+from .from_layout import grammar_of
 from .grammar import Grammar
 from .photograph import STANDPOINT, Photo, flat, photograph, save_picture
 
-__all__ = ["EXHIBITS", "Exhibit", "View", "exhibit", "street"]
+__all__ = ["EXHIBITS", "Exhibit", "View", "exhibit", "layout_exhibit", "street"]
 
 _PAPER = np.array([248, 246, 241], np.uint8)
 _GAP = 10
@@ -292,6 +297,15 @@ def exhibit(name: str, *, samples: int = 3, scale: float = 1.0) -> NDArray[np.ui
     return _below(rows)
 
 
+def layout_exhibit(name: str, *, samples: int = 3, scale: float = 1.0) -> NDArray[np.uint8]:
+    """Solve a design of the gallery and render its layout by the grammar it compiles to; parameters as of `exhibit`."""
+    compiled = grammar_of(solve(load(name)))
+    grammar = compiled.grammar(TileSet.builtin(_TILE_SIZE))
+    camera = Camera(azimuth=-20, height=min(8.0, 0.5 * compiled.size[1]), angle=38, fill=0.92)
+    views = [View((850, 930), compiled.size, (3.1, 2.2), hour=hour, camera=camera) for hour in (9.5, 21.1)]
+    return _below([_beside([_scaled(view, scale).take(grammar, samples) for view in views])])
+
+
 def _scaled(view: View, scale: float) -> View:
     return replace(
         view, pixels=(max(16, round(view.pixels[0] * scale)), max(16, round(view.pixels[1] * scale)))
@@ -327,8 +341,10 @@ def main(arguments: Sequence[str]) -> None:
     folder = Path(words[0] if words else "gallery")
     folder.mkdir(parents=True, exist_ok=True)
     for name in words[1:] or EXHIBITS:
-        path = folder / f"{name}{'.jpg' if small else '.png'}"
-        save_picture(exhibit(name, scale=0.75 if small else 1.0), path)
+        own = name in EXHIBITS or name not in names()
+        draw = exhibit if own else layout_exhibit
+        path = folder / f"{name}{'' if own else '-grammar'}{'.jpg' if small else '.png'}"
+        save_picture(draw(name, scale=0.75 if small else 1.0), path)
         print(path, flush=True)
 
 

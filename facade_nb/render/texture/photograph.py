@@ -89,27 +89,20 @@ def flat(
     hour: float | None = None,
     samples: int = 2,
 ) -> NDArray[np.uint8]:
-    """A façade seen straight on, filling the picture: (h, w, 3) uint8; `hour` None: colours as they are, on white."""
+    """A façade seen straight on, filling the picture, on white: (h, w, 3) uint8; `hour` None: colours as they are."""
     large = (pixels[0] * samples, pixels[1] * samples)
     x = (np.arange(large[0]) + 0.5) / large[0] * size[0]
     y = (1 - (np.arange(large[1]) + 0.5) / large[1]) * size[1]
     points = np.stack(np.broadcast_arrays(x[None, :], y[:, None]), axis=-1).reshape(-1, 2).astype(np.float32)
     footprint = np.full(len(points), max(size[0] / large[0], size[1] / large[1]), np.float32)
     surface = evaluate(grammar.question(size, seed, start), points, footprint=footprint)
-    shown = surface.color[:, :3] + (1 - surface.color[:, 3:]) * np.float32(0.96)
+    shown, clear = surface.color[:, :3], 1 - surface.color[:, 3:]
     if hour is not None:
-        daytime = Daytime.at(hour)
-        ahead = np.broadcast_to(floats([0, 0, -1]), (len(points), 3))
-        lit = light(
-            surface.color,
-            surface.normal,
-            surface.specular,
-            ahead,
-            daytime,
-            np.ones(len(points), np.float32),
-            points[:, 1],
-        )
+        daytime, count = Daytime.at(hour), len(points)
+        ahead = np.broadcast_to(floats([0, 0, -1]), (count, 3))
+        lit = light(*surface[:3], ahead, daytime, np.ones(count, np.float32), points[:, 1])
         shown = developed(lit, daytime.exposure)
+    shown = shown + clear * np.float32(0.96)
     small = binned(shown.reshape(large[1], large[0], 3), samples)
     return (np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8)
 

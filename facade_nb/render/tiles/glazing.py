@@ -20,7 +20,7 @@ def reflection(
     """What glass mirrors: its colour (h, w, 3), and how much of it (h, w). `shift` moves it up, pane by pane."""
     v = np.broadcast_to(canvas.y / canvas.tall - shift, (canvas.size, canvas.size))
     ridge = 0.34 + _roofs(canvas, seed)
-    sky_share = smooth(-0.03, 0.03, v - ridge)
+    sky_share = smooth(-0.045, 0.045, v - ridge)
     if dusk:
         low, high, street = paint("#e2b48f"), paint("#6d7f9e"), paint("#3b3a41")
     else:
@@ -38,7 +38,7 @@ def _roofs(canvas: Canvas, seed: int) -> Floats:
     place = canvas.x / house + float(randoms(seed, 1)[0])
     number = np.floor(place).astype(int)
     values = randoms(seed + 1, 64)
-    eaves, pitch = 0.05 * values[number % 64], 0.05 + 0.05 * values[(number + 17) % 64]
+    eaves, pitch = 0.06 * values[number % 64], 0.03 + 0.03 * values[(number + 17) % 64]
     across = np.abs(2 * (place - number) - 1)
     gable = np.where(values[(number + 29) % 64] > 0.45, 1 - across, 0.65 * np.clip(1.6 * (1 - across), 0, 1))
     return (eaves + pitch * gable).astype(np.float32)

@@ -11,7 +11,7 @@ from facade_nb.design.errors import DesignError
 from facade_nb.render.camera import Camera
 from facade_nb.render.texture import Grammar
 from facade_nb.render.texture.daytime import Daytime, light
-from facade_nb.render.texture.exhibits import EXHIBITS, exhibit
+from facade_nb.render.texture.exhibits import EXHIBITS, exhibit, layout_exhibit
 from facade_nb.render.texture.facades import Facade, box, meet, sees
 from facade_nb.render.texture.photograph import Photo, flat, photograph, save_picture
 
@@ -149,6 +149,13 @@ def test_every_exhibit_is_drawn(name: str) -> None:
     picture = exhibit(name, samples=1, scale=0.12)
     assert picture.std() > 15
     assert (picture == exhibit(name, samples=1, scale=0.12)).all()
+
+
+def test_a_layout_is_exhibited_by_its_grammar() -> None:
+    picture = layout_exhibit("residential-house", samples=1, scale=0.1)
+    assert picture.std() > 15
+    half = picture.shape[1] // 2
+    assert picture[:, :half].mean() > 1.4 * picture[:, half:].mean()  # day and night
 
 
 def test_faults_are_told() -> None:
