@@ -10,7 +10,7 @@ from .limits import MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS
 from .operators import Kind
 from .program import Rule, Source, children
 
-__all__ = ["Finding", "check_rules", "check_tiles", "recurs"]
+__all__ = ["Finding", "check_rules", "check_tiles", "recurs", "stack_heights"]
 
 _SLACK = 1e-3
 """By how much probabilities may miss 1: so 0.333 three times is fine."""
@@ -44,6 +44,31 @@ def check_tiles(named: Sequence[tuple[int, str]], tiles: Iterable[str]) -> list[
 def recurs(rules: Sequence[Rule]) -> bool:
     """Whether some rule can come back to itself."""
     return bool(_circles(children(rules)))
+
+
+def stack_heights(rules: Sequence[Rule]) -> tuple[int, int]:
+    """How high the stack of layers and that of seeds can become, from whichever rule one begins."""
+    below = children(rules)
+    groups = _components(below)
+    frames, seeds = (max(_heights(rules, below, groups, pushes), default=0) for _, _, pushes in _STACKS[:2])
+    return frames, seeds
+
+
+def _heights(
+    rules: Sequence[Rule],
+    below: Sequence[Sequence[int]],
+    groups: Sequence[Sequence[int]],
+    pushes: Callable[[Rule, int], int],
+) -> list[int]:
+    """How high a stack can be where each rule begins."""
+    height = [0] * len(rules)
+    for group in groups:  # rules that lead to others come first
+        top = max(height[i] for i in group)
+        for i in group:
+            height[i] = top
+            for to in below[i]:
+                height[to] = max(height[to], top + pushes(rules[i], to))
+    return height
 
 
 def _sums(i: int, rule: Rule) -> list[Finding]:
@@ -176,27 +201,19 @@ def _too_high(
 ) -> list[Finding]:
     """The first rule at which a stack has grown higher than the shader's, and those that make it grow in a circle."""
     home = {i: g for g, group in enumerate(groups) for i in group}
-    found = []
-    height = [0] * len(rules)
-    for g, group in enumerate(groups):  # rules that lead to others come first
-        top = max(height[i] for i in group)
-        for i in group:
-            height[i] = top
-            for to in below[i]:
-                push = pushes(rules[i], to)
-                if push and home[to] == g:
-                    found.append(
-                        Finding(
-                            i,
-                            None,
-                            f"the rule {rules[i].name!r} can come back to itself, and its {what} then stand inside "
-                            f"each other without end: expected at most {limit}",
-                        )
-                    )
-                    break
-                height[to] = max(height[to], top + push)
+    found = [
+        Finding(
+            i,
+            None,
+            f"the rule {rules[i].name!r} can come back to itself, and its {what} then stand inside "
+            f"each other without end: expected at most {limit}",
+        )
+        for i in range(len(rules))
+        if any(home[to] == home[i] and pushes(rules[i], to) for to in below[i])
+    ]
     if found:
         return found
+    height = _heights(rules, below, groups, pushes)
     high = [i for i in range(len(rules)) if height[i] > limit]
     if not high:
         return []

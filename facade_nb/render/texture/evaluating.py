@@ -81,6 +81,8 @@ class Question(NamedTuple):
         The tiles.
     recurs
         Whether a rule can come back to itself: only then steps are counted, for otherwise there are few enough.
+    stacks
+        How many Layer operators, and how many RandStack ones, can stand inside each other: room that the shader needs.
     """
 
     texture: NDArray[Any]
@@ -91,6 +93,7 @@ class Question(NamedTuple):
     seed: Seed
     atlas: Atlas
     recurs: bool
+    stacks: tuple[int, int]
 
 
 def evaluate(
@@ -394,8 +397,8 @@ class _Run:
                 self._near(ours, v, np.broadcast_to(tall, len(v)))
                 onward.append((target, ours))
                 if self.steps is not None:
-                    count = (0, 1, 1, 2, 2)[k]
-                    here = self._here(rule, batch, record.head_places[: 1 + count])
+                    pixels = sorted({0, (0, 1, 1, 2, 2)[k]})  # each face's rule stands in one of three
+                    here = self._here(rule, batch, [record.head_places[pixel] for pixel in pixels])
                     self.steps.append(Entered(**here, face=FACES[k], depth=float(hz[0])))
         return onward
 

@@ -20,14 +20,11 @@ from numpy.typing import NDArray
 from .evaluating import Question, Surface
 from .noise import noise_texture
 from .osmesa import OSMesaContext, find_osmesa
-from .shaders import shader
+from .shaders import room, shader
 from .shot import Shot, spread
 from .view import Looks, Sight
 
 __all__ = ["EGL", "OSMESA", "GlPainter"]
-
-_ROWS = 1 << 22
-"""Points that are painted at once."""
 
 
 class GlPainter:
@@ -46,7 +43,7 @@ class GlPainter:
     def __init__(self, name: str, missing: Callable[[], str], make: Callable[[], Any]) -> None:
         self.name, self._missing, self._make = name, missing, make
         self._lock = threading.RLock()
-        self._programs: dict[tuple[str, tuple[str, ...]], Any] = {}
+        self._programs: dict[tuple[str, int, int, tuple[str, ...]], Any] = {}
 
     @property
     def available(self) -> bool:
@@ -85,9 +82,9 @@ class GlPainter:
             "eye": (*(sight.eye or (0.0, 0.0, 0.0)), float(sight.eye is not None)),
             "across": sight.right,
             "forward": sight.ahead,
-            "mips": float(mips),
         }
-        with self._drawn(question, "sight.frag", count, (width, height), given, {}) as images:
+        defines = (*(("MIPS", "EDGES") if mips else ()), *(("COUNT_FETCHES",) if count else ()))
+        with self._drawn(question, "sight.frag", defines, (width, height), given, {}) as images:
             return _shot(question, [image.read() for image in images], (width, height), count, flip=True)
 
     def paint_at(self, question: Question, looks: Looks, *, mips: bool = False, count: bool = False) -> Shot:
@@ -101,20 +98,17 @@ class GlPainter:
         points[:number, 2] = looks.footprint[inside] if mips else 0
         rays[:number, :3] = (0, 0, -1) if looks.rays is None else looks.rays[inside]
         given = {"points": points.tobytes(), "rays": rays.tobytes()}
-        with self._drawn(question, "points.frag", count, size, {}, given) as images:
+        defines = (*(("MIPS", "EDGES") if mips else ()), *(("COUNT_FETCHES",) if count else ()))
+        with self._drawn(question, "points.frag", defines, size, {}, given) as images:
             shot = _shot(question, [image.read() for image in images], size, count, flip=False)
-        color, normal, specular, rule = (values[:number] for values in shot.surface)
-        fetches = None if shot.fetches is None else shot.fetches[:number]
-        return spread(
-            Shot(Surface(color, normal, specular, rule), shot.margin[:number], fetches), looks.inside
-        )
+        return spread(shot.first(number), looks.inside)
 
     @contextmanager
     def _drawn(
         self,
         question: Question,
         name: str,
-        count: bool,
+        defines: tuple[str, ...],
         size: tuple[int, int],
         uniforms: dict[str, Any],
         data: dict[str, bytes],
@@ -124,7 +118,7 @@ class GlPainter:
             most = context.info["GL_MAX_TEXTURE_SIZE"]
             if max(size) > most:
                 raise ValueError(f"pixels: {self.name} draws at most {most} across and up; found {size}")
-            program = self._program(name, ("COUNT_FETCHES",) if count else ())
+            program = self._program(name, question, defines)
 
             def keep(made: Any) -> Any:
                 kept.callback(made.release)
@@ -150,13 +144,14 @@ class GlPainter:
             target.viewport = (0, 0, *size)
             array.render(context.TRIANGLES, vertices=3)
             yield images
-            context.screen.use() if context.screen is not None else None
 
-    def _program(self, name: str, defines: tuple[str, ...]) -> Any:
-        key = (name, defines)
+    def _program(self, name: str, question: Question, defines: tuple[str, ...]) -> Any:
+        frames, seeds = map(room, question.stacks)
+        key = (name, frames, seeds, defines)
         if key not in self._programs:
+            fragment = shader(name, frames=frames, seeds=seeds, defines=defines)
             self._programs[key] = self._context.program(
-                vertex_shader=shader("whole.vert"), fragment_shader=shader(name, "core", defines)
+                vertex_shader=shader("whole.vert"), fragment_shader=fragment
             )
         return self._programs[key]
 
@@ -224,7 +219,8 @@ def _no_osmesa() -> str:
 def _make_osmesa() -> Any:
     import moderngl
 
-    return moderngl.create_context(require=330, context=OSMesaContext())
+    context: Any = OSMesaContext()
+    return moderngl.create_context(require=330, context=context)
 
 
 def _no_egl() -> str:

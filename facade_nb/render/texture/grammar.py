@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...design.errors import DesignError, Fault, GrammarError, nearest
 from ...design.text import fault_at
 from .atlas import Atlas, Tiles, pack
-from .checks import Finding, check_rules, check_tiles, recurs
+from .checks import Finding, check_rules, check_tiles, recurs, stack_heights
 from .compiling import Places, compile_text
 from .encoding import Encoding, Record, encode, read_records
 from .evaluating import Question, Surface, evaluate
@@ -198,6 +198,7 @@ class Grammar:
             Seed.of(seed),
             self.atlas(tiles),
             self._recurs,
+            self._stacks,
         )
 
     def atlas(self, tiles: Tiles | None = None) -> Atlas:
@@ -212,6 +213,10 @@ class Grammar:
     @cached_property
     def _records(self) -> tuple[Record, ...]:
         return read_records(self.texture())
+
+    @cached_property
+    def _stacks(self) -> tuple[int, int]:
+        return stack_heights(self.rules)
 
     @cached_property
     def _recurs(self) -> bool:

@@ -15,7 +15,7 @@ from .evaluating import BELOW_ONE, OPAQUE
 from .limits import MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS
 from .operators import OPERATORS, USAGES, Operator
 
-__all__ = ["PROFILES", "constants", "shader"]
+__all__ = ["PROFILES", "constants", "room", "shader"]
 
 PROFILES = {
     "core": "#version 330 core\n",
@@ -23,24 +23,36 @@ PROFILES = {
 }
 """What stands before the body: desktop GL 3.3 and WebGL2."""
 
+_ROOMS = (2, 4, max(MAX_FRAMES, MAX_SEEDS))
 _INCLUDE = re.compile(r'^#include "([\w.]+)"$', re.MULTILINE)
 _NAMES = {"Σrel": "rel", "Σabs": "abs", "Σv": "sum"}
 
 
 @lru_cache(maxsize=32)
-def shader(name: str, profile: str = "core", defines: tuple[str, ...] = ()) -> str:
+def shader(
+    name: str,
+    profile: str = "core",
+    *,
+    frames: int = MAX_FRAMES,
+    seeds: int = MAX_SEEDS,
+    defines: tuple[str, ...] = (),
+) -> str:
     """The source of a shader: ``sight.frag``, ``points.frag``, ``whole.vert``.
 
     Parameters
     ----------
     profile
         A key of `PROFILES`.
+    frames, seeds
+        Room on the stacks; less is faster (see `room`).
     defines
-        Names to be defined, such as ``COUNT_FETCHES``.
+        Names to be defined: ``MIPS`` (tiles in the size that fits a pixel), ``EDGES`` (how near a boundary is),
+        ``COUNT_FETCHES``.
     """
-    head = PROFILES[profile] + "".join(f"#define {name}\n" for name in defines)
+    head = PROFILES[profile]
     if name.endswith(".frag"):
-        head += constants()
+        head += "".join(f"#define {define}\n" for define in defines)
+        head += f"const int MAX_FRAMES = {frames};\nconst int MAX_SEEDS = {seeds};\n{constants()}"
     return head + "".join(_included(name, set()))
 
 
@@ -58,11 +70,14 @@ def _included(name: str, seen: set[str]) -> Iterator[str]:
     yield text[at:]
 
 
+def room(height: int) -> int:
+    """Room for a stack of that height: one of a few sizes, so that few shaders serve all grammars."""
+    return next(size for size in _ROOMS if size >= height)
+
+
 def constants() -> str:
     """Bounds, codes, and where each channel stands, as GLSL."""
     lines = [
-        f"const int MAX_FRAMES = {MAX_FRAMES};",
-        f"const int MAX_SEEDS = {MAX_SEEDS};",
         f"const int MAX_FACES = {MAX_FACES};",
         f"const int MAX_STEPS = {MAX_STEPS};",
         f"const float OPAQUE = {OPAQUE:.9g};",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,12 @@ class Shot:
     surface: Surface
     margin: NDArray[np.float32]
     fetches: NDArray[np.int32] | None = None
+
+    def first(self, number: int) -> Shot:
+        """The first pixels alone."""
+        color, normal, specular, rule = self.surface
+        surface = Surface(color[:number], normal[:number], specular[:number], rule[:number])
+        return Shot(surface, self.margin[:number], None if self.fetches is None else self.fetches[:number])
 
 
 class Painter(Protocol):
@@ -68,7 +74,7 @@ def spread(shot: Shot, inside: NDArray[np.bool_]) -> Shot:
     if inside.all():
         return shot
 
-    def of(part: NDArray, empty: float) -> NDArray:  # type: ignore[type-arg]
+    def of(part: NDArray[Any], empty: float) -> NDArray[Any]:
         whole = np.full((len(inside), *part.shape[1:]), empty, part.dtype)
         whole[inside] = part
         return whole

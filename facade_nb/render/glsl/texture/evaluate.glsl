@@ -1,13 +1,14 @@
 // The evaluator: from the start rule to the colour of one pixel (texture paper, 3 and 4).
+//
+// Pixels that are drawn together (in warps, or in the vectors of a software renderer) pay for every branch that one of
+// them takes. So there are two loops: the inner one goes down through splits, repeats and choices, which are cheap; the
+// outer one has the rest, and reads tiles at a single place.
 #include "globals.glsl"
-#include "split.glsl"
-#include "repeat.glsl"
-#include "choose.glsl"
+#include "descend.glsl"
 #include "layer.glsl"
 #include "next_layer.glsl"
-#include "skip_mask.glsl"
 #include "intrusion.glsl"
-#include "material.glsl"
+#include "terminal.glsl"
 
 Surface evaluate(Question question) {
   asked = question;
@@ -25,28 +26,18 @@ Surface evaluate(Question question) {
   now.shift = 1;
   now.faces = 0;
   now.seeds = 0;
-  for (int taken = 0; taken < MAX_STEPS; ++taken) {
-    bool ends = true;  // an empty scope shows nothing
-    int skipped = 0;
-    if (now.scope.z > now.scope.x && now.scope.w > now.scope.y) {
-      vec4 head = record(now.rule, 0);
-      int code = int(head.r);
-      ends = code >= OP_SKIP && code != OP_INTRUSION;
-      if (code <= OP_REPEATY) repeat(now, head, code == OP_REPEATY);
-      else if (code <= OP_SPLITY) split(now, head, code == OP_SPLITY);
-      else if (code <= OP_RANDUNI) choose(now, head, code == OP_RANDUNI);
-      else if (code == OP_RANDSTACK) {
-        seed_stack[now.seeds] = corner(now);
-        now.seeds += 1;
-        now.rule = ivec2(head.RandStack_R);
-      }
-      else if (code == OP_LAYER) layer(now, head);
-      else if (code == OP_SKIP) skipped = int(head.Skip_l);
-      else if (code == OP_SKIPMASK) skipped = skip_mask(now, head);
-      else if (code == OP_INTRUSION) intrusion(now, head);
-      else material(now, head, code == OP_MATALPHA);
+  int taken = 0;
+  while (taken < MAX_STEPS) {
+    vec4 head = descend(now, taken);
+    int code = int(head.r);
+    if (code == OP_INTRUSION) {
+      intrusion(now, head);
+    } else if (code == OP_LAYER) {
+      layer(now, head);
+    } else {
+      int skipped = terminal(now, head);
+      if (!next_layer(now, skipped)) break;
     }
-    if (ends && !next_layer(now, skipped)) break;
   }
   return surface;
 }

@@ -3,15 +3,18 @@
 
 void layer(inout State now, vec4 head) {
   int count = int(head.Layer_n);
-  int held = (count + 1) / 2;
-  vec4 records = record(now.rule, held);
+  vec4 records = record(now.rule, (count + 1) / 2);
+  bool odd = (count & 1) == 1;
   if (count > 1) {
-    frames[frame_count].state = now;
-    frames[frame_count].below = count - 1;
-    frames[frame_count].held = held;
-    frames[frame_count].records = records;
+    for (int i = 0; i < MAX_FRAMES; ++i) {
+      if (i == frame_count) {
+        frames[i].state = now;
+        frames[i].below = count - 1;
+        frames[i].next = records.xy;
+      }
+    }
     frame_count += 1;
   }
-  now.rule = ivec2((count & 1) == 1 ? records.xy : records.zw);
+  now.rule = ivec2(odd ? records.xy : records.zw);
   now.shift += count;
 }

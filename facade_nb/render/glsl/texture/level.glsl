@@ -3,7 +3,10 @@
 #include "fetch.glsl"
 
 int level(int tile, vec2 repeats) {
-  if (!(asked.footprint > 0.0)) return 0;
+#ifdef MIPS
   vec2 texels = repeats * fetch(tile_table, ivec2(1, tile - 1)).zw * asked.footprint;
   return int(floor(log2(max(min(texels.x, texels.y), 1.0)) + 0.5));
+#else
+  return 0;
+#endif
 }

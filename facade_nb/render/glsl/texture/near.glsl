@@ -2,5 +2,7 @@
 #include "globals.glsl"
 
 void near(float at, float extent) {
+#ifdef EDGES
   margin = min(margin, min(at, extent - at) / max(asked.footprint, 1e-9));
+#endif
 }

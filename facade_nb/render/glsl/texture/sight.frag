@@ -10,7 +10,6 @@ uniform vec2 facade_size;
 uniform ivec2 start_rule;
 uniform uvec2 seed_whole;
 uniform vec2 seed_rest;
-uniform float mips;         // 1: tiles are read in the size that fits
 
 void main() {
   vec2 place = window.xy + (floor(gl_FragCoord.xy) + pixel_shift) * window.zw;
@@ -29,7 +28,7 @@ void main() {
   margin = 1e9;
   if (seen && place.x >= 0.0 && place.y >= 0.0 && place.x <= facade_size.x && place.y <= facade_size.y) {
     found = evaluate(
-      Question(start_rule, facade_size, place, ray, seed_whole, seed_rest, mips * footprint)
+      Question(start_rule, facade_size, place, ray, seed_whole, seed_rest, footprint)
     );
   }
   put(found);

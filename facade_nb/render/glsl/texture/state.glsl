@@ -14,6 +14,5 @@ struct State {
 struct Frame {
   State state;  // as the operator found it
   int below;    // how many layers are still to come
-  int held;     // which pixel of the operator's records is in `records`
-  vec4 records;
+  vec2 next;    // position of the rule of the layer below, where its record has been read with that of the one above
 };
