@@ -9,7 +9,8 @@ A grammar says all that light needs to know in its three channels, so one gramma
   a third. What a pane adds to the specular value is taken off the lamp.
 - Out of doors the specular value is the strength of the sun's highlight.
 
-Colours are composited as stored (sRGB); light is worked out in linear values.
+Colours are composited as stored (sRGB); light is worked out in linear values. ``glsl/texture/lit.frag`` does the same
+as a second pass over what the evaluator has drawn.
 """
 
 from __future__ import annotations
@@ -31,6 +32,7 @@ Colour = tuple[float, float, float]
 _DAWN, _DUSK = 5.5, 20.5
 _STEEPEST = 54.0
 _SWING = 82.0
+_LAMP, _STREET = 1.15, 0.26
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +106,20 @@ class Daytime:
             0.62 + 0.9 * night + 0.26 * (1 - warm) * up,
         )
 
+    def uniforms(self) -> dict[str, float | tuple[float, ...]]:
+        """What ``glsl/texture/lit.frag`` is given, for a façade that looks south."""
+        return {
+            "towards": self.towards,
+            "sun": self.sun,
+            "sky": self.sky,
+            "ground": self.ground,
+            "indoors": self.indoors,
+            "lamps": (_LAMP * self.lamps, _STREET * self.lamps),
+            "zenith": self.zenith,
+            "horizon": self.horizon,
+            "exposure": self.exposure,
+        }
+
     def backdrop(self, rays: Floats) -> Floats:
         """The sky (n, 3), linear, that is seen along directions (n, 3)."""
         length = np.sqrt((rays * rays).sum(axis=1))
@@ -156,10 +172,10 @@ def light(
         facing[:, None] * floats(daytime.sun)
         + sky[:, None] * floats(daytime.sky)
         + ((0.5 - 0.5 * up) + 0.35 * low)[:, None] * floats(daytime.ground)
-        + (daytime.lamps * 0.26 * np.exp(-np.maximum(heights - 2.5, 0) / 4.5))[:, None]
+        + (daytime.lamps * _STREET * np.exp(-np.maximum(heights - 2.5, 0) / 4.5))[:, None]
         * floats([1.0, 0.70, 0.40])
     )
-    lamp = np.clip(specular[:, :3] - outside[:, None], 0, 1) * np.float32(daytime.lamps * 1.15)
+    lamp = np.clip(specular[:, :3] - outside[:, None], 0, 1) * np.float32(daytime.lamps * _LAMP)
     albedo = linear(np.clip(color[:, :3], 0, 1))
     share = outside[:, None]
     lit = albedo * (share * outdoors + (1 - share) * floats(daytime.indoors) + lamp)

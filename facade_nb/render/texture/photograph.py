@@ -23,6 +23,9 @@ from .daytime import Daytime, light
 from .evaluating import OPAQUE, evaluate
 from .facades import Facade, Hits, meet, sees
 from .grammar import Grammar
+from .painters import choose_painter
+from .shot import Painter
+from .view import Looks
 
 __all__ = ["STANDPOINT", "Photo", "flat", "photograph", "save_picture"]
 
@@ -49,6 +52,8 @@ class Photo:
         Left, bottom, right, top on the first façade, metres, that the picture shows; None: all façades.
     samples
         Each pixel is the mean of `samples` × `samples` points.
+    backend
+        Who evaluates grammars: ``cpu``, ``osmesa`` or ``egl``, which is faster where there is a graphics card.
     """
 
     pixels: tuple[int, int] = (1024, 768)
@@ -56,6 +61,7 @@ class Photo:
     camera: Camera = STANDPOINT
     frame: tuple[float, float, float, float] | None = None
     samples: int = 2
+    backend: str = "cpu"
 
 
 def photograph(facades: Sequence[Facade], photo: Photo = Photo()) -> NDArray[np.uint8]:
@@ -64,7 +70,9 @@ def photograph(facades: Sequence[Facade], photo: Photo = Photo()) -> NDArray[np.
     Raises
     ------
     ValueError
-        For no façade, an hour beyond 0 to 24, a size without pixels, or no sample.
+        For no façade, an hour beyond 0 to 24, a size without pixels, no sample, or an unknown backend.
+    BackendError
+        For a backend that does not work here; its text says what would help.
     """
     if not facades:
         raise ValueError("expected at least one façade")
@@ -74,7 +82,8 @@ def photograph(facades: Sequence[Facade], photo: Photo = Photo()) -> NDArray[np.
     large = (photo.pixels[0] * photo.samples, photo.pixels[1] * photo.samples)
     view = photo.camera.look(_aimed(facades, photo), large)
     rays = view.rays(large).reshape(-1, 3)
-    seen = developed(_seen(facades, view, rays, daytime, large), daytime.exposure)
+    painter = choose_painter(photo.backend)
+    seen = developed(_seen(facades, view, rays, daytime, large, painter), daytime.exposure)
     small = binned(seen.reshape(large[1], large[0], 3), photo.samples)
     return (np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8)
 
@@ -142,7 +151,12 @@ _THROUGH = 4
 
 
 def _seen(
-    facades: Sequence[Facade], view: View, rays: Floats, daytime: Daytime, pixels: tuple[int, int]
+    facades: Sequence[Facade],
+    view: View,
+    rays: Floats,
+    daytime: Daytime,
+    pixels: tuple[int, int],
+    painter: Painter,
 ) -> Floats:
     """Light (n, 3) that comes along rays."""
     eye = view.eye.astype(np.float32)
@@ -159,7 +173,7 @@ def _seen(
             own = np.flatnonzero(hits.facade == index)
             if len(own):
                 light_, alpha = _facade_light(
-                    facades, index, facade, eye, rays[at[own]], hits, own, daytime, spread
+                    facades, index, facade, eye, rays[at[own]], hits, own, daytime, spread, painter
                 )
                 seen[at[own]] += clear[at[own], None] * light_
                 clear[at[own]] *= 1 - alpha
@@ -180,6 +194,7 @@ def _facade_light(
     own: NDArray[np.intp],
     daytime: Daytime,
     spread: float,
+    painter: Painter,
 ) -> tuple[Floats, Floats]:
     """Light (n, 3), multiplied by alpha, and alpha (n,) of what rays meet on one façade."""
     axes = facade.axes
@@ -187,7 +202,9 @@ def _facade_light(
     distance = hits.distance[own]
     question = facade.grammar.question(facade.size, facade.seed, facade.start)
     # A pixel covers this much of what is seen straight on; seen slantwise it is sampled finely enough across.
-    surface = evaluate(question, np.ascontiguousarray(hits.places[own]), local, distance * spread)
+    everywhere = np.ones(len(own), bool)
+    looks = Looks(np.ascontiguousarray(hits.places[own]), local, distance * np.float32(spread), everywhere)
+    surface = painter.paint_at(question, looks, mips=True).surface
     points = eye + distance[:, None] * rays
     skip = np.full(len(own), index, np.int32)
     free = sees(facades, points, floats(daytime.towards), skip).astype(np.float32)
