@@ -1,4 +1,4 @@
-"""The command line: ``python -m facade_nb solve DESIGN.json`` (SPEC 6).
+"""The command line: ``python -m facade_nb solve DESIGN.json`` and ``… render GRAMMAR.txt`` (SPEC 6).
 
 Exit status 0: done; 2: the input is at fault; 3: the design has no layout, and nothing but its trace is written;
 1: a drawing that this machine cannot make. Messages go to stderr, without a traceback. Everything is computed before
@@ -16,6 +16,7 @@ from math import inf
 from pathlib import Path
 
 from . import Design, DesignError, Layout, NoLayout, __version__, solve
+from .cli_render import add_render, joined, render_command
 from .design.files import write_together
 
 __all__ = ["main"]
@@ -41,9 +42,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     ):
         solving.add_argument(f"--{name}", metavar="FILE", help=f"write {what}")
     solving.add_argument("--time-limit", type=_seconds, default=10.0, metavar="SECONDS", help="default: 10")
-    options = parser.parse_args(argv)
+    add_render(commands)
+    options = parser.parse_args(joined(sys.argv[1:] if argv is None else argv))
     try:
-        return _solve(options)
+        return _solve(options) if options.command == "solve" else render_command(options)
     except DesignError as error:
         print(error, file=sys.stderr)
         return 2

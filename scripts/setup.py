@@ -90,6 +90,8 @@ def missing_packages(target: str) -> list[str]:
         packages.append("libgl1")  # pyglet, which pyrender imports, loads it
     if target == "test" and not has_chromium():
         packages += ["chromium", "fonts-dejavu-core"]  # browser tests, and letters for their pages
+    if target == "test" and not shutil.which("glslangValidator"):
+        packages.append("glslang-tools")  # compiles the shaders as a browser does
     return packages
 
 

@@ -10,7 +10,16 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from typing import Any
 
-__all__ = ["DesignError", "FacadeError", "Fault", "NoLayout", "PatternError", "Suggestion", "nearest"]
+__all__ = [
+    "DesignError",
+    "FacadeError",
+    "Fault",
+    "GrammarError",
+    "NoLayout",
+    "PatternError",
+    "Suggestion",
+    "nearest",
+]
 
 
 class FacadeError(Exception):
@@ -69,6 +78,10 @@ class PatternError(DesignError):
     def fault(self) -> Fault:
         """The one fault."""
         return self.faults[0]
+
+
+class GrammarError(DesignError):
+    """A texture grammar that cannot be used: all faults found, in the order of the text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,5 +156,5 @@ class NoLayout(FacadeError):
 def nearest(name: str, valid: Iterable[str]) -> str:
     """Return ``"; did you mean 'x'?"`` for the valid name nearest to `name`, or an empty text."""
     names = [str(v) for v in valid]
-    found = get_close_matches(name, names, n=1, cutoff=0.5) or [v for v in names if v.lower() == name.lower()]
+    found = [v for v in names if v.lower() == name.lower()] or get_close_matches(name, names, n=1, cutoff=0.5)
     return f"; did you mean {found[0]!r}?" if found else ""

@@ -10,14 +10,18 @@ from .mesh import write_glb
 from .overlay import overlay_svg
 from .picture import render_png
 from .scene import Scene, Solid, build_scene
+from .texture import Grammar
+from .texture.from_layout import grammar_of
 
 __all__ = [
     "GEOMETRIES",
     "MATERIALS",
+    "Grammar",
     "Scene",
     "Solid",
     "build_scene",
     "elevation_svg",
+    "grammar_of",
     "overlay_svg",
     "render_png",
     "write_glb",

@@ -1,0 +1,8 @@
+// The random number, from 0 to below 1, of a corner in steps.
+#include "fetch.glsl"
+#include "mixed.glsl"
+
+float random_number(uvec2 corner) {
+  uint place = mixed(mixed(corner.x) ^ corner.y);
+  return fetch(noise, ivec2(int((place >> 16u) & 255u), int(place >> 24u))).r;
+}

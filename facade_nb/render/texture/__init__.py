@@ -1,0 +1,26 @@
+"""Façade textures by grammar, evaluated for each pixel (texture paper; SPEC 5).
+
+A text is compiled (`compiling`) into rules (`program`), which are checked (`checks`) and written into a texture
+(`encoding`), all by one table of operators (`operators`). Two evaluators read that texture: one in NumPy
+(`evaluating`), one in GLSL (`gl`).
+"""
+
+from .encoding import Encoding, decode, encode
+from .evaluating import Surface
+from .grammar import Grammar
+from .operators import OPERATORS, Kind, Operator, Param
+from .program import Rule, Source
+
+__all__ = [
+    "OPERATORS",
+    "Encoding",
+    "Grammar",
+    "Kind",
+    "Operator",
+    "Param",
+    "Rule",
+    "Source",
+    "Surface",
+    "decode",
+    "encode",
+]

@@ -1,0 +1,137 @@
+"""The tiles that a grammar names, packed into one 8-bit image with their smaller versions: both evaluators read it.
+
+Row 0 of the atlas is at the bottom, so that v goes up as it does on the façade. A tile's levels halve in size. Sampling
+is bilinear between the four nearest texels of one level: the fourth of them lies in the tile itself, around the edge of
+a repeated one and never beyond the edge of a stretched one, so neighbours in the atlas do not bleed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil, sqrt
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Atlas", "Tiles", "pack"]
+
+Floats = NDArray[np.float32]
+
+
+class Tiles(Protocol):
+    """What is asked of a set of tiles: `facade_nb.render.tiles.TileSet`, or anything like it."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Names of the tiles."""
+        ...
+
+    def mips(self, name: str) -> Sequence[NDArray[Any]]:
+        """The tile, and it in ever smaller sizes: (h, w, 4) from 0 to 1, row 0 at the top."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Atlas:
+    """Tiles in one image.
+
+    Attributes
+    ----------
+    pixels
+        (h, w, 4) uint8, row 0 at the bottom.
+    table
+        (tiles, levels, 4) int32: left, bottom, width, height of each level. A tile with fewer levels repeats its last.
+    grey
+        (tiles,) bool: the tile is opaque throughout; its mask is its brightness, not its alpha.
+    """
+
+    pixels: NDArray[np.uint8]
+    table: NDArray[np.int32]
+    grey: NDArray[np.bool_]
+
+    def sample(
+        self, tile: int, u: Floats, v: Floats, wrap: bool, level: int | NDArray[np.int32] = 0
+    ) -> Floats:
+        """Values (n, 4) from 0 to 1 of tile number `tile`, from 1, at (u, v): its lower left corner is 0, 0.
+
+        Parameters
+        ----------
+        wrap
+            Whether the tile repeats; else its edge goes on.
+        level
+            Which of its sizes, 0 the largest: one, or one for each point.
+        """
+        levels = self.table[tile - 1]
+        left, bottom, width, height = levels[np.minimum(level, len(levels) - 1)].T
+        fx, x0, x1 = _neighbours(u, width, wrap)
+        fy, y0, y1 = _neighbours(v, height, wrap)
+        flat, wide = self.pixels.reshape(-1, 4), self.pixels.shape[1]
+        low, high = (bottom + y0) * wide + left, (bottom + y1) * wide + left
+        fx, fy = fx[:, None], fy[:, None]
+        under = flat[low + x0] * (1 - fx) + flat[low + x1] * fx
+        over = flat[high + x0] * (1 - fx) + flat[high + x1] * fx
+        mixed: Floats = (under * (1 - fy) + over * fy) * np.float32(1 / 255)
+        return mixed
+
+    def mask(self, tile: int, values: Floats) -> Floats:
+        """What a tile's values (n, 4) mean as a mask: brightness of an opaque tile, alpha of another one."""
+        if self.grey[tile - 1]:
+            return (values[:, 0] + values[:, 1] + values[:, 2]) * np.float32(1 / 3)
+        return values[:, 3]
+
+
+def _neighbours(
+    u: Floats, size: NDArray[np.int32], wrap: bool
+) -> tuple[Floats, NDArray[np.int32], NDArray[np.int32]]:
+    """The two texels on either side of a place along one axis, and how far it is from the first to the second."""
+    at = (u - np.floor(u) if wrap else np.clip(u, 0, 1)) * size.astype(np.float32) - np.float32(0.5)
+    low = np.floor(at)
+    first = low.astype(np.int32)
+    second = first + 1
+    if wrap:
+        return at - low, np.where(first < 0, size - 1, first), np.where(second >= size, 0, second)
+    return at - low, np.maximum(first, 0), np.minimum(second, size - 1)
+
+
+def pack(tiles: Tiles | None, names: Sequence[str]) -> Atlas:
+    """Pack tiles, each with all its levels side by side, on shelves."""
+    images = [[_stored(level) for level in tiles.mips(name)] for name in names] if tiles is not None else []
+    if not images:
+        return Atlas(np.zeros((1, 1, 4), np.uint8), np.array([[[0, 0, 1, 1]]], np.int32), np.ones(1, bool))
+    sizes = [
+        (max(image.shape[0] for image in levels), sum(image.shape[1] for image in levels))
+        for levels in images
+    ]
+    area = sum(height * width for height, width in sizes)
+    wide = max(ceil(sqrt(area)), *(width for _, width in sizes))
+    count = max(len(levels) for levels in images)
+    table = np.zeros((len(images), count, 4), np.int32)
+    x = y = shelf = 0
+    for k in sorted(range(len(images)), key=lambda k: -sizes[k][0]):
+        height, width = sizes[k]
+        if x + width > wide:
+            x, y, shelf = 0, y + shelf, 0
+        shelf = max(shelf, height)
+        for level in range(count):
+            if level < len(images[k]):
+                image = images[k][level]
+                table[k, level] = x, y, image.shape[1], image.shape[0]
+                x += image.shape[1]
+            else:
+                table[k, level] = table[k, level - 1]
+    pixels = np.zeros((y + shelf, wide, 4), np.uint8)
+    for k, levels in enumerate(images):
+        for level, image in enumerate(levels):
+            left, bottom, width, height = table[k, level]
+            pixels[bottom : bottom + height, left : left + width] = image
+    grey = np.array([bool((levels[0][..., 3] == 255).all()) for levels in images])
+    return Atlas(pixels, table, grey)
+
+
+def _stored(image: NDArray[Any]) -> NDArray[np.uint8]:
+    """As 8 bits, row 0 at the bottom."""
+    if image.dtype == np.uint8:
+        return image[::-1]
+    return (np.clip(image[::-1], 0, 1) * 255 + 0.5).astype(np.uint8)

@@ -1,0 +1,585 @@
+"""From statements to rules: names are looked up, namespaces and rules with parameters are copied (texture paper, 6).
+
+The evaluators know nothing of parameters. A rule that is used with two different arguments becomes two rules; a
+namespace that is copied becomes a second set of rules.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from math import isfinite
+
+from ...design.errors import Fault, nearest
+from ...design.text import fault_at
+from .operators import OPERATORS, POLICIES, USAGES, Kind, Operator, Param
+from .program import Rule, Source, Value
+from .syntax import (
+    Binary,
+    Copy,
+    Expression,
+    Name,
+    Namespace,
+    Number,
+    Parameter,
+    RuleText,
+    Setting,
+    Tile,
+    read,
+)
+
+__all__ = ["Compiled", "compile_text"]
+
+MAX_RULES = 20_000
+_LARGEST = 65504.0  # of the 16-bit floats
+_SMALLEST = 6e-8
+_MAX_COPIES = 64  # of one rule inside each other
+
+
+@dataclass(frozen=True, slots=True)
+class _Key:
+    """A rule of a namespace with the values of its parameters."""
+
+    space: str
+    name: str
+    given: tuple[_Bound, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Word:
+    """A constant such as Abs, where a parameter has it as its value."""
+
+    text: str
+
+
+_Bound = float | Source | _Key | _Word
+"""What a parameter or a setting can hold."""
+
+
+@dataclass(slots=True)
+class _Space:
+    """A namespace: its settings and rules, and what a copy of it has changed."""
+
+    rules: dict[str, RuleText] = field(default_factory=dict)
+    settings: dict[str, Setting] = field(default_factory=dict)
+    changed: dict[str, _Bound] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class _Scope:
+    """Where a name is looked up: parameters of the rule first, then settings of its namespace, then global ones."""
+
+    space: str
+    parameters: Mapping[str, _Bound] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """What a text was compiled into.
+
+    Attributes
+    ----------
+    rules
+        In file order; copies with other arguments follow at the end.
+    places
+        For each rule, where in the text the rule, its operator, and every value of it stand.
+    tiles
+        Every tile that is named, with its offset, also where its rule has a fault.
+    faults
+        All that were found, in the order of the text.
+    """
+
+    rules: tuple[Rule, ...]
+    places: tuple[Places, ...]
+    tiles: tuple[tuple[int, str], ...]
+    faults: tuple[tuple[int, Fault], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    """Offsets in the text of a rule, its operator, and its values in the order written."""
+
+    rule: int
+    operator: int
+    values: tuple[int, ...] = ()
+
+
+def compile_text(text: str) -> Compiled:
+    """Compile a grammar's text. Faults are returned, not raised."""
+    return _Compiler(text).run()
+
+
+class _Compiler:
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.faults: dict[tuple[int, str], Fault] = {}
+        self.spaces: dict[str, _Space] = {"": _Space()}
+        self.order: list[tuple[str, RuleText]] = []
+        self.slots: dict[tuple[str, str], int] = {}  # where a rule stands in file order
+        self.index: dict[_Key, int] = {}
+        self.rules: list[Rule | None] = []
+        self.places: list[Places | None] = []
+        self.waiting: list[tuple[_Key, int]] = []
+        self.taken: set[int] = set()
+        self.tiles: set[tuple[int, str]] = set()
+        self.depth: dict[_Key, int] = {}  # how many copies of rules stand around a copy
+        self.here = 0
+        self.settling: list[tuple[str, str]] = []
+        self.unread: frozenset[str] = frozenset()
+
+    def run(self) -> Compiled:
+        reading = read(self.text)
+        self.unread = reading.unread
+        for offset, fault in reading.faults:
+            self.faults[offset, fault.message] = fault
+        copies = self._collect(reading.statements)
+        for space, rule in self.order:
+            self.slots[space, rule.name] = len(self.rules)
+            self.rules.append(None)
+            self.places.append(None)
+        self._change(copies)
+        for name in ("", *(name for name in self.spaces if name)):
+            for setting in self.spaces[name].settings.values():
+                self._setting(name, setting.name, setting.offset)
+        for space, rule in self.order:
+            if all(parameter.default is not None for parameter in rule.parameters):
+                self._use(Name(rule.name, rule.offset, space), _Scope(space), depth=0)
+        self._work()
+        if not self.order and not self.faults:
+            self.fault(0, "expected at least one rule, such as S -> Mat(Color, 0, 1, 1, 1, 1)")
+        return self._finished()
+
+    def fault(self, offset: int, message: str) -> None:
+        """Note a fault; the same one at the same place counts once (copies of a rule share its text)."""
+        self.faults.setdefault((offset, message), fault_at(self.text, offset, message))
+
+    def _finished(self) -> Compiled:
+        """Drop rules with parameters that nobody uses, and number the others."""
+        kept = [i for i, rule in enumerate(self.rules) if rule is not None]
+        number = {old: new for new, old in enumerate(kept)}
+        rules = []
+        for i in kept:
+            rule = self.rules[i]
+            if rule is not None:
+                rules.append(_renumbered(rule, number))
+        places = tuple(place for place in self.places if place is not None)
+        faults = sorted(
+            ((offset, fault) for (offset, _), fault in self.faults.items()), key=lambda item: item[0]
+        )
+        return Compiled(tuple(rules), places, tuple(sorted(self.tiles)), tuple(faults))
+
+    # Definitions ------------------------------------------------------------------------------------------
+
+    def _collect(self, statements: Iterable[RuleText | Setting | Namespace | Copy]) -> list[Copy]:
+        """Sort definitions into their namespaces; copies of namespaces stand where they are written."""
+        copies = []
+        for statement in statements:
+            match statement:
+                case Namespace() | Copy():
+                    name = statement.name
+                    if name in self.spaces:
+                        self.fault(
+                            statement.offset,
+                            f"the namespace {name!r} is there already: give this one another",
+                        )
+                        continue
+                    if isinstance(statement, Namespace):
+                        self.spaces[name] = _Space()
+                        for item in statement.items:
+                            self._define(name, item)
+                    elif (source := self.spaces.get(statement.source)) is None or not statement.source:
+                        known = [space for space in self.spaces if space]
+                        self.fault(
+                            statement.source_offset,
+                            f"expected a namespace that stands above; found {statement.source!r}"
+                            f"{nearest(statement.source, known)}",
+                        )
+                        self.unread |= {name}
+                    else:
+                        copy = _Space(dict(source.rules), dict(source.settings), dict(source.changed))
+                        self.spaces[name] = copy
+                        self.order += [(name, rule) for rule in copy.rules.values()]
+                        copies.append(statement)
+                case _:
+                    self._define("", statement)
+        return copies
+
+    def _define(self, space: str, item: RuleText | Setting) -> None:
+        home = self.spaces[space]
+        there = home.rules.get(item.name) or home.settings.get(item.name)
+        if there is not None:
+            line = fault_at(self.text, there.offset, "").line
+            self.fault(
+                item.offset, f"{item.name!r} is defined already, on line {line}: give this one another name"
+            )
+        elif isinstance(item, Setting):
+            home.settings[item.name] = item
+        else:
+            home.rules[item.name] = item
+            self.order.append((space, item))
+            names = [parameter.name for parameter in item.parameters]
+            for i, parameter in enumerate(item.parameters):
+                if parameter.name in names[:i]:
+                    self.fault(parameter.offset, f"the parameter {parameter.name!r} is there twice")
+                if parameter.default is None and i and item.parameters[i - 1].default is not None:
+                    self.fault(
+                        parameter.offset,
+                        f"expected a default for {parameter.name!r}, since one before it has one",
+                    )
+
+    def _change(self, copies: Iterable[Copy]) -> None:
+        """Set what copies of namespaces change."""
+        for copy in copies:
+            space = self.spaces[copy.name]
+            seen: set[str] = set()
+            for argument in copy.arguments:
+                if argument.name not in space.settings:
+                    self.fault(
+                        argument.offset,
+                        f"the namespace {copy.source!r} has no setting {argument.name!r}"
+                        f"{nearest(argument.name, space.settings)}",
+                    )
+                    continue
+                if argument.name in seen:
+                    self.fault(argument.offset, f"the setting {argument.name!r} is there twice")
+                seen.add(argument.name)
+                value = self._value(argument.value, _Scope(""))
+                if value is not None:
+                    space.changed[argument.name] = value
+
+    # Values -----------------------------------------------------------------------------------------------
+
+    def _setting(self, space: str, name: str, offset: int) -> _Bound | None:
+        """The value of a setting: looked up in its namespace; settings may use each other, but not in a circle."""
+        home = self.spaces[space]
+        if name in home.changed:
+            return home.changed[name]
+        if (space, name) in self.settling:
+            self.fault(offset, f"the setting {name!r} needs itself for its own value")
+            return None
+        self.settling.append((space, name))
+        try:
+            value = self._value(home.settings[name].value, _Scope(space))
+        finally:
+            self.settling.pop()
+        if value is not None:
+            home.changed[name] = value
+        return value
+
+    def _value(self, expression: Expression, scope: _Scope) -> _Bound | None:
+        """What an expression stands for; None after a fault."""
+        match expression:
+            case Number(value=value):
+                return value
+            case Tile(mode=mode, name=name):
+                self.tiles.add((expression.offset, name))
+                return Source(mode, name)
+            case Binary():
+                return self._binary(expression, scope)
+            case Name():
+                bound = self._bound(expression, scope)
+                if bound is not None:
+                    return bound
+                if expression.text in (*POLICIES, *USAGES) and not self._is_rule(expression, scope):
+                    return _Word(expression.text)
+                return self._use(expression, scope)
+
+    def _binary(self, expression: Binary, scope: _Scope) -> float | None:
+        values = []
+        for side in (expression.left, expression.right):
+            value = self._value(side, scope)
+            if value is None:
+                return None
+            if not isinstance(value, float):
+                self.fault(side.offset, f"expected a number to calculate with; found {_told(value)}")
+                return None
+            values.append(value)
+        left, right = values
+        if expression.sign == "/" and right == 0:
+            self.fault(expression.right.offset, "expected a divisor other than 0")
+            return None
+        match expression.sign:
+            case "+":
+                return left + right
+            case "-":
+                return left - right
+            case "*":
+                return left * right
+            case _:
+                return left / right
+
+    def _is_rule(self, name: Name, scope: _Scope) -> bool:
+        return name.text in self.spaces[scope.space].rules or name.text in self.spaces[""].rules
+
+    def _bound(self, name: Name, scope: _Scope) -> _Bound | None:
+        """The value of the parameter or setting that a name stands for; None if it stands for neither."""
+        if name.space or name.arguments is not None:
+            return None
+        if name.text in scope.parameters:
+            return scope.parameters[name.text]
+        for space in dict.fromkeys((scope.space, "")):
+            if name.text in self.spaces[space].settings:
+                return self._setting(space, name.text, name.offset)
+        return None
+
+    # Rules ------------------------------------------------------------------------------------------------
+
+    def _use(self, name: Name, scope: _Scope, depth: int | None = None) -> _Key | None:
+        """The copy of a rule that a name asks for, made where it is new; None after a fault."""
+        found = self._find(name, scope)
+        if found is None:
+            return None
+        space, rule = found
+        given = self._given(name, space, rule, scope)
+        if given is None:
+            return None
+        key = _Key(space, rule.name, given)
+        if key not in self.index:
+            below = depth if depth is not None else self.here + 1
+            if len(self.rules) >= MAX_RULES or below > _MAX_COPIES:
+                self.fault(
+                    name.offset,
+                    f"{str(name)!r} makes copies of itself without end",
+                )
+                return None
+            slot = self.slots[space, rule.name]
+            if slot in self.taken:
+                slot = len(self.rules)
+                self.rules.append(None)
+                self.places.append(None)
+            self.taken.add(slot)
+            self.index[key] = slot
+            self.depth[key] = below if rule.parameters else 0
+            self.waiting.append((key, slot))
+        return key
+
+    def _find(self, name: Name, scope: _Scope) -> tuple[str, RuleText] | None:
+        if name.space:
+            if name.space not in self.spaces:
+                if name.space not in self.unread:
+                    known = [space for space in self.spaces if space]
+                    self.fault(
+                        name.offset, f"there is no namespace {name.space!r}{nearest(name.space, known)}"
+                    )
+                return None
+            places: tuple[str, ...] = (name.space,)
+        else:
+            places = (scope.space, "")
+        for space in places:
+            if name.text in self.spaces[space].rules:
+                return space, self.spaces[space].rules[name.text]
+        if name.text not in self.unread:
+            known = [rule for space in dict.fromkeys(places) for rule in self.spaces[space].rules]
+            known += [*scope.parameters, *self.spaces[scope.space].settings] if not name.space else []
+            hint = nearest(name.text, known)
+            if not hint and name.text in OPERATORS:
+                hint = f"; {name.text!r} is an operator: give a rule of that name, such as Skip -> Skip(0)"
+            self.fault(name.offset, f"there is no rule {str(name)!r}{hint}")
+        return None
+
+    def _given(self, name: Name, space: str, rule: RuleText, scope: _Scope) -> tuple[_Bound, ...] | None:
+        """The values of a rule's parameters: as given, else the defaults."""
+        given: dict[str, _Bound | None] = {}
+        names = [parameter.name for parameter in rule.parameters]
+        place = 0
+        for argument in name.arguments or ():
+            to = argument.name or (names[place] if place < len(names) else "")
+            place += not argument.name
+            if argument.name and argument.name not in names:
+                self.fault(
+                    argument.offset,
+                    f"the rule {rule.name!r} has no parameter {argument.name!r}{nearest(argument.name, names)}",
+                )
+            elif not to:
+                told = f"{len(names)} parameter{'s' * (len(names) != 1)}" if names else "no parameters"
+                self.fault(
+                    argument.offset, f"the rule {rule.name!r} has {told}; found {len(name.arguments or ())}"
+                )
+                return None
+            elif to in given:
+                self.fault(argument.offset, f"the parameter {to!r} is given twice")
+            else:
+                given[to] = self._value(argument.value, scope)
+        values = []
+        for parameter in rule.parameters:
+            value = (
+                given[parameter.name]
+                if parameter.name in given
+                else self._default(name, space, rule, parameter)
+            )
+            if value is None:
+                return None
+            values.append(value)
+        return tuple(values)
+
+    def _default(self, name: Name, space: str, rule: RuleText, parameter: Parameter) -> _Bound | None:
+        if parameter.default is None:
+            self.fault(
+                name.offset, f"the rule {rule.name!r} needs a value for its parameter {parameter.name!r}"
+            )
+            return None
+        return self._value(parameter.default, _Scope(space))
+
+    def _work(self) -> None:
+        """Make every copy that is asked for, and those that they ask for."""
+        while self.waiting:
+            key, slot = self.waiting.pop(0)
+            self.here = self.depth[key]
+            rule = self.spaces[key.space].rules[key.name]
+            names = (parameter.name for parameter in rule.parameters)
+            scope = _Scope(key.space, dict(zip(names, key.given, strict=True)))
+            made = self._rule(self._spelled(key), rule, scope)
+            self.rules[slot], self.places[slot] = made
+
+    def _spelled(self, key: _Key) -> str:
+        """A copy's name: arguments are named where they are not the defaults."""
+        said = []
+        for parameter, value in zip(
+            self.spaces[key.space].rules[key.name].parameters, key.given, strict=True
+        ):
+            if parameter.default is None or value != self._value(parameter.default, _Scope(key.space)):
+                text = self._spelled(value) if isinstance(value, _Key) else _plain(value)
+                said.append(f"{parameter.name}={text}")
+        name = f"{key.space}.{key.name}" if key.space else key.name
+        return f"{name}({', '.join(said)})" if said else name
+
+    def _rule(self, name: str, rule: RuleText, scope: _Scope) -> tuple[Rule | None, Places | None]:
+        operator = OPERATORS.get(rule.operator)
+        if operator is None:
+            self.fault(
+                rule.operator_offset,
+                f"there is no operator {rule.operator!r}{nearest(rule.operator, OPERATORS)}",
+            )
+            for argument in rule.arguments:  # so that faults in it are found as well
+                if isinstance(argument, Name) and argument.text not in (*POLICIES, *USAGES):
+                    self._value(argument, scope)
+            return None, None
+        params = self._params(operator, rule)
+        if params is None:
+            return None, None
+        values = [
+            self._argument(param, argument, scope)
+            for param, argument in zip(params, rule.arguments, strict=True)
+        ]
+        if any(value is None for value in values):
+            return None, None
+        whole = [value for value in values if value is not None]
+        fixed, size = len(operator.fixed), len(operator.part)
+        parts = [tuple(whole[i : i + size]) for i in range(fixed, len(whole), size)] if size else []
+        places = Places(
+            rule.offset, rule.operator_offset, tuple(argument.offset for argument in rule.arguments)
+        )
+        return Rule(name, operator, tuple(whole[:fixed]), tuple(parts)), places
+
+    def _params(self, operator: Operator, rule: RuleText) -> list[Param] | None:
+        """What each argument is for; None, after a fault, if there are too few or too many."""
+        count, fixed, size = len(rule.arguments), len(operator.fixed), len(operator.part)
+        further = count - fixed
+        if (not size and not further) or (size and further >= size and further % size == 0):
+            return [*operator.fixed, *(operator.part * (further // size if size else 0))]
+        if not size:
+            wanted = f"{fixed} value{'s' * (fixed != 1)}"
+        elif size == 1:
+            wanted = f"{f'{fixed} value, then ' if fixed else ''}one rule or more"
+        else:
+            names = ", ".join(param.kind.value for param in operator.part)
+            wanted = f"{f'{fixed} value, then ' if fixed else ''}{size} values for each part ({names})"
+        self.fault(
+            rule.operator_offset,
+            f"{operator.signature} takes {wanted}; found {count}",
+        )
+        return None
+
+    def _argument(self, param: Param, argument: Expression, scope: _Scope) -> Value | None:
+        """The value of one argument, as its kind asks; None after a fault."""
+        if param.kind is Kind.RULE and isinstance(argument, Name) and self._bound(argument, scope) is None:
+            key = self._use(argument, scope)
+            return (
+                -1 if key is None else self.index[key]
+            )  # its fault is noted: the other values are looked at
+        words = {Kind.POLICY: POLICIES, Kind.USAGE: USAGES}.get(param.kind)
+        if words is not None and isinstance(argument, Name) and self._bound(argument, scope) is None:
+            if argument.text not in words or argument.space or argument.arguments is not None:
+                self.fault(
+                    argument.offset,
+                    f"expected {param.kind.value}; found {str(argument)!r}{nearest(argument.text, words)}",
+                )
+                return None
+            return words[argument.text]
+        value = self._value(argument, scope)
+        if value is None:
+            return None
+        made, problem = _checked(param, value, self.index)
+        if problem:
+            self.fault(argument.offset, f"expected {problem}; found {_told(value)}")
+        return made
+
+
+def _checked(param: Param, value: _Bound, index: Mapping[_Key, int]) -> tuple[Value | None, str]:
+    """A value as a kind asks, or what was expected."""
+    wanted = f"{param.kind.value} for {param.name}"
+    match param.kind, value:
+        case Kind.RULE, _Key():
+            return index[value], ""
+        case Kind.POLICY, _Word(text=text) if text in POLICIES:
+            return POLICIES[text], ""
+        case Kind.USAGE, _Word(text=text) if text in USAGES:
+            return USAGES[text], ""
+        case Kind.SOURCE, Source():
+            return value, ""
+        case Kind.SOURCE, float() if value == 0:
+            return Source(), ""
+        case Kind.MASK, Source(mode="Fit"):
+            return value, ""
+        case Kind.LEVEL, float() if value >= 0 and value == int(value) and value < 2**24:
+            return int(value), ""
+        case ((Kind.SIZE | Kind.WEIGHT | Kind.NUMBER), float()) if (
+            not isfinite(value) or abs(value) > _LARGEST
+        ):
+            return None, f"a number that 16 bits can hold, at most {_LARGEST:g}"
+        case ((Kind.SIZE | Kind.WEIGHT), float()) if 0 < value < _SMALLEST:
+            return None, f"a number that 16 bits can hold, at least {_SMALLEST:g}"
+        case Kind.SIZE, float() if value > 0:
+            return value, ""
+        case Kind.WEIGHT, float() if 0 < value <= 1:
+            return value, ""
+        case Kind.NUMBER, float():
+            return value, ""
+    return None, wanted
+
+
+def _told(value: _Bound) -> str:
+    """A value as messages name it."""
+    match value:
+        case float():
+            return f"{value:g}"
+        case Source():
+            return repr(str(value))
+        case _Word(text=text):
+            return repr(text)
+        case _Key(name=name):
+            return f"the rule {name!r}"
+
+
+def _plain(value: _Bound) -> str:
+    return (
+        value.text if isinstance(value, _Word) else f"{value:g}" if isinstance(value, float) else str(value)
+    )
+
+
+def _renumbered(rule: Rule, number: Mapping[int, int]) -> Rule:
+    """The rule with other indices of rules; a rule that could not be made has had its fault."""
+
+    def new(params: tuple[Param, ...], values: tuple[Value, ...]) -> tuple[Value, ...]:
+        return tuple(
+            number.get(int(value), -1) if param.kind is Kind.RULE and not isinstance(value, Source) else value
+            for param, value in zip(params, values, strict=True)
+        )
+
+    operator = rule.operator
+    return Rule(
+        rule.name,
+        operator,
+        new(operator.fixed, rule.fixed),
+        tuple(new(operator.part, part) for part in rule.parts),
+    )

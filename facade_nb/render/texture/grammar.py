@@ -1,0 +1,248 @@
+"""A texture grammar: read, checked, encoded, evaluated (SPEC 5 and 6).
+
+>>> grammar = Grammar.parse("S -> SplitX(Abs, 1, Red, Rel, 1, Blue)  Red -> Mat(Color, 0, 1, 0, 0, 1)"
+...                         "  Blue -> Mat(Color, 0, 0, 0, 1, 1)")
+>>> grammar.evaluate([(0.5, 1), (1.5, 1)], size=(3, 2)).rule.tolist()
+[1, 2]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...design.errors import DesignError, Fault, GrammarError, nearest
+from ...design.text import fault_at
+from .atlas import Atlas, Tiles, pack
+from .checks import Finding, check_rules, check_tiles, recurs, stack_heights
+from .compiling import Places, compile_text
+from .encoding import Encoding, Record, encode, read_records
+from .evaluating import Question, Surface, evaluate
+from .noise import Seed
+from .program import Rule
+
+if TYPE_CHECKING:
+    from .steps import Step
+
+__all__ = ["Grammar"]
+
+
+@dataclass(frozen=True, eq=False)
+class Grammar:
+    """A grammar without faults.
+
+    Attributes
+    ----------
+    rules
+        In file order; copies that the compiler has made for other arguments follow.
+    places
+        Offsets in `text` of each rule, its operator and its values.
+    named
+        Every tile that the text names, with its offset.
+    text
+        What was read.
+    tiles
+        The tiles that it was read with; None: those that ship.
+    """
+
+    rules: tuple[Rule, ...]
+    places: tuple[Places, ...]
+    named: tuple[tuple[int, str], ...]
+    text: str
+    tiles: Tiles | None = None
+
+    @classmethod
+    def parse(cls, text: str, tiles: Tiles | None = None) -> Grammar:
+        """Read and check a grammar.
+
+        Parameters
+        ----------
+        text
+            The grammar, as docs/texture.md describes it.
+        tiles
+            The tiles that it may name; None: those that ship.
+
+        Raises
+        ------
+        GrammarError
+            With every fault: unknown rules, operators, tiles and parameters, wrong numbers of values, values out of
+            range, probabilities that do not add up, endless recursion, stacks deeper than the shader's.
+        """
+        compiled = compile_text(text)
+        found = [
+            (_offset(finding, compiled.places), finding.message) for finding in check_rules(compiled.rules)
+        ]
+        if compiled.tiles:
+            found += check_tiles(compiled.tiles, (tiles if tiles is not None else _shipped()).names)
+        faults = {(offset, fault.message): fault for offset, fault in compiled.faults}
+        for offset, message in found:
+            faults.setdefault((offset, message), fault_at(text, offset, message))
+        if faults:
+            raise GrammarError(faults[key] for key in sorted(faults))
+        return cls(compiled.rules, compiled.places, compiled.tiles, text, tiles)
+
+    @cached_property
+    def encoding(self) -> Encoding:
+        """The grammar in its texture, with the positions of its rules and the numbers of its tiles."""
+        return encode(self.rules)
+
+    def texture(self) -> NDArray[Any]:
+        """The grammar as (h, w, 4) float16 (float32 where `encoding` says so). Read-only."""
+        return self.encoding.texture
+
+    def report(self) -> str:
+        """How many rules, pixels and bytes, in a sentence."""
+        return self.encoding.report()
+
+    @property
+    def start(self) -> int:
+        """The rule to begin with: S, else the first."""
+        return next((i for i, rule in enumerate(self.rules) if rule.name == "S"), 0)
+
+    def index(self, name: str | None) -> int:
+        """The rule of that name; None: the start rule. Raises `DesignError` if there is none."""
+        if name is None:
+            return self.start
+        names = [rule.name for rule in self.rules]
+        if name not in names:
+            raise DesignError(Fault("start", f"there is no rule {name!r}{nearest(name, names)}"))
+        return names.index(name)
+
+    def evaluate(
+        self,
+        points: ArrayLike,
+        size: tuple[float, float],
+        seed: tuple[float, float] = (0.0, 0.0),
+        start: str | None = None,
+        rays: ArrayLike | None = None,
+        tiles: Tiles | None = None,
+    ) -> Surface:
+        """What the grammar gives at points of a façade.
+
+        Parameters
+        ----------
+        points
+            (n, 2) metres from the façade's lower left corner.
+        size
+            Width and height of the façade, metres.
+        seed
+            Of the façade, metres: added to corners for random look-ups.
+        start
+            The rule to begin with; None: S, else the first.
+        rays
+            (n, 3) directions from the eye to the points: x to the right, y up, z out of the façade, so negative. Of any
+            length; a positive z is taken as if it were negative. None: straight on.
+        tiles
+            To be used instead of those that the grammar was read with.
+
+        Returns
+        -------
+        Surface
+            A named tuple of color (n, 4), normal (n, 4), specular (n, 4) float32 and rule (n,) int32.
+
+        Raises
+        ------
+        DesignError
+            If there is no such start rule, or no tile of a name in these `tiles`.
+        ValueError
+            For arrays of another shape, or a size that is not positive.
+        """
+        places = _array(points, 2, "points")
+        directions = None if rays is None else _array(rays, 3, "rays")
+        if directions is not None and len(directions) != len(places):
+            raise ValueError(
+                f"rays: expected one for each of the {len(places)} points; found {len(directions)}"
+            )
+        return evaluate(self.question(size, seed, start, tiles), places, directions)
+
+    def steps(
+        self,
+        point: tuple[float, float],
+        size: tuple[float, float],
+        seed: tuple[float, float] = (0.0, 0.0),
+        start: str | None = None,
+        ray: tuple[float, float, float] | None = None,
+        tiles: Tiles | None = None,
+    ) -> tuple[Step, ...]:
+        """The derivation of one point, step by step; parameters as of `evaluate`."""
+        steps: list[Step] = []
+        rays = None if ray is None else _array([ray], 3, "ray")
+        evaluate(self.question(size, seed, start, tiles), _array([point], 2, "point"), rays, steps=steps)
+        return tuple(steps)
+
+    def question(
+        self,
+        size: tuple[float, float],
+        seed: tuple[float, float] = (0.0, 0.0),
+        start: str | None = None,
+        tiles: Tiles | None = None,
+    ) -> Question:
+        """Everything that an evaluator needs but the points. Raises as `evaluate` does."""
+        width, height = (float(value) for value in size)
+        if not (0 < width < 1e5 and 0 < height < 1e5):
+            raise ValueError(f"size: expected a width and a height in metres, above 0; found {size}")
+        if not all(abs(float(value)) < 2**53 for value in seed):
+            raise ValueError(f"seed: expected two numbers; found {seed}")
+        names = tuple(rule.name for rule in self.rules)
+        return Question(
+            self.texture(),
+            self._records,
+            names,
+            self.index(start),
+            (width, height),
+            Seed.of(seed),
+            self.atlas(tiles),
+            self._recurs,
+            self._stacks,
+        )
+
+    def atlas(self, tiles: Tiles | None = None) -> Atlas:
+        """The tiles that the grammar names, packed. Raises `GrammarError` for one that is not in `tiles`."""
+        if tiles is None or tiles is self.tiles:
+            return self._atlas
+        found = check_tiles(self.named, tiles.names)
+        if found:
+            raise GrammarError(fault_at(self.text, offset, message) for offset, message in found)
+        return pack(tiles, self.encoding.tiles)
+
+    @cached_property
+    def _records(self) -> tuple[Record, ...]:
+        return read_records(self.texture())
+
+    @cached_property
+    def _stacks(self) -> tuple[int, int]:
+        return stack_heights(self.rules)
+
+    @cached_property
+    def _recurs(self) -> bool:
+        return recurs(self.rules)
+
+    @cached_property
+    def _atlas(self) -> Atlas:
+        names = self.encoding.tiles
+        return pack((self.tiles if self.tiles is not None else _shipped()) if names else None, names)
+
+
+def _shipped() -> Tiles:
+    from ..tiles import TileSet
+
+    return TileSet.builtin()
+
+
+def _offset(finding: Finding, places: Sequence[Places]) -> int:
+    place = places[finding.rule]
+    return place.operator if finding.value is None else place.values[finding.value]
+
+
+def _array(values: ArrayLike, columns: int, what: str) -> NDArray[np.float32]:
+    array = np.asarray(values, np.float64)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise ValueError(f"{what}: expected an array of shape (n, {columns}); found {array.shape}")
+    if not np.isfinite(array).all():
+        raise ValueError(f"{what}: expected finite numbers")
+    return array.astype(np.float32)

@@ -1,0 +1,146 @@
+"""Pictures of a grammar: pixels, PNG files, and which rule is seen where."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...design.files import write_atomically
+from ..camera import Camera
+from .atlas import Tiles
+from .grammar import Grammar
+from .painters import choose_painter
+from .view import Sight
+
+__all__ = ["MAX_PIXELS", "png", "render_texture", "rules_seen", "texture_pixels"]
+
+MAX_PIXELS = 1 << 26
+"""The largest picture, in pixels."""
+
+
+def render_texture(
+    grammar: Grammar,
+    path: str | Path | None = None,
+    *,
+    size: tuple[float, float],
+    pixels: tuple[int, int] = (800, 600),
+    seed: tuple[float, float] = (0.0, 0.0),
+    start: str | None = None,
+    camera: Camera | Sight | None = None,
+    tiles: Tiles | None = None,
+    backend: str | None = None,
+) -> bytes:
+    """Render a façade by its grammar as a PNG picture.
+
+    Parameters
+    ----------
+    grammar
+        What to draw.
+    path
+        Where to write it, atomically; None: nowhere.
+    size
+        Width and height of the façade, metres.
+    pixels
+        Width and height of the picture.
+    seed, start, tiles
+        As of `Grammar.evaluate`.
+    camera
+        Where to stand: a `Camera` has the whole façade in the picture. None: straight on, the façade filling it.
+    backend
+        ``osmesa``, ``egl`` or ``cpu``; None: the first that works here.
+
+    Returns
+    -------
+    bytes
+        The PNG file: red, green, blue and alpha, transparent where the grammar gives nothing.
+
+    Raises
+    ------
+    DesignError
+        As `Grammar.evaluate`, and for a file that cannot be written.
+    BackendError
+        If the backend asked for does not work here; its text says what would help.
+    ValueError
+        For a size or a number of pixels that is not positive, or an unknown backend.
+    """
+    data = png(
+        texture_pixels(
+            grammar,
+            size=size,
+            pixels=pixels,
+            seed=seed,
+            start=start,
+            camera=camera,
+            tiles=tiles,
+            backend=backend,
+        )
+    )
+    if path is not None:
+        write_atomically(path, data)
+    return data
+
+
+def texture_pixels(
+    grammar: Grammar,
+    *,
+    size: tuple[float, float],
+    pixels: tuple[int, int] = (800, 600),
+    seed: tuple[float, float] = (0.0, 0.0),
+    start: str | None = None,
+    camera: Camera | Sight | None = None,
+    tiles: Tiles | None = None,
+    backend: str | None = None,
+) -> NDArray[np.uint8]:
+    """As `render_texture`, but the pixels: (h, w, 4) uint8, row 0 at the top, colour not multiplied by alpha."""
+    sight = _sight(size, pixels, camera)
+    question = grammar.question(size, seed, start, tiles)
+    color = choose_painter(backend).paint(question, sight).surface.color
+    return _bytes(color).reshape(sight.pixels[1], sight.pixels[0], 4)
+
+
+def rules_seen(
+    grammar: Grammar,
+    *,
+    size: tuple[float, float],
+    pixels: tuple[int, int] = (800, 600),
+    seed: tuple[float, float] = (0.0, 0.0),
+    start: str | None = None,
+    camera: Camera | Sight | None = None,
+    tiles: Tiles | None = None,
+    backend: str | None = None,
+) -> NDArray[np.int32]:
+    """(h, w) int32, row 0 at the top: the topmost terminal rule that gave colour at each pixel's centre; -1: none."""
+    sight = _sight(size, pixels, camera)
+    question = grammar.question(size, seed, start, tiles)
+    rule = choose_painter(backend).paint(question, sight).surface.rule
+    return rule.reshape(sight.pixels[1], sight.pixels[0])
+
+
+def png(image: NDArray[np.uint8]) -> bytes:
+    """Pixels (h, w, 4) as a PNG file."""
+    from PIL import Image
+
+    stream = BytesIO()
+    Image.fromarray(image).save(stream, "PNG")
+    return stream.getvalue()
+
+
+def _sight(size: tuple[float, float], pixels: tuple[int, int], camera: Camera | Sight | None) -> Sight:
+    width, height = pixels
+    if width < 1 or height < 1 or width * height > MAX_PIXELS:
+        raise ValueError(
+            f"pixels: expected a width and a height, at most {MAX_PIXELS} pixels; found {pixels}"
+        )
+    if isinstance(camera, Sight):
+        return camera
+    return Sight.flat(size, pixels) if camera is None else Sight.through(camera, size, pixels)
+
+
+def _bytes(color: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """Colours multiplied by alpha (n, 4) as bytes that are not."""
+    alpha = color[:, 3:]
+    straight = np.concatenate([color[:, :3] / np.maximum(alpha, np.float32(1e-6)), alpha], axis=1)
+    return (np.clip(straight, 0, 1) * 255 + np.float32(0.5)).astype(np.uint8)

@@ -1,0 +1,100 @@
+"""The GLSL evaluator's source: one body for desktop GL and WebGL2, one function a file, put together by includes.
+
+Codes of operators and the places of their channels come from the operator table, bounds from `limits`: a record
+``head`` has its count at ``head.SplitX_n`` and the position of its rule at ``part.SplitX_R``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import lru_cache
+from importlib.resources import files
+
+from .evaluating import BELOW_ONE, OPAQUE
+from .limits import MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS
+from .operators import OPERATORS, USAGES, Operator
+
+__all__ = ["PROFILES", "constants", "room", "shader"]
+
+PROFILES = {
+    "core": "#version 330 core\n",
+    "es": "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n",
+}
+"""What stands before the body: desktop GL 3.3 and WebGL2."""
+
+_ROOMS = (2, 4, max(MAX_FRAMES, MAX_SEEDS))
+_INCLUDE = re.compile(r'^#include "([\w.]+)"$', re.MULTILINE)
+_NAMES = {"Σrel": "rel", "Σabs": "abs", "Σv": "sum"}
+
+
+@lru_cache(maxsize=32)
+def shader(
+    name: str,
+    profile: str = "core",
+    *,
+    frames: int = MAX_FRAMES,
+    seeds: int = MAX_SEEDS,
+    defines: tuple[str, ...] = (),
+) -> str:
+    """The source of a shader: ``sight.frag``, ``points.frag``, ``whole.vert``.
+
+    Parameters
+    ----------
+    profile
+        A key of `PROFILES`.
+    frames, seeds
+        Room on the stacks; less is faster (see `room`).
+    defines
+        Names to be defined: ``MIPS`` (tiles in the size that fits a pixel), ``EDGES`` (how near a boundary is),
+        ``COUNT_FETCHES``.
+    """
+    head = PROFILES[profile]
+    if name.endswith(".frag"):
+        head += "".join(f"#define {define}\n" for define in defines)
+        head += f"const int MAX_FRAMES = {frames};\nconst int MAX_SEEDS = {seeds};\n{constants()}"
+    return head + "".join(_included(name, set()))
+
+
+def _included(name: str, seen: set[str]) -> Iterator[str]:
+    """A file with what it includes, each file once."""
+    if name in seen:
+        return
+    seen.add(name)
+    text = files("facade_nb.render").joinpath("glsl", "texture", name).read_text("utf-8")
+    at = 0
+    for include in _INCLUDE.finditer(text):
+        yield text[at : include.start()]
+        yield from _included(include[1], seen)
+        at = include.end()
+    yield text[at:]
+
+
+def room(height: int) -> int:
+    """Room for a stack of that height: one of a few sizes, so that few shaders serve all grammars."""
+    return next(size for size in _ROOMS if size >= height)
+
+
+def constants() -> str:
+    """Bounds, codes, and where each channel stands, as GLSL."""
+    lines = [
+        f"const int MAX_FACES = {MAX_FACES};",
+        f"const int MAX_STEPS = {MAX_STEPS};",
+        f"const float OPAQUE = {OPAQUE:.9g};",
+        f"const float BELOW_ONE = {BELOW_ONE:.9g};",
+        *(f"const int USAGE_{name.upper()} = {number};" for name, number in USAGES.items()),
+        *(f"const int OP_{operator.name.upper()} = {operator.code};" for operator in OPERATORS.values()),
+    ]
+    for operator in OPERATORS.values():
+        lines += _channels(operator)
+    return "\n".join(lines) + "\n"
+
+
+def _channels(operator: Operator) -> Iterator[str]:
+    """A macro for each channel that an operator uses: which component of its pixel it is."""
+    for channels in (operator.head, operator.each):
+        for k, name in enumerate(channels):
+            if name.endswith(".x"):
+                yield f"#define {operator.name}_{name[:-2]} {'rgba'[k % 4]}{'rgba'[(k + 1) % 4]}"
+            elif name and not name.endswith(".y"):
+                yield f"#define {operator.name}_{_NAMES.get(name, name)} {'rgba'[k % 4]}"
