@@ -12,6 +12,7 @@ from .parts import (
     Toolbar,
 )
 from .studio import MassingView, Studio
+from .visible import FacadeView, TraceModel, TraceView, WordsView
 
 __all__ = [
     "CanvasEditor",
@@ -19,6 +20,7 @@ __all__ = [
     "Draft",
     "ElevationView",
     "FacadeModel",
+    "FacadeView",
     "LayerEditor",
     "MassingView",
     "Part",
@@ -27,4 +29,7 @@ __all__ = [
     "Studio",
     "SymbolEditor",
     "Toolbar",
+    "TraceModel",
+    "TraceView",
+    "WordsView",
 ]

@@ -59,7 +59,9 @@ export function mount({ el, model, channel }: Mount): () => void {
   root.append(make({ store, signal, notify }, model), noticeArea);
   mark(root, "inert", !store.live);
   root.addEventListener("keydown", (event) => keys(event, store));
-  watchTheme(root, store, signal);
+  watchTheme(root, signal, (theme) => {
+    if (store.get("theme") !== theme) store.ask({ op: "theme", theme });
+  });
   el.append(root);
   return () => {
     end.abort();

@@ -1,0 +1,47 @@
+// The bundle of the views of the solver: it makes the view, or the page of views, that the widget names.
+
+import "../styles/base.css";
+import "../styles/fields.css";
+import "../styles/solver.css";
+import "../styles/playbar.css";
+import "../styles/solver-views.css";
+import { h, mark } from "../dom.ts";
+import { alone, apology } from "../solver/frame.ts";
+import { Session } from "../solver/session.ts";
+import { VIEWS } from "../solver/views/index.ts";
+import { adoptStyle, watchTheme } from "../theme.ts";
+import type { Mount } from "../types.ts";
+
+export function mount({ el, model, channel }: Mount): () => void {
+  const end = new AbortController();
+  adoptStyle(channel.get<string>("css"));
+  const part = model.get<string>("part");
+  const kind = VIEWS[part];
+  if (!kind) throw new Error(`facade_nb: no view named ${part}`);
+  const session = Session.of(channel);
+  const root = h("div", { class: `fnb fnb-solver fnb-part-${part}` });
+  // The keys of a widget are its own: in command mode JupyterLab would read them as commands on cells.
+  mark(root, "data-lm-suppress-shortcuts", true);
+  watchTheme(root, end.signal, () => {});
+  el.append(root);
+
+  let shown: AbortController | null = null;
+  const show = async () => {
+    shown?.abort();
+    const own = new AbortController();
+    shown = own;
+    try {
+      const made = await alone(kind, session, model, await session.load(), own.signal);
+      if (!own.signal.aborted) root.replaceChildren(made);
+    } catch (error) {
+      if (!own.signal.aborted) root.replaceChildren(apology(error));
+    }
+  };
+  session.hold(() => void show(), end.signal);
+  void show();
+  return () => {
+    end.abort();
+    shown?.abort();
+    root.remove();
+  };
+}

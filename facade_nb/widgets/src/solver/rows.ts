@@ -1,0 +1,66 @@
+// A long list of rows of one height, of which only those in sight are in the page.
+
+import { h } from "../dom.ts";
+
+const AROUND = 8;
+
+export interface Rows<T> {
+  el: HTMLElement;
+  /**
+   * Show these items. Where they are others than before, or another one is spoken of now, the list scrolls to that one,
+   * or to its top: what is in sight depends on the moment, not on where one came from.
+   */
+  set(items: readonly T[], now?: number): void;
+}
+
+/**
+ * @param height of a row, in pixels
+ * @param most rows that are in sight at once
+ * @param make makes the row of an item anew
+ * @param drawn is called after rows were made
+ */
+export function rows<T>(
+  options: { height: number; most: number; make: (item: T, index: number) => HTMLElement; drawn?: () => void },
+  signal: AbortSignal,
+): Rows<T> {
+  const { height, most, make } = options;
+  const above = h("div", { "aria-hidden": "true" });
+  const below = h("div", { "aria-hidden": "true" });
+  const body = h("div", { role: "rowgroup" });
+  const el = h("div", { class: "fnb-rows" }, above, body, below);
+  let items: readonly T[] = [];
+  let spoken = -1;
+  let window: [number, number] = [-1, -1];
+
+  const draw = () => {
+    const first = Math.max(0, Math.floor(el.scrollTop / height) - AROUND);
+    const last = Math.min(items.length, first + most + 2 * AROUND);
+    window = [first, last];
+    above.style.height = `${first * height}px`;
+    below.style.height = `${(items.length - last) * height}px`;
+    body.replaceChildren(...items.slice(first, last).map((item, n) => make(item, first + n)));
+    options.drawn?.();
+  };
+  el.addEventListener(
+    "scroll",
+    () => {
+      const first = Math.floor(el.scrollTop / height);
+      const inside = first >= window[0] && Math.min(items.length, first + most) <= window[1];
+      if (!inside) draw();
+    },
+    { signal },
+  );
+  return {
+    el,
+    set(next, now = -1) {
+      const moved = next.length !== items.length || now !== spoken;
+      items = next;
+      spoken = now;
+      const room = Math.min(items.length, most) * height;
+      el.style.height = `${room}px`;
+      el.setAttribute("aria-rowcount", String(items.length));
+      if (moved) el.scrollTop = now < 0 ? 0 : Math.max(0, (now + 0.5) * height - room / 2);
+      draw();
+    },
+  };
+}
