@@ -12,9 +12,10 @@ from .parts import (
     Toolbar,
 )
 from .studio import MassingView, Studio
-from .visible import FacadeView, TraceModel, TraceView, WordsView
+from .visible import AnalysisView, FacadeView, TraceModel, TraceView, WordsView
 
 __all__ = [
+    "AnalysisView",
     "CanvasEditor",
     "CounterEditor",
     "Draft",

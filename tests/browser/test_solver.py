@@ -44,7 +44,7 @@ def rows(page: Page, pattern: str) -> list[str]:
         section(page, pattern)
         .locator(".fnb-rows .fnb-word")
         .evaluate_all(
-            """rows => rows.map(row => [...row.children].filter(cell => !cell.classList.contains("fnb-scale"))
+            """rows => rows.map(row => [...row.querySelectorAll("[role=cell]:not(.fnb-scale)")]
             .map(cell => cell.innerText.trim().replaceAll("\\n", "")).join(" "))"""
         )
     )

@@ -184,10 +184,12 @@ def _pattern(design: Design, name: str) -> dict[str, Any]:
     }
 
 
-def _chosen(events: Sequence[Event], axis: str) -> dict[str, str]:
-    """The word of each pattern in the layout; empty where there is none."""
-    best = [e for e in events if isinstance(e, CandidateJudged) and e.axis == axis and e.fate == "best"]
-    return dict(best[0].words) if best else {}
+def _chosen(events: Sequence[Event], axis: str) -> dict[str, Any] | None:
+    """The candidate that became the layout: where that is told, its number, the word of each pattern."""
+    for at, e in enumerate(events):
+        if isinstance(e, CandidateJudged) and e.axis == axis and e.fate == "best":
+            return {"at": at, "number": e.number, "words": dict(e.words)}
+    return None
 
 
 def _hues(design: Design) -> dict[str, int]:

@@ -4,6 +4,7 @@ import "../styles/base.css";
 import "../styles/fields.css";
 import "../styles/solver.css";
 import "../styles/playbar.css";
+import "../styles/analysis.css";
 import "../styles/solver-views.css";
 import { h, mark } from "../dom.ts";
 import { alone, apology } from "../solver/frame.ts";

@@ -34,8 +34,8 @@ export interface TimelineData {
   patterns: PatternInfo[];
   /** A number for each symbol, by which every view colours it. */
   symbols: Record<string, number>;
-  /** The word of each pattern in the layout. */
-  chosen: Record<Axis, Record<string, string>>;
+  /** The candidate that became the layout: where that is told, its number, the word of each pattern. */
+  chosen: Record<Axis, { at: number; number: number; words: Record<string, string> } | null>;
   objective: Record<string, unknown>;
   search: string;
   seconds: number | null;

@@ -1,10 +1,12 @@
 // Every view by its name, which is the `part` of its widget; one line each.
 
 import type { ViewKind } from "../view.ts";
+import { analysis } from "./analysis.ts";
 import { facade } from "./facade.ts";
 import { words } from "./words.ts";
 
 export const VIEWS: Record<string, ViewKind> = {
+  analysis,
   facade,
   words,
 };

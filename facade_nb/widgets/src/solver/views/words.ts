@@ -134,7 +134,7 @@ class WordsView implements View {
     setText(this.note, this.told(axis, story, round, started));
     this.note.hidden = started;
     if (!round || !story.posed) {
-      for (const section of this.sections.values()) if (!section.is("")) section.show(null, 0, -1);
+      for (const section of this.sections.values()) if (!section.is("")) section.show(null, 0, -1, null);
       this.tuples.replaceChildren();
       return;
     }
@@ -147,17 +147,20 @@ class WordsView implements View {
     );
     this.judgeAt(axis, story.posed, round, mu);
     const stamp = `${this.judgedBy}|${this.quiz.stamp}`;
+    const chosen = this.context.timeline.data.chosen[axis];
     for (const [pattern, section] of this.sections) {
       const own = this.judged.get(pattern);
       const told = round.words.get(pattern) ?? [];
       const at = told.map((event) => event.at);
       const seen = started ? played(at, position) : 0;
       const now = told[seen - 1]?.at === position ? position : -1;
-      if (section.is(`${stamp}|${seen}|${now}`)) continue;
+      const taken = chosen && chosen.at <= position ? (chosen.words[pattern] ?? null) : null;
+      if (section.is(`${stamp}|${seen}|${now}|${taken}`)) continue;
       section.show(
         own ? { ...own, words: own.words.filter((word) => word.event.at <= position) } : null,
         told.length,
         now,
+        taken,
       );
     }
     this.showTuples(axis, position, round, stamp);
@@ -182,10 +185,10 @@ class WordsView implements View {
     const order = inOrder(story.posed?.groups ?? []);
     const canvas = story.posed?.canvas ?? timeline.data.canvas[axis];
     const most = canvas + Math.max(...story.rounds.map((round) => round.tolerance), 0);
+    const sizes = story.rounds.flatMap((round) => [...round.words.values()].flat().map((word) => word.size));
+    const longest = Math.max(most, Math.min(Math.max(0, ...sizes), LONGEST * most));
     for (const [n, name] of order.entries()) {
       const info = timeline.data.patterns.find((pattern) => pattern.name === name);
-      const sizes = story.rounds.flatMap((round) => (round.words.get(name) ?? []).map((word) => word.size));
-      const longest = Math.max(most, Math.min(Math.max(0, ...sizes), LONGEST * most));
       if (info) this.sections.set(name, new Section(n + 1, info, axis, canvas, longest, this.context, this.quiz));
     }
     this.el.replaceChildren(this.note, ...[...this.sections.values()].map((section) => section.el), this.tuples);
@@ -237,6 +240,7 @@ class Section {
   private readonly span: number;
   private shown: Judged | null = null;
   private now = -1;
+  private taken: string | null = null;
   private unsized: string[] = [];
   private columns = "";
   private by: string | null = null;
@@ -289,8 +293,9 @@ class Section {
     return same;
   }
 
-  show(own: Judged | null, told: number, now: number): void {
+  show(own: Judged | null, told: number, now: number, taken: string | null): void {
     this.shown = own;
+    this.taken = taken;
     this.now = now;
     this.unsized = [...new Set(own?.words.flatMap((word) => Object.keys(word.sizes)) ?? [])];
     this.head(own);
@@ -301,7 +306,7 @@ class Section {
   private head(own: Judged | null): void {
     const choices = !!own?.words.some((word) => word.event.choices.length);
     const names = [...this.info.counters, ...this.unsized.map((name) => `|${name}|`), ...(choices ? ["choice"] : [])];
-    this.columns = `${names.map(() => "minmax(26px, max-content)").join(" ")} minmax(64px, 132px) minmax(120px, 1fr) 52px minmax(96px, 118px)`;
+    this.columns = `${names.map((name) => (name === "choice" ? "64px" : "28px")).join(" ")} minmax(0, 1fr)`;
     this.table.style.setProperty("--fnb-columns", this.columns);
     const index = subscript(this.number);
     const scale = h(
@@ -311,8 +316,12 @@ class Section {
       ...this.ticks(),
     );
     this.ruler.replaceChildren(
-      ...names.map((name) => h("span", { role: "columnheader", class: "fnb-word-value" }, name)),
-      h("span", { role: "columnheader" }, "w", index),
+      h(
+        "div",
+        { class: "fnb-word-left", role: "presentation" },
+        ...names.map((name) => h("span", { role: "columnheader", class: "fnb-word-value" }, name)),
+        h("span", { role: "columnheader" }, "w", index),
+      ),
       scale,
       h("span", { role: "columnheader", class: "fnb-word-size" }, "|w", index.cloneNode(true), "|"),
       h("span", { role: "columnheader" }, this.quiz.hides ? "fits?" : ""),
@@ -374,18 +383,23 @@ class Section {
         class: "fnb-word",
         "data-reason": hides ? null : word.reason,
         "data-now": event.at === this.now,
+        "data-taken": !hides && event.word === this.taken,
         "data-verdict": state,
         tabindex: 0,
         ...linked([target.word(this.axis, event.pattern, event.word)], [target.pattern(event.pattern)]),
       },
-      ...values.map((value) => h("span", { role: "cell", class: "fnb-word-value" }, value)),
-      text,
+      h(
+        "div",
+        { class: "fnb-word-left", role: "presentation" },
+        ...values.map((value) => h("span", { role: "cell", class: "fnb-word-value" }, value)),
+        text,
+      ),
       drawing,
       h("span", { role: "cell", class: "fnb-word-size" }, formatNumber(word.size, 2) + (free(word) ? " +" : "")),
       h(
         "span",
         { role: "cell", class: "fnb-word-reason" },
-        this.quiz.on ? this.box(key, word) : reasonText(word),
+        this.quiz.on ? this.box(key, word) : reasonText(word, event.word === this.taken),
         why ? ` ${why}` : "",
       ),
     );
@@ -407,7 +421,7 @@ class Section {
     const open = letters.filter((a) => a.size === null && !(a.symbol in word.sizes)).length;
     const left = open ? Math.max(0, this.canvas - word.size) / open : 0;
     const { timeline } = this.context;
-    const chosen = timeline.data.chosen[this.axis][pattern] === word.event.word;
+    const chosen = timeline.data.chosen[this.axis]?.words[pattern] === word.event.word;
     let at = 0;
     return letters.map((letter, n) => {
       const start = at;
@@ -425,7 +439,8 @@ class Section {
 
 const free = (word: Candidate): boolean => word.event.letters.some((a) => a.size === null && !(a.symbol in word.sizes));
 
-function reasonText(word: Candidate): string {
+function reasonText(word: Candidate, taken: boolean): string {
+  if (taken && word.reason === "fits") return "✓ fits, taken";
   const by = word.missed ? ` by ${formatNumber(word.missed, 2)}` : "";
   return `${word.reason === "fits" ? "✓" : word.reason === "no partner" ? "–" : "✕"} ${word.reason}${by}`;
 }
