@@ -12,10 +12,11 @@ from .parts import (
     Toolbar,
 )
 from .studio import MassingView, Studio
-from .visible import AnalysisView, FacadeView, TraceModel, TraceView, WordsView
+from .visible import AnalysisView, CandidatesView, FacadeView, PlayerView, TraceModel, TraceView, WordsView
 
 __all__ = [
     "AnalysisView",
+    "CandidatesView",
     "CanvasEditor",
     "CounterEditor",
     "Draft",
@@ -26,6 +27,7 @@ __all__ = [
     "MassingView",
     "Part",
     "PatternEditor",
+    "PlayerView",
     "Selection",
     "Studio",
     "SymbolEditor",

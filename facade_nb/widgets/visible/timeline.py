@@ -32,7 +32,7 @@ from .captions import caption
 __all__ = ["STAGES", "Segment", "begun", "locate", "moment_of", "segments", "timeline"]
 
 STAGES = {
-    "analysis": "Pattern analysis",
+    "analysis": "Analysis",
     "words": "Words",
     "candidates": "Candidates",
     "alignment": "Alignment",

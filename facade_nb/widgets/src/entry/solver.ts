@@ -5,6 +5,8 @@ import "../styles/fields.css";
 import "../styles/solver.css";
 import "../styles/playbar.css";
 import "../styles/analysis.css";
+import "../styles/candidates.css";
+import "../styles/player.css";
 import "../styles/solver-views.css";
 import { h, mark } from "../dom.ts";
 import { alone, apology } from "../solver/frame.ts";
