@@ -12,7 +12,16 @@ from .parts import (
     Toolbar,
 )
 from .studio import MassingView, Studio
-from .visible import AnalysisView, CandidatesView, FacadeView, PlayerView, TraceModel, TraceView, WordsView
+from .visible import (
+    AnalysisView,
+    CandidatesView,
+    FacadeView,
+    PlayerView,
+    SolverView,
+    TraceModel,
+    TraceView,
+    WordsView,
+)
 
 __all__ = [
     "AnalysisView",
@@ -29,6 +38,7 @@ __all__ = [
     "PatternEditor",
     "PlayerView",
     "Selection",
+    "SolverView",
     "Studio",
     "SymbolEditor",
     "Toolbar",

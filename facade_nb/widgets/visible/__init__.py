@@ -4,8 +4,18 @@ from .analysis import AnalysisView
 from .candidates import CandidatesView
 from .facade import FacadeView
 from .model import TraceModel
+from .page import SolverView
 from .player import PlayerView
 from .view import TraceView
 from .words import WordsView
 
-__all__ = ["AnalysisView", "CandidatesView", "FacadeView", "PlayerView", "TraceModel", "TraceView", "WordsView"]
+__all__ = [
+    "AnalysisView",
+    "CandidatesView",
+    "FacadeView",
+    "PlayerView",
+    "SolverView",
+    "TraceModel",
+    "TraceView",
+    "WordsView",
+]

@@ -76,7 +76,11 @@ def _name(function: Callable[..., Any]) -> str:
 def _told(function: Callable[..., Any]) -> dict[str, Any]:
     lines, first = inspect.getsourcelines(function)
     module = function.__module__.replace(".", "/")
-    return {"file": f"{module}.py", "line": first, "tokens": _tokens(textwrap.dedent("".join(lines)).rstrip())}
+    return {
+        "file": f"{module}.py",
+        "line": first,
+        "tokens": _tokens(textwrap.dedent("".join(lines)).rstrip()),
+    }
 
 
 def _tokens(text: str) -> list[list[str]]:

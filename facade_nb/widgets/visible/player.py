@@ -49,4 +49,6 @@ class PlayerView(TraceView):
             )
             for own in segments(events)
         ]
-        return table(f"Stages of {self.model.name}", ("axis", "stage", "events", "time", "near its end"), rows)
+        return table(
+            f"Stages of {self.model.name}", ("axis", "stage", "events", "time", "near its end"), rows
+        )

@@ -6,10 +6,12 @@ import "../styles/solver.css";
 import "../styles/playbar.css";
 import "../styles/analysis.css";
 import "../styles/candidates.css";
+import "../styles/page.css";
 import "../styles/player.css";
 import "../styles/solver-views.css";
 import { h, mark } from "../dom.ts";
 import { alone, apology } from "../solver/frame.ts";
+import { page } from "../solver/page.ts";
 import { Session } from "../solver/session.ts";
 import { VIEWS } from "../solver/views/index.ts";
 import { adoptStyle, watchTheme } from "../theme.ts";
@@ -20,7 +22,7 @@ export function mount({ el, model, channel }: Mount): () => void {
   adoptStyle(channel.get<string>("css"));
   const part = model.get<string>("part");
   const kind = VIEWS[part];
-  if (!kind) throw new Error(`facade_nb: no view named ${part}`);
+  if (!kind && part !== "solver") throw new Error(`facade_nb: no view named ${part}`);
   const session = Session.of(channel);
   const root = h("div", { class: `fnb fnb-solver fnb-part-${part}` });
   // The keys of a widget are its own: in command mode JupyterLab would read them as commands on cells.
@@ -34,7 +36,9 @@ export function mount({ el, model, channel }: Mount): () => void {
     const own = new AbortController();
     shown = own;
     try {
-      const made = await alone(kind, session, model, await session.load(), own.signal);
+      const loaded = await session.load();
+      const make = kind ? alone(kind, session, model, loaded, own.signal) : page(session, model, loaded, own.signal);
+      const made = await make;
       if (!own.signal.aborted) root.replaceChildren(made);
     } catch (error) {
       if (!own.signal.aborted) root.replaceChildren(apology(error));
