@@ -6,6 +6,7 @@ from .facade import FacadeView
 from .model import TraceModel
 from .page import SolverView
 from .player import PlayerView
+from .qualifiers import QualifiersView
 from .view import TraceView
 from .words import WordsView
 
@@ -14,6 +15,7 @@ __all__ = [
     "CandidatesView",
     "FacadeView",
     "PlayerView",
+    "QualifiersView",
     "SolverView",
     "TraceModel",
     "TraceView",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from traitlets import Bool, List, Unicode
+from traitlets import Bool, Int, List, Unicode
 
 from ...design import DesignError
 from ..parts import picture
@@ -27,6 +27,8 @@ class SolverView(TraceView):
         ``candidates``, and the others of docs/visible.md.
     follow
         Whether the view of the stage that is played is shown beside them.
+    height
+        Height of the columns in pixels; what is longer scrolls within them.
     code
         Whether the events begin with the code of what is played.
     """
@@ -36,6 +38,7 @@ class SolverView(TraceView):
 
     views = List(Unicode(), ["facade", "player"]).tag(sync=True)
     follow = Bool(True).tag(sync=True)
+    height = Int(820).tag(sync=True)
     code = Bool(False).tag(sync=True)
 
     @property

@@ -115,10 +115,23 @@ export async function page(
     }
     for (const column of columns) column.hidden = [...column.children].every((slot) => (slot as HTMLElement).hidden);
   };
+  /** Have what is spoken of in sight, within its column: a step must not move the notebook. */
+  const reveal = () => {
+    for (const column of columns) {
+      const now = [...column.querySelectorAll<HTMLElement>("[data-now]")].find((each) => each.checkVisibility?.());
+      if (!now || column.scrollHeight <= column.clientHeight) continue;
+      const [outer, inner] = [column.getBoundingClientRect(), now.getBoundingClientRect()];
+      if (inner.top < outer.top) column.scrollTop -= outer.top - inner.top + 40;
+      else if (inner.bottom > outer.bottom) column.scrollTop += inner.bottom - outer.bottom + 40;
+    }
+  };
   player.watch(show, signal);
+  // After the frame in which the views have drawn the moment.
+  player.watch(() => requestAnimationFrame(() => requestAnimationFrame(reveal)), signal);
   show();
   await Promise.allSettled(made.values());
-  return h(
+  const height = () => el.style.setProperty("--fnb-height", `${model.get<number>("height")}px`);
+  const el = h(
     "div",
     { class: "fnb-page" },
     h("div", { class: "fnb-page-top" }, playbar(session, player, signal)),
@@ -130,4 +143,8 @@ export async function page(
     ),
     h("div", { class: "fnb-page-columns" }, ...columns),
   );
+  height();
+  model.on("change:height", height);
+  signal.addEventListener("abort", () => model.off("change:height", height));
+  return el;
 }
