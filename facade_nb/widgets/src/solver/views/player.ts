@@ -41,7 +41,12 @@ class PlayerView implements View {
     const { text } = context.pieces.captions as Captions;
     this.positions = text.map((_, at) => at);
     this.list = rows<number>(
-      { height: HEIGHT, most: MOST, make: (at) => this.row(at, text[at] ?? "") },
+      {
+        height: HEIGHT,
+        most: MOST,
+        key: (at) => `${at} ${Math.sign(at - this.now)}`,
+        make: (at) => this.row(at, text[at] ?? ""),
+      },
       context.signal,
     );
     this.code.append(this.title, this.text);
