@@ -64,8 +64,8 @@ STEP = """(name) => new Promise((resolve) => {
 
 def main() -> None:
     """Print the table."""
-    head = f"{'ms':20} {'events':>7} {'empty':>7} {'paint':>7} {'p95':>7} {'ratio':>7} {'work':>7} {'p95':>7} {'most':>7}"
-    print(f"{head}   goals: ratio 1.6, work 16")
+    head = ("events", "empty", "paint", "p95", "ratio", "work", "p95", "most")
+    print(f"{'ms':20} {' '.join(f'{name:>7}' for name in head)}   goals: ratio 1.6, work 16")
     for name in gallery.names():
         print_design(name)
 
@@ -111,7 +111,13 @@ def print_design(name: str) -> None:
 def page_views() -> list[str]:
     """The views that a page can keep, by their names."""
     source = (
-        Path(__file__).resolve().parents[2] / "facade_nb" / "widgets" / "src" / "solver" / "views" / "index.ts"
+        Path(__file__).resolve().parents[2]
+        / "facade_nb"
+        / "widgets"
+        / "src"
+        / "solver"
+        / "views"
+        / "index.ts"
     )
     text = source.read_text(encoding="utf-8")
     return [line.strip(" ,") for line in text.split("= {")[1].split("}")[0].splitlines() if line.strip(" ,")]

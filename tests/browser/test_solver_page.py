@@ -203,11 +203,11 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
 
 def test_running_the_cell_again_leaves_nothing_behind(watch: Watch) -> None:
     lab: Notebook = watch("view = SolverView(traced('figure-7')); view")
+    shown = lab.page.locator(".fnb-view").first
     for _ in range(4):
+        shown.evaluate("e => { e.dataset.old = 'true'; }")
         lab.run()
-        expect(lab.page.locator(".fnb-view").first).to_be_visible()
-    lab.expect_python(
-        """sum(len(w.module) > 0 for w in __import__('ipywidgets').Widget.widgets.values()
-            if type(w).__name__ == 'TraceChannel')""",
-        1,
-    )
+        expect(lab.page.locator(".fnb-view:not([data-old])").first).to_be_visible()
+    widgets = "__import__('ipywidgets').Widget.widgets.values()"
+    lab.expect_python(f"sum(len(w.timeline) > 0 for w in {widgets} if type(w).__name__ == 'TraceChannel')", 1)
+    lab.expect_python(f"sum(type(w).__name__ == 'Code' and w._front == 'solver' for w in {widgets})", 1)

@@ -249,10 +249,9 @@ class TestChannel:
         channel._handle_custom_msg({"op": "view", "client": "one", "here": True}, [])
         channel._handle_custom_msg({"op": "view", "client": "one", "here": False}, [])
         assert channel.words == channel.timeline == b""
-        assert channel.module == ""
         channel._handle_custom_msg({"op": "view", "client": "two", "here": True}, [])
         assert unpack(channel.words)["events"]
-        assert channel.module
+        assert channel.front_end.module
 
     def test_the_page_and_python_agree_on_the_moment(self, trace: Trace) -> None:
         view = WordsView(trace)
