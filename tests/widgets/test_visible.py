@@ -352,30 +352,30 @@ class TestQualifiers:
         view = QualifiersView()
         path = ["symbols", "D", "unoccludable"]
         view.channel._handle_custom_msg({"op": "set", "case": 0, "path": path, "value": True}, [])
-        assert view.channel.cases[0]["told"] == "P covers B."
-        assert view.channel.cases[0]["changed"]
-        assert not view.channel.cases[1]["changed"]
+        assert unpack(view.channel.cases)[0]["told"] == "P covers B."
+        assert unpack(view.channel.cases)[0]["changed"]
+        assert not unpack(view.channel.cases)[1]["changed"]
         view.channel._handle_custom_msg({"op": "reset", "case": 0}, [])
-        assert view.channel.cases[0]["told"] == "P covers D."
+        assert unpack(view.channel.cases)[0]["told"] == "P covers D."
 
     def test_a_case_without_a_layout_says_why(self) -> None:
         view = QualifiersView()
         view.channel._handle_custom_msg(
             {"op": "set", "case": 1, "path": ["canvas", "width"], "value": "0.5"}, []
         )
-        case = view.channel.cases[1]
+        case = unpack(view.channel.cases)[1]
         assert case["message"] == view.models[1].message != ""
         assert case["letters"] == []
         assert view.frame.told[1] == case["message"]
 
     def test_own_designs_can_be_compared(self) -> None:
         view = QualifiersView([gallery.load("qualifiers-a"), gallery.load("qualifiers-c")])
-        assert len(view.channel.cases) == 2
+        assert len(unpack(view.channel.cases)) == 2
         assert view.to_html().count("<img ") == 2
 
     def test_letters_stand_where_the_facade_has_them(self) -> None:
         view = QualifiersView()
-        for case, model in zip(view.channel.cases, view.models, strict=True):
+        for case, model in zip(unpack(view.channel.cases), view.models, strict=True):
             posts = [own["start"] for own in case["letters"] if own["symbol"] == "P"]
             shapes = [shape.rect[0] for shape in model.layout.shapes if shape.x == "P"]
             assert posts == pytest.approx(shapes)

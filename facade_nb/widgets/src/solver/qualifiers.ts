@@ -9,6 +9,7 @@ import { themeOf } from "../theme.ts";
 import type { WidgetModel } from "../types.ts";
 import { hueOf } from "./letters.ts";
 import { Links, linked, target } from "./links.ts";
+import { type Bytes, byteLength, unpack } from "./packing.ts";
 
 interface SymbolCase {
   name: string;
@@ -64,8 +65,16 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
   const ask = (message: Record<string, unknown>) => {
     if (live) channel.send({ ...message, client });
   };
+  let cases: Case[] = [];
+  const load = async () => {
+    const bytes = channel.get<Bytes>("cases");
+    if (!byteLength(bytes)) return; // put away: they come when Python has heard of this view
+    const told = await unpack<Case[]>(bytes);
+    if (signal.aborted || bytes !== channel.get<Bytes>("cases")) return; // newer ones have come
+    cases = told;
+    show();
+  };
   const show = () => {
-    const cases = channel.get<Case[]>("cases");
     setText(trouble, channel.get<string>("trouble").trim().split("\n").at(-1) ?? "");
     while (cards.length < cases.length) {
       const card = new Card(cards.length, ask);
@@ -75,7 +84,7 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
     for (const [n, one] of cases.entries()) cards[n]?.show(one);
     links.apply(el);
   };
-  channel.on("change:cases", show);
+  channel.on("change:cases", load);
   channel.on("change:trouble", show);
   const dress = new MutationObserver(() => requestAnimationFrame(show));
   dress.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
@@ -84,12 +93,12 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
   links.watch(() => links.apply(el), signal);
   if (live) channel.send({ op: "view", client, here: true });
   signal.addEventListener("abort", () => {
-    channel.off("change:cases", show);
+    channel.off("change:cases", load);
     channel.off("change:trouble", show);
     dress.disconnect();
     if (live) channel.send({ op: "view", client, here: false });
   });
-  show();
+  void load();
   return el;
 }
 

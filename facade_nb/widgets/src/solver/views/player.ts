@@ -84,8 +84,12 @@ class PlayerView implements View {
   private async load(): Promise<void> {
     if (this.data || this.code.hidden) return;
     setText(this.title, "Loading…");
-    this.data = await this.context.session.piece<CodeData>("code");
-    if (!this.context.signal.aborted) this.context.refresh();
+    try {
+      this.data = await this.context.session.piece<CodeData>("code");
+      if (!this.context.signal.aborted) this.context.refresh();
+    } catch (error) {
+      setText(this.title, error instanceof Error ? error.message : String(error));
+    }
   }
 
   private showCode(position: number): void {
