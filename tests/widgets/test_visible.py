@@ -7,6 +7,7 @@ import re
 import struct
 import zlib
 from base64 import b64decode
+from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
@@ -393,3 +394,22 @@ class TestTables:
         )
         bad = TRACES["contradiction"]().analysis()
         assert "no whole numbers" in bad.inconsistent[0]
+
+
+def test_the_example_of_the_docs_runs() -> None:
+    page = Path(__file__).resolve().parents[2] / "docs" / "visible.md"
+    [example] = re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.S)
+    names: dict[str, Any] = {}
+    exec(compile(example, str(page), "exec"), names)
+    assert names["words"].model.moment == "x/words+3"
+    assert names["words"].step == 1.0
+
+
+def test_the_docs_name_every_view_and_every_target() -> None:
+    root = Path(__file__).resolve().parents[2]
+    page = (root / "docs" / "visible.md").read_text("utf-8")
+    assert [cls.__name__ for cls in (*VIEWS, QualifiersView) if f"`{cls.__name__}`" not in page] == []
+    links = (root / "facade_nb" / "widgets" / "src" / "solver" / "links.ts").read_text("utf-8")
+    kinds = re.findall(r'key\("([a-z]+)"', links)
+    assert len(kinds) > 10
+    assert [kind for kind in kinds if f"`{kind}:" not in page] == []

@@ -182,11 +182,7 @@ class Card {
 
   private toggle(symbol: string, name: IconName & (typeof QUALIFIERS)[number][0]): HTMLButtonElement {
     const label = `${symbol} is ${name}, case ${letterOf(this.number)}`;
-    const button = h(
-      "button",
-      { type: "button", class: "fnb-toggle", "aria-label": label, title: label },
-      icon(name) as never,
-    );
+    const button = h("button", { type: "button", class: "fnb-toggle", "aria-label": label, title: label }, icon(name));
     button.addEventListener("click", () => {
       const value = button.getAttribute("aria-pressed") !== "true";
       this.ask({ op: "set", case: this.number, path: ["symbols", symbol, name], value });
@@ -229,7 +225,7 @@ class Card {
       for (const [name, value] of Object.entries(linked([target.symbol(shape.dataset.x ?? "")])))
         mark(shape, name, value);
     picture.append(over);
-    this.drawing.replaceChildren(picture as never);
+    this.drawing.replaceChildren(picture);
   }
 
   private letter(one: Case, own: Case["letters"][number], x: number, y: number, width: number): SVGGElement {

@@ -60,7 +60,7 @@ class PlayerView implements View {
         "aria-pressed": "false",
         title: "Show the code of what is played",
       },
-      icon("code") as never,
+      icon("code"),
       h("span", {}, "Code"),
     );
     toggle.addEventListener("click", () => {
