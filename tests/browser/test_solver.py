@@ -146,10 +146,10 @@ def test_scrubbing_moves_all_views(watch: Watch) -> None:
     page.mouse.move(box["x"] + 3, box["y"] + 8)
     page.mouse.down()
     expect(page.locator(".fnb-traced-note")).to_have_text("Nothing is placed yet")
-    assert page.locator(".fnb-traced [data-shape]:not([visibility=hidden])").count() == 0
+    assert page.locator(".fnb-traced [data-shape]:not([data-later])").count() == 0
     page.mouse.move(merging["x"] + merging["width"] / 5, box["y"] + 8, steps=5)
     page.mouse.up()
-    drawn = page.locator(".fnb-traced [data-shape]:not([visibility=hidden])").count()
+    drawn = page.locator(".fnb-traced [data-shape]:not([data-later])").count()
     assert 0 < drawn < 17
     expect(page.locator(".fnb-traced-note")).to_have_text(f"{drawn} of 17 shapes")
 

@@ -5,6 +5,7 @@ import { h, mark, setText, svg } from "../dom.ts";
 import { parseDrawing } from "../drawing.ts";
 import { formatNumber } from "../fields.ts";
 import { type IconName, icon } from "../icons.ts";
+import { announce } from "../presence.ts";
 import { themeOf } from "../theme.ts";
 import type { WidgetModel } from "../types.ts";
 import { hueOf } from "./letters.ts";
@@ -91,12 +92,11 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
   requestAnimationFrame(show); // in the page it has a theme
   links.listen(el, signal);
   links.watch(() => links.apply(el), signal);
-  if (live) channel.send({ op: "view", client, here: true });
+  announce(channel, client, signal);
   signal.addEventListener("abort", () => {
     channel.off("change:cases", load);
     channel.off("change:trouble", show);
     dress.disconnect();
-    if (live) channel.send({ op: "view", client, here: false });
   });
   void load();
   return el;
