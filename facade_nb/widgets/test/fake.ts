@@ -61,7 +61,7 @@ export function fakeState(): State {
       stale: false,
       message: "",
       blame: { patterns: [], symbols: [], counters: [] },
-    suggestions: [],
+      suggestions: [],
       canUndo: false,
       canRedo: false,
       milliseconds: 3,
