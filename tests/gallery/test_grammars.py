@@ -96,6 +96,7 @@ def test_the_shader_draws_what_numpy_does(name: str) -> None:
         points,
         np.tile(np.float32([0.3, 0.15, -1]), (len(points), 1)),
         np.full(len(points), 0.01, np.float32),
+        0.002,
         np.ones(len(points), bool),
     )
     question = grammar.question((17.0, 16.5), (3.7, 1.3))
