@@ -66,7 +66,7 @@ class View:
     def take(self, grammar: Grammar, samples: int) -> NDArray[np.uint8]:
         """The picture, (h, w, 3) uint8."""
         if self.hour is None:
-            return flat(grammar, self.size, self.pixels, seed=self.seed, start=self.start, samples=samples)
+            return flat(grammar, self.size, self.pixels, seed=self.seed, start=self.start)
         facades = (
             street(grammar, self.seed)
             if self.street
