@@ -32,13 +32,19 @@ _PLACES = 160
 _ELEMENTS = 300_000
 """With more elements than this between places, wide columns are not looked at to begin with."""
 _SWEEPS = 12
+_LETTERS = 60
+"""Words of more letters take too long: there are as many ways to lay one as the cube of its length."""
 
 
 def can_sweep(groups: Sequence[Group]) -> bool:
-    """Whether there is one group, of several words without transparent letters, and an objective of more than Ω."""
+    """Whether there is one group, of several words without transparent letters and not too long.
+
+    And an objective of more than Ω.
+    """
     return (
         len(groups) == 1
         and len(groups[0].bands) > 1
+        and max(len(band.letters) for band in groups[0].bands) <= _LETTERS
         and not groups[0].objective.plain
         and not any(letter.transparent for band in groups[0].bands for letter in band.letters)
     )

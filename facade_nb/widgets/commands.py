@@ -14,6 +14,7 @@ from ..design.edit import (
     add_layer,
     remove_layer,
     rename_pattern,
+    take,
     with_layer,
     with_pattern,
     with_symbol,
@@ -32,6 +33,16 @@ Reply = dict[str, Any] | None
 
 def _set(model: FacadeModel, message: Message) -> Reply:
     model.enter(tuple(message["path"]), message["value"])
+    return None
+
+
+def _take(model: FacadeModel, message: Message) -> Reply:
+    """Make a change that was suggested, if it still is."""
+    suggested = model.blame.suggestions if model.blame is not None else ()
+    for suggestion in suggested:
+        if suggestion.text == message["text"]:
+            model.edit(take(model.design, suggestion))
+            break
     return None
 
 
@@ -162,6 +173,7 @@ def _file_name(name: str) -> str:
 
 COMMANDS: dict[str, Callable[[FacadeModel, Message], Reply]] = {
     "set": _set,
+    "take": _take,
     "discard": _discard,
     "undo": _undo,
     "redo": _redo,

@@ -65,6 +65,28 @@ def test_a_fault_is_sent_without_the_picture() -> None:
     assert update["status"]["stale"]
 
 
+def test_what_would_help_is_offered_and_done() -> None:
+    line = Line()
+    line.set("symbols/A/size", 9)
+    status = line.updates[-1]["status"]
+    assert status["message"] and status["suggestions"]
+    (text, *_) = status["suggestions"]
+    assert text in status["message"]
+    line.ask("take", text=text)
+    assert line.updates[-1]["status"]["suggestions"] == []
+    assert line.updates[-1]["status"]["message"] == ""
+    assert line.model.layout is not None and not line.model.stale
+    line.ask("undo")
+    assert line.updates[-1]["status"]["message"]
+
+
+def test_what_is_no_longer_suggested_changes_nothing() -> None:
+    line = Line()
+    before = line.model.design
+    line.ask("take", text="a width of 1 km")
+    assert line.model.design == before
+
+
 def test_a_slow_solve_does_not_keep_the_fields_waiting() -> None:
     gate = threading.Event()
 

@@ -77,6 +77,7 @@ export interface StatusState {
   stale: boolean;
   message: string;
   blame: { patterns: string[]; symbols: string[]; counters: string[] };
+  suggestions: string[];
   canUndo: boolean;
   canRedo: boolean;
   milliseconds: number;
