@@ -72,7 +72,15 @@ class GlPainter:
         """What draws, as the driver calls it."""
         return str(self._context.info["GL_RENDERER"])
 
-    def paint(self, question: Question, sight: Sight, *, mips: bool = False, count: bool = False) -> Shot:
+    def paint(
+        self,
+        question: Question,
+        sight: Sight,
+        *,
+        mips: bool = False,
+        color_only: bool = False,
+        count: bool = False,
+    ) -> Shot:
         """Every pixel of a view at its centre; with `count`, how many texels each has read."""
         width, height = sight.pixels
         left, bottom, right, top = (np.float32(v) for v in sight.window)
@@ -85,11 +93,19 @@ class GlPainter:
             "across": sight.right,
             "forward": sight.ahead,
         }
-        defines = (*(("MIPS", "EDGES") if mips else ()), *(("COUNT_FETCHES",) if count else ()))
+        defines = _defines(mips, color_only, count)
         with self._drawn(question, "sight.frag", defines, (width, height), given, {}) as images:
             return _shot(question, [image.read() for image in images], (width, height), count, flip=True)
 
-    def paint_at(self, question: Question, looks: Looks, *, mips: bool = False, count: bool = False) -> Shot:
+    def paint_at(
+        self,
+        question: Question,
+        looks: Looks,
+        *,
+        mips: bool = False,
+        color_only: bool = False,
+        count: bool = False,
+    ) -> Shot:
         """Points with their rays; with `count`, how many texels each has read."""
         inside = np.flatnonzero(looks.inside)
         number = len(inside)
@@ -100,7 +116,7 @@ class GlPainter:
         points[:number, 2] = looks.footprint[inside] if mips else 0
         rays[:number, :3] = (0, 0, -1) if looks.rays is None else looks.rays[inside]
         given = {"points": points.tobytes(), "rays": rays.tobytes()}
-        defines = (*(("MIPS", "EDGES") if mips else ()), *(("COUNT_FETCHES",) if count else ()))
+        defines = _defines(mips, color_only, count)
         with self._drawn(question, "points.frag", defines, size, {"spread": looks.spread}, given) as images:
             shot = _shot(question, [image.read() for image in images], size, count, flip=False)
         return spread(shot.first(number), looks.inside)
@@ -160,6 +176,11 @@ class GlPainter:
     @cached_property
     def _context(self) -> Any:
         return self._make()
+
+
+def _defines(mips: bool, color_only: bool, count: bool) -> tuple[str, ...]:
+    wanted = {"MIPS": mips, "EDGES": mips, "COLOR_ONLY": color_only, "COUNT_FETCHES": count}
+    return tuple(name for name, on in wanted.items() if on)
 
 
 def _textures(question: Question) -> Iterator[tuple[str, tuple[int, int], int, str, bytes]]:
