@@ -133,7 +133,7 @@ def rules_seen(
     """(h, w) int32, row 0 at the top: the topmost terminal rule that gave colour at each pixel's centre; -1: none."""
     sight = _sight(size, pixels, camera)
     question = grammar.question(size, seed, start, tiles)
-    rule = choose_painter(backend).paint(question, sight).surface.rule
+    rule = choose_painter(backend).paint(question, sight, color_only=True).surface.rule
     return rule.reshape(sight.pixels[1], sight.pixels[0])
 
 
