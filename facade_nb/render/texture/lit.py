@@ -46,11 +46,15 @@ class Lit:
         """That of the painter."""
         return self.painter.available
 
-    def paint(self, question: Question, sight: Sight, *, mips: bool = False) -> Shot:
-        """As `Painter.paint`."""
+    def paint(
+        self, question: Question, sight: Sight, *, mips: bool = False, color_only: bool = False
+    ) -> Shot:
+        """As `Painter.paint`; normal and specular are always read, since light needs them."""
         return self._lit(self.painter.paint(question, sight, mips=mips), sight.looks())
 
-    def paint_at(self, question: Question, looks: Looks, *, mips: bool = False) -> Shot:
+    def paint_at(
+        self, question: Question, looks: Looks, *, mips: bool = False, color_only: bool = False
+    ) -> Shot:
         """As `Painter.paint_at`."""
         return self._lit(self.painter.paint_at(question, looks, mips=mips), looks)
 
