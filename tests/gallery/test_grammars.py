@@ -9,8 +9,12 @@ import numpy as np
 import pytest
 
 from facade_nb import DesignError, gallery
+from facade_nb.cli import main
 from facade_nb.render.texture import Grammar, decode
 from facade_nb.render.texture.exhibits import EXHIBITS
+from facade_nb.render.texture.painters import choose_painter
+from facade_nb.render.texture.view import Looks
+from facade_nb.render.tiles import TileSet
 from tests.render.texture.figure_12 import FIGURE_12
 
 NAMES = gallery.grammars()
@@ -71,6 +75,35 @@ def test_a_grammar_covers_its_facade(name: str) -> None:
         assert surface.color[:, 3].min() > 0.99
         assert (surface.rule >= 0).all()
         assert np.isfinite(np.concatenate([surface.color, surface.normal, surface.specular])).all()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_grammar_runs_on_the_command_line(name: str, tmp_path: Path) -> None:
+    file, picture, rules = tmp_path / "g.txt", tmp_path / "g.png", tmp_path / "r.npy"
+    file.write_text(gallery.grammar(name), "utf-8")
+    words = f"render {file} --size 12x13.5 --pixels 48x54 --seed 3.7,1.3 --backend cpu --out {picture} --rules {rules}"
+    assert main(words.split()) == 0
+    assert picture.read_bytes()[:4] == b"\x89PNG"
+    assert np.load(rules).shape == (54, 48)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_shader_draws_what_numpy_does(name: str) -> None:
+    """In software GL, slantwise: only pixels within 1e-4 m of a boundary may differ, and so few are hardly met."""
+    grammar = Grammar.parse(gallery.grammar(name), TileSet.builtin(64))
+    points = (np.random.default_rng(8).uniform(0, 1, (20_000, 2)) * (17.0, 16.5)).astype(np.float32)
+    looks = Looks(
+        points,
+        np.tile(np.float32([0.3, 0.15, -1]), (len(points), 1)),
+        np.full(len(points), 0.01, np.float32),
+        0.002,
+        np.ones(len(points), bool),
+    )
+    question = grammar.question((17.0, 16.5), (3.7, 1.3))
+    here, there = (choose_painter(k).paint_at(question, looks, mips=True).surface for k in ("cpu", "osmesa"))
+    differing = (here.rule != there.rule) | (np.abs(here.color - there.color).max(axis=1) > 1e-3)
+    print(f"{name}: {differing.mean():.3%} of pixels differ")
+    assert differing.mean() < 5e-4
 
 
 def test_another_seed_makes_another_facade_where_there_is_chance() -> None:

@@ -46,10 +46,10 @@ def smoothed(
         known = ", ".join(ANTIALIAS)
         raise ValueError(f"antialias: expected one of {known}; found {how!r}{nearest(how, ANTIALIAS)}")
     if how == "none":
-        return painter.paint(question, sight).surface.color
+        return painter.paint(question, sight, color_only=True).surface.color
     if how == "supersample":
         return _mean(painter, question, sight, None)
-    shot = painter.paint(question, sight, mips=True)
+    shot = painter.paint(question, sight, mips=True, color_only=True)
     color = shot.surface.color.copy()
     chosen = np.flatnonzero((shot.margin < _REACH) | _outline(sight))
     if len(chosen):
@@ -79,7 +79,8 @@ def _mean(
     """Means of 16 samples in each pixel; each reads tiles in the size that fits a sixteenth of it."""
     total: NDArray[np.float32] | None = None
     for place in _PLACES:
-        color = painter.paint_at(question, _finer(sight.looks(chosen, place)), mips=True).surface.color
+        looks = _finer(sight.looks(chosen, place))
+        color = painter.paint_at(question, looks, mips=True, color_only=True).surface.color
         total = color if total is None else total + color
     assert total is not None
     return total * np.float32(1 / len(_PLACES))

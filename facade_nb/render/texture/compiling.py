@@ -446,10 +446,10 @@ class _Compiler:
     def _rule(self, name: str, rule: RuleText, scope: _Scope) -> tuple[Rule | None, Places | None]:
         operator = OPERATORS.get(rule.operator)
         if operator is None:
-            self.fault(
-                rule.operator_offset,
-                f"there is no operator {rule.operator!r}{nearest(rule.operator, OPERATORS)}",
-            )
+            hint = nearest(rule.operator, OPERATORS)
+            if rule.operator in {**self.spaces[scope.space].rules, **self.spaces[""].rules}:
+                hint = f"; {rule.operator!r} is a rule: write Layer({rule.operator}) to go on with it alone"
+            self.fault(rule.operator_offset, f"there is no operator {rule.operator!r}{hint}")
             for argument in rule.arguments:  # so that faults in it are found as well
                 if isinstance(argument, Name) and argument.text not in (*POLICIES, *USAGES):
                     self._value(argument, scope)

@@ -104,6 +104,7 @@ def evaluate(
     spread: float = 0.0,
     steps: list[Step] | None = None,
     margin: Floats | None = None,
+    color_only: bool = False,
 ) -> Surface:
     """The surface at points of a façade.
 
@@ -121,11 +122,13 @@ def evaluate(
         Gathers the derivation, of a single point.
     margin
         (n,) is filled with how near each point came to a boundary, in footprints as seen along the ray.
+    color_only
+        Passes over normals and specular values.
     """
     count = len(points)
     color, normal, specular = (np.zeros((count, 4), np.float32) for _ in range(3))
     surface = Surface(color, normal, specular, np.full(count, -1, np.int32))
-    run = _Run(question, surface, footprint is not None, spread, steps, margin)
+    run = _Run(question, surface, footprint is not None, spread, steps, margin, color_only)
     if margin is not None:
         margin[:] = _FAR
     zero, (width, height) = np.zeros(1, np.float32), (np.full(1, v, np.float32) for v in question.size)
@@ -155,7 +158,9 @@ class _Run:
         spread: float,
         steps: list[Step] | None,
         margin: Floats | None,
+        color_only: bool,
     ) -> None:
+        self.color_only = color_only
         self.question, self.surface, self.steps, self.margin = question, surface, steps, margin
         self.sized, self.spread = sized, np.float32(spread)
         self.passing = np.zeros(len(surface.rule), np.int32)  # layers that a point still has to pass over
@@ -415,13 +420,16 @@ class _Run:
     def _material(self, rule: int, record: Record, batch: Batch) -> None:
         """Mat and MatAlpha: add a value where what lies above has left room (Eq. 2, 3)."""
         head = record.head
+        usage = int(head["u"])
+        if self.color_only and usage != 1:
+            self.passing[batch.index] = 0
+            return
         value = self._value(head, "m", batch)
         alpha = value[:, 3]
         if "a1" in head:
             factor = self._value(head, "a", batch)
             tile = abs(int(head["a1"]))
             alpha = alpha * (self.question.atlas.mask(tile, factor) if tile else factor[:, 3])
-        usage = int(head["u"])
         if usage == 2:
             value = _turned(value, batch.faces)
         total = self.sums[usage - 1]

@@ -116,7 +116,8 @@ class _Writer:
                 for s, rule in zip(self.layout.shapes, rules, strict=True)
                 if s.layer == name and rule
             ]
-            layers += self._layer(name, own)
+            for flat in _stacks(own):
+                layers += self._layer(name, flat)
         width, height = self.layout.canvas.width, self.layout.canvas.height
         title = re.sub(r"\s+", " ", self.layout.name) or "a layout"
         start = f"S -> Layer({', '.join(map(self._told, layers))})" if layers else "S -> Skip(0)"
@@ -251,8 +252,26 @@ class _Writer:
 # Intervals --------------------------------------------------------------------------------------------------
 
 
+def _stacks(shapes: Sequence[tuple[PlacedShape, str]]) -> list[list[tuple[PlacedShape, str]]]:
+    """Shapes in lists of which none covers another, in the order in which they are painted.
+
+    The shapes of a solved layer do not overlap; those of a layout that was made otherwise may.
+    """
+    stacks: list[list[tuple[PlacedShape, str]]] = [[]]
+    for shape, rule in shapes:
+        if any(_overlap(shape, other) for other, _ in stacks[-1]):
+            stacks.append([])
+        stacks[-1].append((shape, rule))
+    return stacks
+
+
+def _overlap(one: PlacedShape, other: PlacedShape) -> bool:
+    a, b = one.rect, other.rect
+    return min(a[2], b[2]) - max(a[0], b[0]) > _NOTHING and min(a[3], b[3]) - max(a[1], b[1]) > _NOTHING
+
+
 def _lanes(pieces: Sequence[_Piece]) -> list[list[_Piece]]:
-    """Pieces in as few lists as possible, none of which overlap; in the order given where they do."""
+    """Pieces in as few lists as possible, of which no two overlap, each in order."""
     lanes: list[list[_Piece]] = []
     for piece in sorted(pieces, key=lambda p: (p.low, p.high)):
         for lane in lanes:

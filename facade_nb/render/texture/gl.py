@@ -9,7 +9,7 @@ import ctypes
 import ctypes.util
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import cached_property
 from typing import Any
@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .evaluating import Question, Surface
-from .noise import noise_texture
 from .osmesa import OSMesaContext, find_osmesa
 from .shaders import room, shader
 from .shot import Shot, spread
+from .uploads import Upload, sight_uniforms, uniforms, uploads
 from .view import Looks, Sight
 
 __all__ = ["EGL", "OSMESA", "GlPainter"]
@@ -72,37 +72,45 @@ class GlPainter:
         """What draws, as the driver calls it."""
         return str(self._context.info["GL_RENDERER"])
 
-    def paint(self, question: Question, sight: Sight, *, mips: bool = False, count: bool = False) -> Shot:
+    def paint(
+        self,
+        question: Question,
+        sight: Sight,
+        *,
+        mips: bool = False,
+        color_only: bool = False,
+        count: bool = False,
+    ) -> Shot:
         """Every pixel of a view at its centre; with `count`, how many texels each has read."""
-        width, height = sight.pixels
-        left, bottom, right, top = (np.float32(v) for v in sight.window)
-        step_x, step_y = (right - left) / np.float32(width), (top - bottom) / np.float32(height)
-        given = {
-            "window": (left, bottom, step_x, step_y),
-            "pixel_shift": (0.5, 0.5),
-            "eye": (*(sight.eye or (0.0, 0.0, 0.0)), float(sight.eye is not None)),
-            "spread": 0.0 if sight.eye is None else min(float(step_x), float(step_y)),
-            "across": sight.right,
-            "forward": sight.ahead,
-        }
-        defines = (*(("MIPS", "EDGES") if mips else ()), *(("COUNT_FETCHES",) if count else ()))
-        with self._drawn(question, "sight.frag", defines, (width, height), given, {}) as images:
-            return _shot(question, [image.read() for image in images], (width, height), count, flip=True)
+        defines = _defines(mips, color_only, count)
+        with self._drawn(question, "sight.frag", defines, sight.pixels, sight_uniforms(sight), ()) as images:
+            return _shot(question, _read(images, color_only), sight.pixels, count, flip=True)
 
-    def paint_at(self, question: Question, looks: Looks, *, mips: bool = False, count: bool = False) -> Shot:
+    def paint_at(
+        self,
+        question: Question,
+        looks: Looks,
+        *,
+        mips: bool = False,
+        color_only: bool = False,
+        count: bool = False,
+    ) -> Shot:
         """Points with their rays; with `count`, how many texels each has read."""
         inside = np.flatnonzero(looks.inside)
         number = len(inside)
-        width = min(1024, max(1, number))
+        width = min(1024 if number < 1 << 22 else 4096, max(1, number))
         size = (width, max(1, -(-number // width)))
         points, rays = (np.zeros((size[0] * size[1], 4), np.float32) for _ in range(2))
         points[:number, :2] = looks.points[inside]
         points[:number, 2] = looks.footprint[inside] if mips else 0
         rays[:number, :3] = (0, 0, -1) if looks.rays is None else looks.rays[inside]
-        given = {"points": points.tobytes(), "rays": rays.tobytes()}
-        defines = (*(("MIPS", "EDGES") if mips else ()), *(("COUNT_FETCHES",) if count else ()))
-        with self._drawn(question, "points.frag", defines, size, {"spread": looks.spread}, given) as images:
-            shot = _shot(question, [image.read() for image in images], size, count, flip=False)
+        data = [
+            Upload(name, size, 4, "f4", array.tobytes())
+            for name, array in (("points", points), ("rays", rays))
+        ]
+        defines = _defines(mips, color_only, count)
+        with self._drawn(question, "points.frag", defines, size, {"spread": looks.spread}, data) as images:
+            shot = _shot(question, _read(images, color_only), size, count, flip=False)
         return spread(shot.first(number), looks.inside)
 
     @contextmanager
@@ -112,8 +120,8 @@ class GlPainter:
         name: str,
         defines: tuple[str, ...],
         size: tuple[int, int],
-        uniforms: dict[str, Any],
-        data: dict[str, bytes],
+        given: dict[str, Any],
+        data: Sequence[Upload],
     ) -> Iterator[list[Any]]:
         """The images that a shader draws: colour, normal, specular, numbers. They end with the context."""
         with self._lock, self._context as context, ExitStack() as kept:
@@ -126,17 +134,17 @@ class GlPainter:
                 kept.callback(made.release)
                 return made
 
-            textures = [
-                *_textures(question),
-                *((key, size, 4, "f4", content) for key, content in data.items()),
-            ]
-            for unit, (key, shape, channels, kind, content) in enumerate(textures):
-                texture = keep(context.texture(shape, channels, content, dtype=kind, alignment=1))
+            for unit, upload in enumerate((*uploads(question), *data)):
+                texture = keep(
+                    context.texture(
+                        upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1
+                    )
+                )
                 texture.filter = (context.NEAREST, context.NEAREST)
                 texture.use(unit)
-                if key in program:
-                    program[key].value = unit
-            for key, value in {**_uniforms(question), **uniforms}.items():
+                if upload.name in program:
+                    program[upload.name].value = unit
+            for key, value in {**uniforms(question), **given}.items():
                 if key in program:
                     program[key].value = value
             images = [keep(context.texture(size, 4, dtype=kind)) for kind in ("f4", "f4", "f4", "i4")]
@@ -162,35 +170,24 @@ class GlPainter:
         return self._make()
 
 
-def _textures(question: Question) -> Iterator[tuple[str, tuple[int, int], int, str, bytes]]:
-    """Name, size, channels, kind and content of what the evaluator reads."""
-    grammar, atlas = question.texture, question.atlas
-    half = grammar.dtype == np.float16
-    yield "grammar", grammar.shape[1::-1], 4, "f2" if half else "f4", grammar.tobytes()
-    noise = noise_texture()
-    yield "noise", noise.shape[1::-1], 1, "f4", noise.tobytes()
-    yield "atlas", atlas.pixels.shape[1::-1], 4, "f1", atlas.pixels.tobytes()
-    table = np.zeros((len(atlas.table), atlas.table.shape[1] + 1, 4), np.float32)
-    table[:, 1:] = atlas.table
-    table[:, 0, 0] = atlas.grey
-    yield "tile_table", table.shape[1::-1], 4, "f4", table.tobytes()
+def _defines(mips: bool, color_only: bool, count: bool) -> tuple[str, ...]:
+    wanted = {"MIPS": mips, "EDGES": mips, "COLOR_ONLY": color_only, "COUNT_FETCHES": count}
+    return tuple(name for name, on in wanted.items() if on)
 
 
-def _uniforms(question: Question) -> dict[str, Any]:
-    seed = question.seed
-    return {
-        "grammar_width": question.texture.shape[1],
-        "facade_size": question.size,
-        "start_rule": question.records[question.start].place,
-        "seed_whole": tuple(value % 2**32 for value in seed.whole),
-        "seed_rest": seed.rest,
-    }
+def _read(images: Sequence[Any], color_only: bool) -> list[bytes | None]:
+    """The images' bytes; None for those that hold nothing."""
+    return [None if color_only and k in (1, 2) else image.read() for k, image in enumerate(images)]
 
 
-def _shot(question: Question, images: list[bytes], size: tuple[int, int], count: bool, flip: bool) -> Shot:
+def _shot(
+    question: Question, images: list[bytes | None], size: tuple[int, int], count: bool, flip: bool
+) -> Shot:
     """Pixels read back; with `flip`, rows from the top."""
 
-    def of(content: bytes, kind: Any) -> NDArray[Any]:
+    def of(content: bytes | None, kind: Any) -> NDArray[Any]:
+        if content is None:
+            return np.zeros((size[0] * size[1], 4), kind)
         values = np.frombuffer(content, kind).reshape(size[1], size[0], 4)
         return np.ascontiguousarray(values[::-1] if flip else values).reshape(-1, 4)
 

@@ -23,10 +23,14 @@ class _Cpu:
     why_not = ""
     available = True
 
-    def paint(self, question: Question, sight: Sight, *, mips: bool = False) -> Shot:
-        return self.paint_at(question, sight.looks(), mips=mips)
+    def paint(
+        self, question: Question, sight: Sight, *, mips: bool = False, color_only: bool = False
+    ) -> Shot:
+        return self.paint_at(question, sight.looks(), mips=mips, color_only=color_only)
 
-    def paint_at(self, question: Question, looks: Looks, *, mips: bool = False) -> Shot:
+    def paint_at(
+        self, question: Question, looks: Looks, *, mips: bool = False, color_only: bool = False
+    ) -> Shot:
         inside = looks.inside
         points, rays, footprint = looks.points, looks.rays, looks.footprint
         if not inside.all():
@@ -36,7 +40,15 @@ class _Cpu:
                 footprint[inside],
             )
         margin = np.zeros(len(points), np.float32) if mips else None
-        surface = evaluate(question, points, rays, footprint if mips else None, looks.spread, margin=margin)
+        surface = evaluate(
+            question,
+            points,
+            rays,
+            footprint if mips else None,
+            looks.spread,
+            margin=margin,
+            color_only=color_only,
+        )
         return spread(Shot(surface, np.zeros(len(points), np.float32) if margin is None else margin), inside)
 
 

@@ -20,10 +20,11 @@ from ..daylight import floats
 from ..developing import binned, developed
 from ..surfaces import linear
 from .daytime import Daytime, light
-from .evaluating import OPAQUE, evaluate
+from .evaluating import OPAQUE
 from .facades import Facade, Hits, meet, sees
 from .grammar import Grammar
 from .painters import choose_painter
+from .picture import texture_pixels
 from .shot import Painter
 from .view import Looks
 
@@ -96,24 +97,13 @@ def flat(
     seed: tuple[float, float] = (0.0, 0.0),
     start: str | None = None,
     hour: float | None = None,
-    samples: int = 2,
 ) -> NDArray[np.uint8]:
-    """A façade seen straight on, filling the picture, on white: (h, w, 3) uint8; `hour` None: colours as they are."""
-    large = (pixels[0] * samples, pixels[1] * samples)
-    x = (np.arange(large[0]) + 0.5) / large[0] * size[0]
-    y = (1 - (np.arange(large[1]) + 0.5) / large[1]) * size[1]
-    points = np.stack(np.broadcast_arrays(x[None, :], y[:, None]), axis=-1).reshape(-1, 2).astype(np.float32)
-    footprint = np.full(len(points), max(size[0] / large[0], size[1] / large[1]), np.float32)
-    surface = evaluate(grammar.question(size, seed, start), points, footprint=footprint)
-    shown, clear = surface.color[:, :3], 1 - surface.color[:, 3:]
-    if hour is not None:
-        daytime, count = Daytime.at(hour), len(points)
-        ahead = np.broadcast_to(floats([0, 0, -1]), (count, 3))
-        lit = light(*surface[:3], ahead, daytime, np.ones(count, np.float32), points[:, 1])
-        shown = developed(lit, daytime.exposure)
-    shown = shown + clear * np.float32(0.96)
-    small = binned(shown.reshape(large[1], large[0], 3), samples)
-    return (np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8)
+    """A façade seen straight on, filling the picture, on white: (h, w, 3) uint8; parameters as of `texture_pixels`."""
+    image = texture_pixels(
+        grammar, size=size, pixels=pixels, seed=seed, start=start, backend="cpu", hour=hour
+    )
+    alpha = image[..., 3:] / np.float32(255)
+    return (image[..., :3] * alpha + np.float32(245) * (1 - alpha) + np.float32(0.5)).astype(np.uint8)
 
 
 def save_picture(pixels: NDArray[np.uint8], path: str | Path) -> None:

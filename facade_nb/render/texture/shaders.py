@@ -47,6 +47,7 @@ def shader(
         Room on the stacks; less is faster (see `room`).
     defines
         Names to be defined: ``MIPS`` (tiles in the size that fits a pixel), ``EDGES`` (how near a boundary is),
+        ``COLOR_ONLY`` (normals and specular values are passed over),
         ``COUNT_FETCHES``.
     """
     head = PROFILES[profile]

@@ -57,14 +57,19 @@ class Painter(Protocol):
         """Whether it can be used here."""
         ...
 
-    def paint(self, question: Question, sight: Sight, *, mips: bool = False) -> Shot:
+    def paint(
+        self, question: Question, sight: Sight, *, mips: bool = False, color_only: bool = False
+    ) -> Shot:
         """Every pixel of a view, row by row from the top, at its centre; where the façade is not, nothing.
 
-        With `mips` tiles are read in the size that fits a pixel.
+        With `mips` tiles are read in the size that fits a pixel; with `color_only` normals and specular values are
+        passed over.
         """
         ...
 
-    def paint_at(self, question: Question, looks: Looks, *, mips: bool = False) -> Shot:
+    def paint_at(
+        self, question: Question, looks: Looks, *, mips: bool = False, color_only: bool = False
+    ) -> Shot:
         """Points with their rays; where the façade is not, nothing."""
         ...
 

@@ -160,7 +160,6 @@ def gate(canvas: Canvas, seed: int, *, wood: str = "#5d5140", stone: str = "#cfc
     timber = _grained(canvas, wood, seed, 1.0)
     body = canvas.cover(inner + 0.01)
     canvas.lay(body, timber, height=-0.17, gloss=0.25)
-    inside = (inner < -0.075).astype(np.float32)
     for k in range(2):
         left = band + 0.02 + k * (w / 2 - band)
         right = left + w / 2 - band - 0.04
@@ -171,7 +170,6 @@ def gate(canvas: Canvas, seed: int, *, wood: str = "#5d5140", stone: str = "#cfc
                 -0.17 - 0.02 * np.clip(inward / 0.015, 0, 1) + 0.02 * np.clip((inward - 0.02) / 0.045, 0, 1)
             )
             canvas.lay(canvas.cover(inset), timber, height=height.astype(np.float32), gloss=0.25)
-    del inside
     canvas.lay(canvas.box(w / 2 - 0.03, 0.02, w / 2 + 0.03, h) * body, timber, height=-0.145, gloss=0.25)
     for side in (-1, 1):
         ring = np.abs(canvas.disc_distance(w / 2 + side * 0.2, 1.27, 0.05)) - 0.009

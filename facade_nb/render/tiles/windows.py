@@ -116,7 +116,7 @@ def _voussoirs(canvas: Canvas, pane: Pane, stone: str, seed: int) -> None:
     """A flat arch of rubbed stones whose joints point to one centre, with a keystone."""
     left, bottom, right, top = pane
     count = 9
-    w, h = right - left, top - bottom
+    w = right - left
     apex = bottom - 2.2 * w
     slope = (canvas.x - (left + right) / 2) / (canvas.y - apex) * (top - apex)
     unit = w * 1.02 / count
@@ -136,7 +136,6 @@ def _voussoirs(canvas: Canvas, pane: Pane, stone: str, seed: int) -> None:
         height=(np.where(key, 0.03, 0.008) - rounded).astype(np.float32),
         gloss=0.08,
     )
-    del h
 
 
 def modern(

@@ -9,14 +9,18 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from facade_nb import Design, DesignError, Layout, gallery, solve
 from facade_nb.design.errors import GrammarError
+from facade_nb.design.model import Canvas
 from facade_nb.render import elevation_svg
 from facade_nb.render.geometry import find_geometry
 from facade_nb.render.texture import Grammar
 from facade_nb.render.texture.from_layout import LayoutGrammar, grammar_of
 from facade_nb.render.tiles import TileSet
+from facade_nb.solver.layout import PlacedShape
 
 TILES = TileSet.builtin(64)
 NAMES = gallery.names()
@@ -159,6 +163,36 @@ def test_lengths_that_16_bits_round_do_not_add_up() -> None:
         points = [(left + 3e-4, 0.5), (right - 3e-4, 0.5)]
         found = grammar.evaluate(points, compiled.size).rule
         assert {grammar.rules[rule].name for rule in found} == {compiled.rules[k]}
+
+
+@st.composite
+def layouts(draw: st.DrawFn) -> Layout:
+    """Layers of rectangles anywhere on a canvas, on a grid of 0.1 m: also ones that overlap, or reach the edges."""
+    shapes = []
+    for layer in range(draw(st.integers(1, 4))):
+        for _ in range(draw(st.integers(0, 7))):
+            left, right = sorted(draw(st.lists(st.integers(0, 70), min_size=2, max_size=2, unique=True)))
+            bottom, top = sorted(draw(st.lists(st.integers(0, 50), min_size=2, max_size=2, unique=True)))
+            rect = (left / 10, bottom / 10, right / 10, top / 10)
+            shapes.append(
+                PlacedShape(f"layer {layer}", draw(st.sampled_from("AB")), "P", rect, material="brick")
+            )
+    return Layout("random", Canvas(7.0, 5.0), shapes=tuple(shapes))
+
+
+@given(layouts())
+@settings(max_examples=60, deadline=None)
+def test_any_rectangles_are_painted_in_their_order(layout: Layout) -> None:
+    compiled = grammar_of(layout, detail=False, each=True)
+    grammar = compiled.grammar()
+    points = np.random.default_rng(0).integers(0, (70, 50), (400, 2)) / 10 + 0.05
+    found = grammar.evaluate(points, compiled.size).rule
+    for (x, y), rule in zip(points, found, strict=True):
+        covering = [
+            k for k, s in enumerate(layout.shapes) if s.rect[0] < x < s.rect[2] and s.rect[1] < y < s.rect[3]
+        ]
+        expected = compiled.rules[covering[-1]] if covering else None
+        assert (grammar.rules[rule].name if rule >= 0 else None) == expected
 
 
 HOUSE = {

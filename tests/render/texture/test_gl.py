@@ -134,6 +134,9 @@ class TestEqual:
             shot = OSMESA.paint(question, view)
             wanted = PAINTERS["cpu"].paint(question, view)
             assert differing(shot.surface, wanted.surface).mean() < 0.002
+            alone = OSMESA.paint(question, view, color_only=True).surface
+            assert np.array_equal(alone.color, shot.surface.color) and not alone.normal.any()
+            assert np.array_equal(alone.rule, shot.surface.rule)
             assert (wanted.surface.color[:, 3] > 0).any() or view is not sight
 
     def test_figure_12_on_a_grid(self) -> None:
@@ -251,7 +254,7 @@ class TestSizesOfTiles:
 class TestBackends:
     @pytest.mark.parametrize("profile", list(PROFILES))
     @pytest.mark.parametrize("name", ["whole.vert", "sight.frag", "points.frag"])
-    @pytest.mark.parametrize("defines", [(), ("MIPS", "EDGES", "COUNT_FETCHES")])
+    @pytest.mark.parametrize("defines", [(), ("MIPS", "EDGES", "COLOR_ONLY", "COUNT_FETCHES")])
     def test_one_source_compiles_as_desktop_gl_and_webgl2(
         self, profile: str, name: str, defines: tuple[str, ...]
     ) -> None:

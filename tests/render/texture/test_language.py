@@ -151,6 +151,7 @@ FAULTS = {
         "S -> Splitx(Rel, 1, S)",
         1, 6, "there is no operator 'Splitx'; did you mean 'SplitX'?",
     ),
+    "a rule as an operator": ("S -> Wall(1)\nWall -> Skip(0)", 1, 6, "'Wall' is a rule: write Layer(Wall)"),
     "an unknown tile": (
         "S -> Mat(Color, Fit:windw1, 0, 0, 1, 1)", 1, 17, "there is no tile 'windw1'; did you mean 'window1'?",
     ),

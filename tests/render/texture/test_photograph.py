@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from facade_nb.cli import main
 from facade_nb.design.errors import DesignError
 from facade_nb.gallery import grammar
 from facade_nb.render.camera import Camera
@@ -20,6 +21,7 @@ from facade_nb.render.texture.facades import Facade, box, meet, sees
 from facade_nb.render.texture.osmesa import OSMesaContext
 from facade_nb.render.texture.painters import PAINTERS
 from facade_nb.render.texture.photograph import Photo, flat, photograph, save_picture
+from facade_nb.render.texture.picture import texture_pixels
 from facade_nb.render.texture.shaders import shader
 from facade_nb.render.texture.view import Sight
 from facade_nb.render.tiles import TileSet
@@ -163,6 +165,34 @@ def test_every_backend_takes_the_same_photograph(backend: str) -> None:
     here = photograph(house, photo).astype(int)
     there = photograph(house, replace(photo, backend=backend)).astype(int)
     assert (np.abs(here - there).max(axis=2) <= 1).mean() > 0.999
+
+
+def test_a_picture_at_an_hour_is_lit(tmp_path: Path) -> None:
+    """`hour` lights what `texture_pixels` gives without it; alpha stays, and so does what is not there."""
+    house = Grammar.parse(grammar("figure-8"), TileSet.builtin(64))
+    given = {"size": (4.0, 4.0), "pixels": (40, 40), "backend": "cpu"}
+    day, night = (texture_pixels(house, **given, hour=hour).astype(int) for hour in (10.5, 23.0))
+    wall, room = (slice(2, 8), slice(2, 38)), (slice(16, 26), slice(17, 19))
+    assert day[wall][..., :3].mean() > 2.5 * night[wall][..., :3].mean()
+    assert night[room][..., :3].mean() > 1.5 * night[wall][..., :3].mean()  # the lamp is lit
+    plain = texture_pixels(house, **given, antialias="none", hour=10.5)
+    points = np.array([[(i + 0.5) / 10, 4 - (j + 0.5) / 10] for j in range(40) for i in range(40)])
+    surface = house.evaluate(points, (4, 4))
+    ahead, ones = np.tile(np.float32([0, 0, -1]), (1600, 1)), np.ones(1600, np.float32)
+    lit = light(*surface[:3], ahead, Daytime.at(10.5), ones, points[:, 1].astype(np.float32))
+    expected = developed(lit, Daytime.at(10.5).exposure).reshape(40, 40, 3) * 255
+    assert np.abs(plain[..., :3] - expected).max() <= 1
+    half = Grammar.parse(
+        "S -> SplitX(Rel, 1, Grey, Rel, 1, Out)  Grey -> Mat(Color, 0, 0.5, 0.5, 0.5, 1)  Out -> Skip(0)"
+    )
+    picture = texture_pixels(half, size=(2, 1), pixels=(8, 4), backend="cpu", hour=12)
+    assert (picture[:, :4, 3] == 255).all() and (picture[:, 4:, 3] == 0).all()
+    file = tmp_path / "g.txt"
+    file.write_text(grammar("figure-8"))
+    words = f"render {file} --size 4x4 --pixels 40x40 --backend cpu --hour 23 --out {tmp_path / 'n.png'}"
+    assert main(words.split()) == 0
+    with pytest.raises(SystemExit):
+        main(f"{words} --hour 25".split())
 
 
 @pytest.mark.parametrize("profile", ["core", "es"])

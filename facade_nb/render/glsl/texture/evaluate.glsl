@@ -1,12 +1,10 @@
 // The evaluator: from the start rule to the colour of one pixel (texture paper, 3 and 4).
 //
 // Pixels that are drawn together (in warps, or in the vectors of a software renderer) pay for every branch that one of
-// them takes. So there are two loops: the inner one goes down through splits, repeats and choices, which are cheap; the
-// outer one has the rest, and reads tiles at a single place.
+// them takes. So loops lie inside each other, the cheapest innermost: splits and repeats (`divide`), choices (`choose`),
+// layers and skips (`advance`), and out here rooms and tiles.
 #include "globals.glsl"
-#include "descend.glsl"
-#include "layer.glsl"
-#include "next_layer.glsl"
+#include "advance.glsl"
 #include "intrusion.glsl"
 #include "terminal.glsl"
 
@@ -28,17 +26,10 @@ Surface evaluate(Question question) {
   now.faces = 0;
   now.seeds = 0;
   int taken = 0;
-  while (taken < MAX_STEPS) {
-    vec4 head = descend(now, taken);
-    int code = int(head.r);
-    if (code == OP_INTRUSION) {
-      intrusion(now, head);
-    } else if (code == OP_LAYER) {
-      layer(now, head);
-    } else {
-      int skipped = terminal(now, head);
-      if (!next_layer(now, skipped)) break;
-    }
+  vec4 head = vec4(0.0);
+  while (advance(now, taken, head)) {
+    if (int(head.r) == OP_INTRUSION) intrusion(now, head);
+    else if (!next_layer(now, terminal(now, head))) break;
   }
   return surface;
 }

@@ -1,4 +1,4 @@
-// Skip, SkipMask, Mat and MatAlpha. The value is how many layers are passed over. The two sources of MatAlpha are read
+// SkipMask, Mat and MatAlpha. The value is how many layers are passed over. The two sources of MatAlpha are read
 // by the same lines, one after the other, and so is the mask of SkipMask.
 #include "record.glsl"
 #include "value.glsl"
@@ -7,7 +7,6 @@
 
 int terminal(State now, vec4 head) {
   int code = int(head.r);
-  if (code < OP_SKIPMASK || code > OP_MATALPHA) return int(code == OP_SKIP ? head.Skip_l : 0.0);
   bool masks = code == OP_SKIPMASK;
   int source = int(masks ? head.SkipMask_m : head.MatAlpha_m1);
   int sources = code == OP_MATALPHA ? 2 : 1;

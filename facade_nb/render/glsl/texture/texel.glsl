@@ -2,7 +2,11 @@
 #include "fetch.glsl"
 
 vec4 texel(int tile, vec2 uv, bool wrap, int level) {
+#ifdef MIPS
   int column = min(level, textureSize(tile_table, 0).x - 2) + 1;
+#else
+  int column = 1;
+#endif
   vec4 box = fetch(tile_table, ivec2(column, tile - 1));
   vec2 place = (wrap ? uv - floor(uv) : clamp(uv, vec2(0.0), vec2(1.0))) * box.zw - 0.5;
   vec2 low = floor(place);

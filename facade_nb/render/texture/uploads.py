@@ -1,0 +1,84 @@
+"""What the shader is given: textures and uniforms, the same for desktop GL and for a browser."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .evaluating import Question
+from .noise import noise_texture
+from .view import Sight
+
+__all__ = ["Upload", "sight_uniforms", "uniforms", "uploads"]
+
+
+@dataclass(frozen=True, slots=True)
+class Upload:
+    """A texture, to be read texel by texel.
+
+    Attributes
+    ----------
+    name
+        Of the sampler.
+    size
+        Width and height.
+    channels
+        1 or 4.
+    kind
+        ``f1`` (8 bits, from 0 to 1), ``f2`` or ``f4`` (floats of 16 or 32 bits).
+    content
+        The bytes, row 0 first. Floats of 16 bits are converted here: drivers round them as they like.
+    """
+
+    name: str
+    size: tuple[int, int]
+    channels: int
+    kind: str
+    content: bytes
+
+
+def uploads(question: Question) -> tuple[Upload, ...]:
+    """The grammar, the noise texture, the tiles, and the table of where each tile is in their atlas."""
+    grammar, noise, atlas = question.texture, noise_texture(), question.atlas
+    table = np.zeros((len(atlas.table), atlas.table.shape[1] + 1, 4), np.float32)
+    table[:, 1:] = atlas.table
+    table[:, 0, 0] = atlas.grey
+
+    def of(name: str, array: Any, channels: int, kind: str) -> Upload:
+        return Upload(name, (array.shape[1], array.shape[0]), channels, kind, array.tobytes())
+
+    return (
+        of("grammar", grammar, 4, "f2" if grammar.dtype == np.float16 else "f4"),
+        of("noise", noise, 1, "f4"),
+        of("atlas", atlas.pixels, 4, "f1"),
+        of("tile_table", table, 4, "f4"),
+    )
+
+
+def uniforms(question: Question) -> dict[str, Any]:
+    """What is asked of the grammar."""
+    seed = question.seed
+    return {
+        "grammar_width": question.texture.shape[1],
+        "facade_size": question.size,
+        "start_rule": question.records[question.start].place,
+        "seed_whole": tuple(value % 2**32 for value in seed.whole),
+        "seed_rest": seed.rest,
+    }
+
+
+def sight_uniforms(sight: Sight) -> dict[str, Any]:
+    """From where it is seen; for ``sight.frag``."""
+    width, height = sight.pixels
+    left, bottom, right, top = (np.float32(v) for v in sight.window)
+    step_x, step_y = (right - left) / np.float32(width), (top - bottom) / np.float32(height)
+    return {
+        "window": (float(left), float(bottom), float(step_x), float(step_y)),
+        "pixel_shift": (0.5, 0.5),
+        "eye": (*(sight.eye or (0.0, 0.0, 0.0)), float(sight.eye is not None)),
+        "spread": 0.0 if sight.eye is None else float(min(step_x, step_y)),
+        "across": sight.right,
+        "forward": sight.ahead,
+    }
