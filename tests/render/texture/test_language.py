@@ -278,6 +278,12 @@ class TestFaults:
         with pytest.raises(GrammarError):
             Grammar.parse(text)
 
+    def test_a_text_of_another_kind(self) -> None:
+        """Reading stops after a while."""
+        with pytest.raises(GrammarError) as caught:
+            Grammar.parse("\n".join(f"rule{k} -> = {k} this is prose, not a grammar" for k in range(3000)))
+        assert 1 <= len(caught.value.faults) <= 50
+
     def test_an_unknown_start_rule(self) -> None:
         with pytest.raises(DesignError, match="there is no rule 'Wal'; did you mean 'Wall'"):
             Grammar.parse("Wall -> Skip(0)").evaluate([(0, 0)], (1, 1), start="Wal")
