@@ -140,9 +140,8 @@ class GlPainter:
                 kept.callback(made.release)
                 return made
 
-            own = {
-                upload.name: keep(_texture(context, upload)) for upload in (grammar_upload(question), *data)
-            }
+            grammar = grammar_upload(question, wide="llvmpipe" in self.renderer)
+            own = {upload.name: keep(_texture(context, upload)) for upload in (grammar, *data)}
             for unit, (key, texture) in enumerate({**self._tiles(question.atlas), **own}.items()):
                 texture.use(unit)
                 if key in program:

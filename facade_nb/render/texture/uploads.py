@@ -46,9 +46,9 @@ def uploads(question: Question) -> tuple[Upload, ...]:
     return (grammar_upload(question), *tile_uploads(question.atlas))
 
 
-def grammar_upload(question: Question) -> Upload:
-    """The grammar."""
-    texture = question.texture
+def grammar_upload(question: Question, wide: bool = False) -> Upload:
+    """The grammar; `wide`: the same values in 32 bits, which software renderers read faster."""
+    texture = question.texture.astype(np.float32) if wide else question.texture
     return _upload("grammar", texture, 4, "f2" if texture.dtype == np.float16 else "f4")
 
 
