@@ -86,7 +86,9 @@ def _frames(questions: dict[str, Question], present: dict[str, Painter]) -> None
         if one != "cpu":
             for view in SIGHTS:
                 half = spent["Full", view, one] / 2
-                print(f"{one} on Full, {view}: {half:.0f} ms on two free cores; goal under {GOAL_FULL:g}")
+                print(
+                    f"{one} on Full, {view}: {half:.0f} ms, half of its CPU time; goal under {GOAL_FULL:g} on two free cores"
+                )
 
 
 def _agreement(questions: dict[str, Question], present: dict[str, Painter]) -> None:

@@ -9,7 +9,9 @@ from .encoding import Encoding, decode, encode
 from .evaluating import Surface
 from .grammar import Grammar
 from .operators import OPERATORS, Kind, Operator, Param
+from .picture import render_texture, rules_seen, texture_pixels
 from .program import Rule, Source
+from .view import Sight
 
 __all__ = [
     "OPERATORS",
@@ -19,8 +21,12 @@ __all__ = [
     "Operator",
     "Param",
     "Rule",
+    "Sight",
     "Source",
     "Surface",
     "decode",
     "encode",
+    "render_texture",
+    "rules_seen",
+    "texture_pixels",
 ]

@@ -1,6 +1,7 @@
 """The GLSL evaluator on this machine: OpenGL 3.3 through moderngl, on OSMesa or EGL, without a screen.
 
-A process keeps one context for each, with its programs; everything else is made for a picture and released with it.
+A process keeps one context for each, with its programs and the tiles used last; everything else is made for a picture
+and released with it.
 """
 
 from __future__ import annotations
@@ -17,14 +18,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .atlas import Atlas
 from .evaluating import Question, Surface
 from .osmesa import OSMesaContext, find_osmesa
 from .shaders import room, shader
 from .shot import Shot, spread
-from .uploads import Upload, sight_uniforms, uniforms, uploads
+from .uploads import Upload, grammar_upload, sight_uniforms, tile_uploads, uniforms
 from .view import Looks, Sight
 
 __all__ = ["EGL", "OSMESA", "GlPainter"]
+
+_ATLASES = 2
+"""How many sets of tiles are kept on the card."""
 
 
 class GlPainter:
@@ -43,6 +48,7 @@ class GlPainter:
     def __init__(self, name: str, missing: Callable[[], str], make: Callable[[], Any]) -> None:
         self.name, self._missing, self._make = name, missing, make
         self._lock = threading.RLock()
+        self._atlases: dict[int, tuple[Atlas, dict[str, Any]]] = {}
         self._programs: dict[tuple[str, int, int, tuple[str, ...]], Any] = {}
 
     @property
@@ -134,26 +140,36 @@ class GlPainter:
                 kept.callback(made.release)
                 return made
 
-            for unit, upload in enumerate((*uploads(question), *data)):
-                texture = keep(
-                    context.texture(
-                        upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1
-                    )
-                )
-                texture.filter = (context.NEAREST, context.NEAREST)
+            grammar = grammar_upload(question, wide="llvmpipe" in self.renderer)
+            own = {upload.name: keep(_texture(context, upload)) for upload in (grammar, *data)}
+            for unit, (key, texture) in enumerate({**self._tiles(question.atlas), **own}.items()):
                 texture.use(unit)
-                if upload.name in program:
-                    program[upload.name].value = unit
+                if key in program:
+                    program[key].value = unit
             for key, value in {**uniforms(question), **given}.items():
                 if key in program:
                     program[key].value = value
-            images = [keep(context.texture(size, 4, dtype=kind)) for kind in ("f4", "f4", "f4", "i4")]
+            numbers = 4 if {"EDGES", "COUNT_FETCHES"} & set(defines) else 1  # or the rule alone
+            layout = ((4, "f4"), (4, "f4"), (4, "f4"), (numbers, "i4"))
+            images = [keep(context.texture(size, count, dtype=kind)) for count, kind in layout]
             target = keep(context.framebuffer(images))
             array = keep(context.vertex_array(program, []))
             target.use()
             target.viewport = (0, 0, *size)
             array.render(context.TRIANGLES, vertices=3)
             yield images
+
+    def _tiles(self, atlas: Atlas) -> dict[str, Any]:
+        """Textures of the noise and the tiles, kept for the atlases that were used last."""
+        kept = self._atlases.pop(id(atlas), None)
+        if kept is None:
+            kept = (atlas, {upload.name: _texture(self._context, upload) for upload in tile_uploads(atlas)})
+        self._atlases[id(atlas)] = kept  # the last one used stands last
+        while len(self._atlases) > _ATLASES:
+            _, old = self._atlases.pop(next(iter(self._atlases)))
+            for texture in old.values():
+                texture.release()
+        return kept[1]
 
     def _program(self, name: str, question: Question, defines: tuple[str, ...]) -> Any:
         frames, seeds = map(room, question.stacks)
@@ -168,6 +184,12 @@ class GlPainter:
     @cached_property
     def _context(self) -> Any:
         return self._make()
+
+
+def _texture(context: Any, upload: Upload) -> Any:
+    texture = context.texture(upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1)
+    texture.filter = (context.NEAREST, context.NEAREST)
+    return texture
 
 
 def _defines(mips: bool, color_only: bool, count: bool) -> tuple[str, ...]:
@@ -188,8 +210,8 @@ def _shot(
     def of(content: bytes | None, kind: Any) -> NDArray[Any]:
         if content is None:
             return np.zeros((size[0] * size[1], 4), kind)
-        values = np.frombuffer(content, kind).reshape(size[1], size[0], 4)
-        return np.ascontiguousarray(values[::-1] if flip else values).reshape(-1, 4)
+        values = np.frombuffer(content, kind).reshape(size[1], size[0], -1)
+        return np.ascontiguousarray(values[::-1] if flip else values).reshape(size[0] * size[1], -1)
 
     color, normal, specular = (of(content, np.float32) for content in images[:3])
     numbers = of(images[3], np.int32)
@@ -197,7 +219,9 @@ def _shot(
     rules = np.full(question.texture.shape[0] * width + 1, -1, np.int32)  # the last one is for none
     for i, record in enumerate(question.records):
         rules[record.place[1] * width + record.place[0]] = i
-    margin = np.ascontiguousarray(numbers[:, 2]).view(np.float32)
+    margin = np.zeros(len(numbers), np.float32)
+    if numbers.shape[1] > 1:
+        margin = np.ascontiguousarray(numbers[:, 2]).view(np.float32)
     return Shot(
         Surface(color, normal, specular, rules[numbers[:, 0]]), margin, numbers[:, 1] if count else None
     )

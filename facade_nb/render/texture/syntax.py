@@ -82,6 +82,7 @@ _STATEMENT = re.compile(
     re.MULTILINE,
 )
 _LONG = 400_000  # characters
+_MANY = 40  # statements that cannot be read: then this is some other text
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,7 +228,7 @@ def read(text: str) -> Reading:
             faults.append((offset, fault))
             start, end, names = _statement(left, offset)
             unread |= names
-            if end <= start:
+            if end <= start or len(faults) >= _MANY:
                 return Reading((), tuple(faults), frozenset(unread))
             left = left[:start] + re.sub(r"[^\r\n]", " ", left[start:end]) + left[end:]
     try:

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from .atlas import Atlas
 from .evaluating import Question
 from .noise import noise_texture
 from .view import Sight
 
-__all__ = ["Upload", "sight_uniforms", "uniforms", "uploads"]
+__all__ = ["Upload", "grammar_upload", "sight_uniforms", "tile_uploads", "uniforms", "uploads"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,21 +42,30 @@ class Upload:
 
 
 def uploads(question: Question) -> tuple[Upload, ...]:
-    """The grammar, the noise texture, the tiles, and the table of where each tile is in their atlas."""
-    grammar, noise, atlas = question.texture, noise_texture(), question.atlas
+    """Every texture that the evaluator reads."""
+    return (grammar_upload(question), *tile_uploads(question.atlas))
+
+
+def grammar_upload(question: Question, wide: bool = False) -> Upload:
+    """The grammar; `wide`: the same values in 32 bits, which software renderers read faster."""
+    texture = question.texture.astype(np.float32) if wide else question.texture
+    return _upload("grammar", texture, 4, "f2" if texture.dtype == np.float16 else "f4")
+
+
+def tile_uploads(atlas: Atlas) -> tuple[Upload, ...]:
+    """The noise texture, the tiles, and the table of where each tile is in their atlas: large, and seldom new."""
     table = np.zeros((len(atlas.table), atlas.table.shape[1] + 1, 4), np.float32)
     table[:, 1:] = atlas.table
     table[:, 0, 0] = atlas.grey
-
-    def of(name: str, array: Any, channels: int, kind: str) -> Upload:
-        return Upload(name, (array.shape[1], array.shape[0]), channels, kind, array.tobytes())
-
     return (
-        of("grammar", grammar, 4, "f2" if grammar.dtype == np.float16 else "f4"),
-        of("noise", noise, 1, "f4"),
-        of("atlas", atlas.pixels, 4, "f1"),
-        of("tile_table", table, 4, "f4"),
+        _upload("noise", noise_texture(), 1, "f4"),
+        _upload("atlas", atlas.pixels, 4, "f1"),
+        _upload("tile_table", table, 4, "f4"),
     )
+
+
+def _upload(name: str, array: NDArray[Any], channels: int, kind: str) -> Upload:
+    return Upload(name, (array.shape[1], array.shape[0]), channels, kind, array.tobytes())
 
 
 def uniforms(question: Question) -> dict[str, Any]:

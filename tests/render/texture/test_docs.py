@@ -6,9 +6,11 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from facade_nb.render import Grammar
 from facade_nb.render.texture.limits import MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS
+from facade_nb.render.texture.painters import PAINTERS
 from facade_nb.render.texture.tables import refresh
 
 PAGE = Path(__file__).parents[3] / "docs" / "texture.md"
@@ -41,3 +43,17 @@ def test_the_examples_work() -> None:
         "bank.Window",
         "bank.Pane",
     ]
+
+
+def test_the_pictures_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = PAGE.read_text("utf-8")
+    (example,) = re.findall(r"```python\n(from facade_nb.render.texture import .*?)```", text, re.DOTALL)
+    monkeypatch.chdir(tmp_path)
+    code = example.replace("(800, 600)", "(80, 60)")
+    exec(code, {"grammar": Grammar.parse("S -> Mat(Color, Rep:brick, 0, 0, 0.5, 0.5)")})
+    assert {path.name for path in tmp_path.iterdir()} == {"flat.png", "street.png"}
+
+
+def test_the_page_names_the_backends() -> None:
+    table = re.findall(r"^\| `(\w+)` \| [^|]*(?:moderngl|nothing)", PAGE.read_text("utf-8"), re.MULTILINE)
+    assert table == list(PAINTERS)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from facade_nb.design import DesignError
 from facade_nb.design.errors import GrammarError
@@ -278,6 +280,40 @@ class TestFaults:
         with pytest.raises(GrammarError):
             Grammar.parse(text)
 
+    def test_a_text_of_another_kind(self) -> None:
+        """Reading stops after a while."""
+        with pytest.raises(GrammarError) as caught:
+            Grammar.parse("\n".join(f"rule{k} -> = {k} this is prose, not a grammar" for k in range(3000)))
+        assert 1 <= len(caught.value.faults) <= 50
+
     def test_an_unknown_start_rule(self) -> None:
         with pytest.raises(DesignError, match="there is no rule 'Wal'; did you mean 'Wall'"):
             Grammar.parse("Wall -> Skip(0)").evaluate([(0, 0)], (1, 1), start="Wal")
+
+
+@given(st.data())
+@settings(max_examples=150)
+def test_a_text_with_slips_is_read_or_refused(data: st.DataObject) -> None:
+    """Pieces are cut out, doubled, or replaced: never anything but a grammar or faults with their place."""
+    text = (
+        FIGURE_12
+        + "namespace a { w = 1\n T(n = w) -> RepeatX(n, Skip) }\nnamespace b = a(w = 2)\nU -> RandUni(0, a.T, b.T(3))\n"
+    )
+    for _ in range(data.draw(st.integers(1, 3))):
+        at = data.draw(st.integers(0, len(text)))
+        cut = data.draw(st.integers(0, 12))
+        piece = data.draw(
+            st.one_of(
+                st.sampled_from(
+                    ["(", ")", "->", ",", "{", "}", "=", "S", "T(", "1e999", "/", "\\", "é", "\t", "-"]
+                ),
+                st.text(max_size=3),
+            )
+        )
+        text = text[:at] + piece + text[at + cut :]
+    try:
+        grammar = Grammar.parse(text, stand_in())
+    except GrammarError as error:
+        assert all(fault.line and fault.column and fault.excerpt for fault in error.faults)
+    else:
+        assert grammar.evaluate([(1, 1)], (3, 3)).rule.shape == (1,)
