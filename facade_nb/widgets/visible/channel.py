@@ -41,6 +41,9 @@ class TraceChannel(Bundled):
     words = _piece()
     analysis = _piece()
     candidates = _piece()
+    network = _piece()
+    alignment = _piece()
+    sizing = _piece()
 
     serial = Int(help="Goes up when the pieces are those of another trace.").tag(sync=True)
     position = Int(-1).tag(sync=True)
