@@ -12,10 +12,21 @@ from .parts import (
     Toolbar,
 )
 from .studio import MassingView, Studio
-from .visible import AnalysisView, FacadeView, TraceModel, TraceView, WordsView
+from .visible import (
+    AnalysisView,
+    CandidatesView,
+    FacadeView,
+    PlayerView,
+    QualifiersView,
+    SolverView,
+    TraceModel,
+    TraceView,
+    WordsView,
+)
 
 __all__ = [
     "AnalysisView",
+    "CandidatesView",
     "CanvasEditor",
     "CounterEditor",
     "Draft",
@@ -26,7 +37,10 @@ __all__ = [
     "MassingView",
     "Part",
     "PatternEditor",
+    "PlayerView",
+    "QualifiersView",
     "Selection",
+    "SolverView",
     "Studio",
     "SymbolEditor",
     "Toolbar",

@@ -60,14 +60,14 @@ def test_figure_7_is_on_the_screen(watch: Watch) -> None:
     assert rows(page, "balconies")[:4] == [
         "1 4 eBe 11 ✓ fits",
         "1 3 eBe 9 ✓ fits",
-        "2 2 eB2e 10 ✓ fits",
+        "2 2 eB2e 10 ✓ fits, taken",
         "3 1 eB3e 11 – no partner",
     ]
     assert [row for row in rows(page, "rooms") if "fits" in row] == [
         "1 4 AC4A 9.2 ✓ fits",
         "1 5 AC5A 10.5 ✓ fits",
         "2 1 A2CA2 9.3 ✓ fits",
-        "2 2 A2C2A2 10.6 ✓ fits",
+        "2 2 A2C2A2 10.6 ✓ fits, taken",
     ]
     expect(page.locator(".fnb-tuple-box h4")).to_have_text("Candidates for alignment (6)")
     # Drawn to scale: AC⁴A ends within the band, a little before the canvas line.

@@ -18,7 +18,7 @@ from facade_nb import widgets as public
 from facade_nb.design.edit import with_canvas
 from facade_nb.solver import Trace
 from facade_nb.solver.events import AxisPosed, Event, ShapeMerged, WordJudged
-from facade_nb.widgets import FacadeModel, FacadeView, TraceModel, TraceView, WordsView
+from facade_nb.widgets import FacadeModel, FacadeView, QualifiersView, TraceModel, TraceView, WordsView
 from facade_nb.widgets.visible import captions, chunks, code, timeline
 from facade_nb.widgets.visible.channel import TraceChannel
 from facade_nb.widgets.visible.packing import pack
@@ -335,3 +335,62 @@ def test_an_empty_canvas_can_be_looked_at() -> None:
     view = WordsView(layout)
     assert view.channel.trouble == ""
     assert view.model.moment == "both/merging+1"
+
+
+class TestQualifiers:
+    def test_figure_4_comes_out_as_printed(self) -> None:
+        frame = QualifiersView().frame
+        assert list(frame.told) == [
+            "P covers D.",
+            "P covers B.",
+            "P stands between A and D.",
+            "P stands between A and D.",
+        ]
+        assert list(frame.unoccludable) == ["", "D", "D", "D"]
+        assert list(frame.attached) == ["", "", "", "B"]
+
+    def test_a_switch_is_solved_and_told(self) -> None:
+        view = QualifiersView()
+        path = ["symbols", "D", "unoccludable"]
+        view.channel._handle_custom_msg({"op": "set", "case": 0, "path": path, "value": True}, [])
+        assert view.channel.cases[0]["told"] == "P covers B."
+        assert view.channel.cases[0]["changed"]
+        assert not view.channel.cases[1]["changed"]
+        view.channel._handle_custom_msg({"op": "reset", "case": 0}, [])
+        assert view.channel.cases[0]["told"] == "P covers D."
+
+    def test_a_case_without_a_layout_says_why(self) -> None:
+        view = QualifiersView()
+        view.channel._handle_custom_msg(
+            {"op": "set", "case": 1, "path": ["canvas", "width"], "value": "0.5"}, []
+        )
+        case = view.channel.cases[1]
+        assert case["message"] == view.models[1].message != ""
+        assert case["letters"] == []
+        assert view.frame.told[1] == case["message"]
+
+    def test_own_designs_can_be_compared(self) -> None:
+        view = QualifiersView([gallery.load("qualifiers-a"), gallery.load("qualifiers-c")])
+        assert len(view.channel.cases) == 2
+        assert view.to_html().count("<img ") == 2
+
+    def test_letters_stand_where_the_facade_has_them(self) -> None:
+        view = QualifiersView()
+        for case, model in zip(view.channel.cases, view.models, strict=True):
+            posts = [own["start"] for own in case["letters"] if own["symbol"] == "P"]
+            shapes = [shape.rect[0] for shape in model.layout.shapes if shape.x == "P"]
+            assert posts == pytest.approx(shapes)
+
+
+class TestTables:
+    def test_the_analysis_is_a_table(self) -> None:
+        frame = TRACES["supplement-3.1"]().analysis()
+        assert list(frame.equation) == ["m + 2 = l"]
+        assert (frame.prefix[0], frame.left[0], frame.right[0], frame.suffix[0]) == (
+            "A^k",
+            "C^{m+2}",
+            "C^l",
+            "A^k",
+        )
+        bad = TRACES["contradiction"]().analysis()
+        assert "no whole numbers" in bad.inconsistent[0]

@@ -61,6 +61,8 @@ class AnalysisView(TraceView):
 
 def _side(e: PatternsCompared, middle: Iterable[Mapping[str, Any]]) -> str:
     """One of the two lines, its common ends in brackets."""
-    prefix, own, suffix = (" ".join(str(term["text"]) for term in terms) for terms in (e.prefix, middle, e.suffix))
+    prefix, own, suffix = (
+        " ".join(str(term["text"]) for term in terms) for terms in (e.prefix, middle, e.suffix)
+    )
     ends = (f"[{prefix}]" if prefix else "", own or "ε", f"[{suffix}]" if suffix else "")
     return " ".join(filter(None, ends))

@@ -55,7 +55,9 @@ def _compared(e: told.PatternsCompared) -> str:
 def _reduced(e: told.SystemReduced) -> str:
     name = "counters" if e.system == "counters" else "unsized symbols"
     rows = "; ".join(str(row["text"]) for row in e.reduced)
-    return f"The system of {name}, solved: {rows}." if rows else f"The system of {name} is empty."
+    if rows:
+        return f"The system of {name}, solved: {rows}."
+    return f"The system of {name}: {'nothing is left that can hold' if e.equations else 'no equation'}."
 
 
 def _word(e: told.WordJudged) -> str:

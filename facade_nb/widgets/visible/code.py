@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import io
 import keyword
+import textwrap
 import tokenize
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -75,7 +76,11 @@ def _name(function: Callable[..., Any]) -> str:
 def _told(function: Callable[..., Any]) -> dict[str, Any]:
     lines, first = inspect.getsourcelines(function)
     module = function.__module__.replace(".", "/")
-    return {"file": f"{module}.py", "line": first, "tokens": _tokens(inspect.cleandoc("".join(lines)))}
+    return {
+        "file": f"{module}.py",
+        "line": first,
+        "tokens": _tokens(textwrap.dedent("".join(lines)).rstrip()),
+    }
 
 
 def _tokens(text: str) -> list[list[str]]:

@@ -29,10 +29,10 @@ from ...solver.events import (
 )
 from .captions import caption
 
-__all__ = ["STAGES", "Segment", "begun", "locate", "moment_of", "segments", "timeline"]
+__all__ = ["STAGES", "Segment", "begun", "hues", "locate", "moment_of", "segments", "timeline"]
 
 STAGES = {
-    "analysis": "Pattern analysis",
+    "analysis": "Analysis",
     "words": "Words",
     "candidates": "Candidates",
     "alignment": "Alignment",
@@ -155,7 +155,7 @@ def timeline(trace: Trace) -> dict[str, Any]:
         ],
         "marks": [{"at": at, "kind": type(e).__name__, "text": caption(e)} for at, e in _marked(events)],
         "patterns": [_pattern(design, name) for name in design.patterns],
-        "symbols": _hues(design),
+        "symbols": hues(design),
         "chosen": {axis: _chosen(events, axis) for axis in AXES},
         "objective": dict(asked.objective),
         "search": asked.search,
@@ -192,13 +192,13 @@ def _chosen(events: Sequence[Event], axis: str) -> dict[str, Any] | None:
     return None
 
 
-def _hues(design: Design) -> dict[str, int]:
+def hues(design: Design) -> dict[str, int]:
     """A number for each symbol, by which every view colours it: symbols of one axis differ as long as they can."""
-    hues: dict[str, int] = {}
+    found: dict[str, int] = {}
     for axis in AXES:
         used = dict.fromkeys(own.along(axis).pattern for own in design.stack)
         symbols = dict.fromkeys(s for name in used for s in design.patterns[name].parsed.symbols)
         sized = [s for s in symbols if design.symbol(s).size is not None]
         for n, symbol in enumerate([*sized, *(s for s in symbols if s not in sized)]):
-            hues.setdefault(symbol, n)
-    return hues
+            found.setdefault(symbol, n)
+    return found

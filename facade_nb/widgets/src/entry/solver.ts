@@ -5,9 +5,15 @@ import "../styles/fields.css";
 import "../styles/solver.css";
 import "../styles/playbar.css";
 import "../styles/analysis.css";
+import "../styles/candidates.css";
+import "../styles/page.css";
+import "../styles/player.css";
+import "../styles/qualifiers.css";
 import "../styles/solver-views.css";
 import { h, mark } from "../dom.ts";
 import { alone, apology } from "../solver/frame.ts";
+import { page } from "../solver/page.ts";
+import { qualifiers } from "../solver/qualifiers.ts";
 import { Session } from "../solver/session.ts";
 import { VIEWS } from "../solver/views/index.ts";
 import { adoptStyle, watchTheme } from "../theme.ts";
@@ -18,21 +24,31 @@ export function mount({ el, model, channel }: Mount): () => void {
   adoptStyle(channel.get<string>("css"));
   const part = model.get<string>("part");
   const kind = VIEWS[part];
-  if (!kind) throw new Error(`facade_nb: no view named ${part}`);
-  const session = Session.of(channel);
+  if (!kind && part !== "solver" && part !== "qualifiers") throw new Error(`facade_nb: no view named ${part}`);
   const root = h("div", { class: `fnb fnb-solver fnb-part-${part}` });
   // The keys of a widget are its own: in command mode JupyterLab would read them as commands on cells.
   mark(root, "data-lm-suppress-shortcuts", true);
   watchTheme(root, end.signal, () => {});
   el.append(root);
+  const leave = () => {
+    end.abort();
+    root.remove();
+  };
+  if (part === "qualifiers") {
+    root.append(qualifiers(channel, end.signal));
+    return leave;
+  }
 
+  const session = Session.of(channel);
   let shown: AbortController | null = null;
   const show = async () => {
     shown?.abort();
     const own = new AbortController();
     shown = own;
     try {
-      const made = await alone(kind, session, model, await session.load(), own.signal);
+      const loaded = await session.load();
+      const make = kind ? alone(kind, session, model, loaded, own.signal) : page(session, model, loaded, own.signal);
+      const made = await make;
       if (!own.signal.aborted) root.replaceChildren(made);
     } catch (error) {
       if (!own.signal.aborted) root.replaceChildren(apology(error));
@@ -40,9 +56,6 @@ export function mount({ el, model, channel }: Mount): () => void {
   };
   session.hold(() => void show(), end.signal);
   void show();
-  return () => {
-    end.abort();
-    shown?.abort();
-    root.remove();
-  };
+  end.signal.addEventListener("abort", () => shown?.abort());
+  return leave;
 }

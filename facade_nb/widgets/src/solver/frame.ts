@@ -8,6 +8,12 @@ import type { Quiz } from "./quiz.ts";
 import type { Loaded, Session } from "./session.ts";
 import type { View, ViewKind } from "./view.ts";
 
+export interface Panel {
+  el: HTMLElement;
+  /** Show the present moment: a panel that was hidden has missed some. */
+  refresh(): void;
+}
+
 /** Make a view of a kind in its panel, and have it follow the player and the links until the signal ends. */
 export async function panel(
   kind: ViewKind,
@@ -15,7 +21,7 @@ export async function panel(
   model: WidgetModel,
   loaded: Loaded,
   signal: AbortSignal,
-): Promise<HTMLElement> {
+): Promise<Panel> {
   const made = await Promise.all(kind.needs.map((name) => session.piece(name)));
   const pieces = Object.fromEntries(kind.needs.map((name, n) => [name, made[n]]));
   const { player, links } = loaded;
@@ -55,15 +61,15 @@ export async function panel(
     // Several steps within a frame are drawn once.
     due ||= requestAnimationFrame(() => {
       due = 0;
-      if (!signal.aborted) refresh();
+      if (!signal.aborted && !el.hidden) refresh();
     });
   };
   player.watch(soon, signal);
-  links.watch(light, signal);
+  links.watch(() => el.hidden || light(), signal);
   links.listen(el, signal);
   signal.addEventListener("abort", () => cancelAnimationFrame(due));
   refresh();
-  return el;
+  return { el, refresh };
 }
 
 /** A widget that shows one view, with a player of its own above it if its traits say so. */
@@ -76,7 +82,7 @@ export async function alone(
 ): Promise<HTMLElement> {
   const el = h("div", { class: "fnb-solver-alone" });
   if (model.get<boolean>("player")) el.append(playbar(session, loaded.player, signal));
-  el.append(await panel(kind, session, model, loaded, signal));
+  el.append((await panel(kind, session, model, loaded, signal)).el);
   return el;
 }
 

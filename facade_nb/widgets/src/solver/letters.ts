@@ -36,6 +36,19 @@ export function spelled(letters: readonly LetterNote[]): Node[] {
   return nodes.length ? nodes : [document.createTextNode("ε")];
 }
 
+/** The letters of a word's text as the trace writes it, `A B' <door>`: what is transparent it does not say. */
+export function parsed(word: string): LetterNote[] {
+  return (word.match(/<[^>]*>'?|[^\s<]+/g) ?? []).map((text) => ({
+    symbol: text.replace(/'$/, "").replace(/^<(.*)>$/, "$1"),
+    size: null,
+    transparent: false,
+    opaque: true,
+    attached: false,
+    unoccludable: false,
+    mirrored: text.endsWith("'"),
+  }));
+}
+
 function nameOf({ symbol, mirrored }: LetterNote): string {
   return (/^\p{L}\d*$/u.test(symbol) ? symbol : `⟨${symbol}⟩`) + (mirrored ? "′" : "");
 }

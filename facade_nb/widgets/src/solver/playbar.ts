@@ -9,7 +9,7 @@ import type { Stage } from "./timeline.ts";
 
 /** Width of each stage on the track, in shares: some stages have a hundred times the events of others. */
 export function shares(stages: readonly Stage[]): number[] {
-  const weights = stages.map(({ first, last }) => 6 + Math.sqrt(last - first + 1));
+  const weights = stages.map(({ first, last }) => 14 + Math.sqrt(last - first + 1));
   const sum = weights.reduce((total, weight) => total + weight, 0);
   return weights.map((weight) => weight / sum);
 }

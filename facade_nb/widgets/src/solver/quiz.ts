@@ -96,7 +96,11 @@ export class Quiz {
   /** What came of it, in a sentence. */
   outcome(): string {
     const { right, wrong, missed } = this.answer();
-    if (this.single) return right.length ? "Right." : wrong.length ? "No." : "Nothing was chosen.";
+    if (this.single) {
+      const [chosen] = [...right, ...wrong];
+      if (chosen === undefined) return "Nothing was chosen.";
+      return `${right.length ? "Right." : "No."} ${this.truths().get(chosen)?.why ?? ""}`.trim();
+    }
     if (!wrong.length && !missed.length) return right.length ? "All right." : "Right: there are none.";
     const parts = [`${right.length} right`];
     if (wrong.length) parts.push(`${wrong.length} wrong`);

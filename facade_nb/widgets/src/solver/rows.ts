@@ -50,6 +50,19 @@ export function rows<T>(
     },
     { signal },
   );
+  // A list that is not in the page yet cannot be scrolled: it is when it has come to stand there.
+  let wanted: number | null = null;
+  const scroll = (top: number) => {
+    el.scrollTop = top;
+    wanted = el.isConnected ? null : top;
+  };
+  const arrived = new ResizeObserver(() => {
+    if (wanted === null || !el.clientHeight) return;
+    scroll(wanted);
+    draw();
+  });
+  arrived.observe(el);
+  signal.addEventListener("abort", () => arrived.disconnect());
   return {
     el,
     set(next, now = -1) {
@@ -59,7 +72,7 @@ export function rows<T>(
       const room = Math.min(items.length, most) * height;
       el.style.height = `${room}px`;
       el.setAttribute("aria-rowcount", String(items.length));
-      if (moved) el.scrollTop = now < 0 ? 0 : Math.max(0, (now + 0.5) * height - room / 2);
+      if (moved) scroll(now < 0 ? 0 : Math.max(0, (now + 0.5) * height - room / 2));
       draw();
     },
   };

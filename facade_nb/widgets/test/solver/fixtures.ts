@@ -18,6 +18,13 @@ export function pieceOf(design: string, name: string): Uint8Array {
   return new Uint8Array(readFileSync(join(FOLDER, `${design}.${name}.bin`)));
 }
 
+// jsdom lays nothing out, so there is nothing to observe.
+globalThis.ResizeObserver ??= class {
+  observe(): void {}
+  unobserve(): void {}
+  disconnect(): void {}
+};
+
 export interface Shown {
   view: View;
   player: Player;
