@@ -69,7 +69,9 @@ FIGURE_8 = Design.from_dict(
         "format": "facade-nb/design/1",
         "name": "The network of Figure 8",
         "canvas": {"width": 12.0, "height": 3.0},
-        "symbols": {name: {"size": size} for name, size in {"A": 2.0, "B": 3.0, "C": 2.0, "e": 8.0, "Y": 3.0}.items()},
+        "symbols": {
+            name: {"size": size} for name, size in {"A": 2.0, "B": 3.0, "C": 2.0, "e": 8.0, "Y": 3.0}.items()
+        },
         "counters": {"k": {"value": 2}},
         "patterns": {"walls": "A(BA)^k", "corners": "cec; c := C", "height": "Y"},
         "layers": [
@@ -120,7 +122,8 @@ def _oracle(trace: Trace) -> dict[str, Any]:
                 told = None
             else:
                 told = [
-                    [w.omega, w.cost, w.width, r.constraint if r else "", r.text if r else ""] for w, r in verdicts
+                    [w.omega, w.cost, w.width, r.constraint if r else "", r.text if r else ""]
+                    for w, r in verdicts
                 ]
             judged.append({"axis": path.axis, "group": path.group, "columns": columns, "verdicts": told})
     return {"lattices": lattices, "judged": judged}
@@ -133,7 +136,17 @@ def _edges(trace: Trace, path: PathChosen) -> list[Any]:
     at = [[*n.position, int(n.owed)] for n in lattice.nodes]
     alive = [int(n.reachable) + 2 * int(n.alive) for n in lattice.nodes]
     return [
-        [at[e.source], at[e.target], e.column, e.omega, e.cost, e.width, e.constraint or "", e.text, alive[e.source]]
+        [
+            at[e.source],
+            at[e.target],
+            e.column,
+            e.omega,
+            e.cost,
+            e.width,
+            e.constraint or "",
+            e.text,
+            alive[e.source],
+        ]
         for e in lattice.edges
     ]
 

@@ -4,6 +4,7 @@ from .analysis import AnalysisView
 from .candidates import CandidatesView
 from .facade import FacadeView
 from .model import TraceModel
+from .network import NetworkView
 from .page import SolverView
 from .player import PlayerView
 from .qualifiers import QualifiersView
@@ -14,6 +15,7 @@ __all__ = [
     "AnalysisView",
     "CandidatesView",
     "FacadeView",
+    "NetworkView",
     "PlayerView",
     "QualifiersView",
     "SolverView",

@@ -6,6 +6,7 @@ import "../styles/solver.css";
 import "../styles/playbar.css";
 import "../styles/analysis.css";
 import "../styles/candidates.css";
+import "../styles/network.css";
 import "../styles/page.css";
 import "../styles/player.css";
 import "../styles/qualifiers.css";

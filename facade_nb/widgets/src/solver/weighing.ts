@@ -283,7 +283,8 @@ function covered(group: Group, column: readonly Option[]): Refusal | null {
         );
       const below = own(b, (letter) => letter.unoccludable);
       const above = own(o, (letter) => !letter.opaque);
-      const named = (list: [number, number][]) => list.map(([band, i]) => letterName(letterAt(group, band, i))).join(" ");
+      const named = (list: [number, number][]) =>
+        list.map(([band, i]) => letterName(letterAt(group, band, i))).join(" ");
       const text = () => `${named(below)} is unoccludable, and ${named(above)} above it is not opaque (C3).`;
       return {
         constraint: "C3",
@@ -320,7 +321,7 @@ export function judge(group: Group, columns: readonly Column[]): Verdict[] | nul
       const cut = letters.length > 0 && later === letters.at(-1);
       const found = group
         .elements(b, state[b] ?? 0)
-        .find(([option]) => same(option.letters, letters) && (!letters.length || (option.target & 4) !== 0 === cut));
+        .find(([option]) => same(option.letters, letters) && (!letters.length || ((option.target & 4) !== 0) === cut));
       if (!found) return null;
       options.push(found[0]);
       broken ??= found[1];

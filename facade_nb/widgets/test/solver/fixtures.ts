@@ -11,7 +11,15 @@ import type { View, ViewKind } from "../../src/solver/view.ts";
 import { FakeModel } from "../fake.ts";
 import { FOLDER } from "./pieces.ts";
 
-export const DESIGNS = ["figure-7", "figure-7-paper", "residential-house", "apartment-house", "contradiction", "figure-8", "figure-8-ida"] as const;
+export const DESIGNS = [
+  "figure-7",
+  "figure-7-paper",
+  "residential-house",
+  "apartment-house",
+  "contradiction",
+  "figure-8",
+  "figure-8-ida",
+] as const;
 
 /** A piece of a design's trace, as it travels. */
 export function pieceOf(design: string, name: string): Uint8Array {

@@ -54,7 +54,11 @@ describe.each(DESIGNS)("columns of %s", (design) => {
       };
       const own = new Map(
         made.edges.map((edge) => [
-          key(state(edge.source), state(edge.target), edge.column.map((option) => option.letters)),
+          key(
+            state(edge.source),
+            state(edge.target),
+            edge.column.map((option) => option.letters),
+          ),
           edge,
         ]),
       );

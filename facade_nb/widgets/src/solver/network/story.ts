@@ -1,7 +1,7 @@
 // The networks of a trace, and what the search has done in one of them at a moment.
 
-import { played } from "../timeline.ts";
 import type { Axis, Timeline } from "../timeline.ts";
+import { played } from "../timeline.ts";
 import type { BandNote } from "../weighing.ts";
 
 export interface NetworkNote {
@@ -228,7 +228,9 @@ export class Story {
   columnOf(step: number): (number[] | null)[] {
     const from = this.steps.offset[step] ?? 0;
     return this.afterOf(step).map((after, b) =>
-      after === null ? null : lettersBetween(this.steps.places[from + b] ?? 0, after, this.steps.filled[from + b] === 1),
+      after === null
+        ? null
+        : lettersBetween(this.steps.places[from + b] ?? 0, after, this.steps.filled[from + b] === 1),
     );
   }
 

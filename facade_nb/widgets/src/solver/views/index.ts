@@ -4,6 +4,7 @@ import type { ViewKind } from "../view.ts";
 import { analysis } from "./analysis.ts";
 import { candidates } from "./candidates.ts";
 import { facade } from "./facade.ts";
+import { network } from "./network.ts";
 import { player } from "./player.ts";
 import { words } from "./words.ts";
 
@@ -11,6 +12,7 @@ export const VIEWS: Record<string, ViewKind> = {
   analysis,
   candidates,
   facade,
+  network,
   player,
   words,
 };
