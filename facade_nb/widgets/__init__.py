@@ -13,6 +13,7 @@ from .parts import (
 )
 from .studio import MassingView, Studio
 from .visible import (
+    AlignmentView,
     AnalysisView,
     CandidatesView,
     FacadeView,
@@ -26,6 +27,7 @@ from .visible import (
 )
 
 __all__ = [
+    "AlignmentView",
     "AnalysisView",
     "CandidatesView",
     "CanvasEditor",

@@ -10,7 +10,7 @@ import numpy as np
 
 from facade_nb import gallery
 from facade_nb.solver.events import EdgeRefused, EdgeWeighed, NodeTaken, PathChosen
-from facade_nb.widgets import NetworkView
+from facade_nb.widgets import AlignmentView, NetworkView
 from facade_nb.widgets.visible import chunks, networks
 
 from .pieces import FIGURE_8, TRACES
@@ -86,3 +86,23 @@ class TestNetworkView:
     def test_the_frame_is_that_of_the_edges(self) -> None:
         frame = NetworkView(FIGURE_8).frame
         assert {"omega", "fate", "constraint", "chosen"} <= {*frame.columns}
+
+
+class TestAlignmentView:
+    def test_the_static_form_is_the_matrix_to_scale(self) -> None:
+        html = AlignmentView(FIGURE_8).to_html()
+        boxes = [
+            own
+            for own in drawing(html).iter(f"{SVG}rect")
+            if own.get("class") in {"g", "h0", "h1", "h2", "h3"}
+        ]
+        widths = [float(own.get("width", 0)) for own in boxes[:10]]
+        assert np.allclose(widths[5:], np.multiply([2, 3, 2, 3, 2], widths[5] / 2), atol=0.1)
+        assert np.allclose(widths[:5], widths[5:], atol=0.1)  # e is cut where B and A meet
+        assert "Ω = 0 m, W = 12 m" in texts(html)
+
+    def test_the_piece_has_the_tolerance_that_the_path_keeps(self) -> None:
+        told = unpack(chunks.chunk(TRACES["figure-8"](), "alignment"))
+        (own,) = (path for path in told["paths"] if path["axis"] == "x")
+        assert (own["tolerance"], own["canvas"]) == (6.0, 12.0)
+        assert own["layers"] == ["corners", "walls"]

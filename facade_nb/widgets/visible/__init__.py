@@ -1,5 +1,6 @@
 """The solver made visible: steppable, linked views of a trace (docs/visible.md)."""
 
+from .alignment import AlignmentView
 from .analysis import AnalysisView
 from .candidates import CandidatesView
 from .facade import FacadeView
@@ -12,6 +13,7 @@ from .view import TraceView
 from .words import WordsView
 
 __all__ = [
+    "AlignmentView",
     "AnalysisView",
     "CandidatesView",
     "FacadeView",

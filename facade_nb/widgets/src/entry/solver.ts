@@ -4,6 +4,7 @@ import "../styles/base.css";
 import "../styles/fields.css";
 import "../styles/solver.css";
 import "../styles/playbar.css";
+import "../styles/alignment.css";
 import "../styles/analysis.css";
 import "../styles/candidates.css";
 import "../styles/network.css";

@@ -1,6 +1,7 @@
 // Every view by its name, which is the `part` of its widget; one line each.
 
 import type { ViewKind } from "../view.ts";
+import { alignment } from "./alignment.ts";
 import { analysis } from "./analysis.ts";
 import { candidates } from "./candidates.ts";
 import { facade } from "./facade.ts";
@@ -9,6 +10,7 @@ import { player } from "./player.ts";
 import { words } from "./words.ts";
 
 export const VIEWS: Record<string, ViewKind> = {
+  alignment,
   analysis,
   candidates,
   facade,
