@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 import numpy as np
 
 from facade_nb import gallery
-from facade_nb.solver.events import EdgeRefused, EdgeWeighed, NodeTaken, PathChosen
-from facade_nb.widgets import AlignmentView, NetworkView
+from facade_nb.solver.events import ActiveSetStep, EdgeRefused, EdgeWeighed, NodeTaken, PathChosen
+from facade_nb.widgets import AlignmentView, NetworkView, SizingView
 from facade_nb.widgets.visible import chunks, networks
 
 from .pieces import FIGURE_8, TRACES
@@ -106,3 +106,22 @@ class TestAlignmentView:
         (own,) = (path for path in told["paths"] if path["axis"] == "x")
         assert (own["tolerance"], own["canvas"]) == (6.0, 12.0)
         assert own["layers"] == ["corners", "walls"]
+
+
+class TestSizingView:
+    def test_the_static_form_lists_sizes_and_rows(self) -> None:
+        html = SizingView(gallery.load("residential-house")).to_html()
+        assert "<td>x</td><td>D</td><td>1.1</td><td>1.19</td><td>0.0081</td>" in html
+        assert "<td>1:0-3-0 = |D|</td><td>=</td><td>0.18</td>" in html
+        assert "<td>f</td><td>free</td>" in html
+
+    def test_the_frame_is_that_of_the_equations(self) -> None:
+        frame = SizingView(FIGURE_8).frame
+        assert {"1:0-0-0 = |C|", "0:0-0-0 = |C|"} & {*frame.name}
+        assert {"multiplier", "active"} <= {*frame.columns}
+
+    def test_the_piece_has_every_step(self) -> None:
+        trace = TRACES["residential-house"]()
+        told = unpack(chunks.chunk(trace, "sizing"))["events"]
+        assert [own["event"] for own in told].count("ActiveSetStep") == len(trace.of_kind(ActiveSetStep))
+        assert {own["event"] for own in told} == {"SystemPosed", "ActiveSetStep", "SystemSolved"}

@@ -9,6 +9,7 @@ from .network import NetworkView
 from .page import SolverView
 from .player import PlayerView
 from .qualifiers import QualifiersView
+from .sizing import SizingView
 from .view import TraceView
 from .words import WordsView
 
@@ -20,6 +21,7 @@ __all__ = [
     "NetworkView",
     "PlayerView",
     "QualifiersView",
+    "SizingView",
     "SolverView",
     "TraceModel",
     "TraceView",

@@ -57,7 +57,7 @@ CHUNKS: Mapping[str, Callable[[Trace], Json]] = {
     "candidates": _picking(CandidateJudged),
     "network": networks,
     "alignment": aligned,
-    "sizing": _picking(SystemPosed, ActiveSetStep, SystemSolved, PathChosen),
+    "sizing": _picking(SystemPosed, ActiveSetStep, SystemSolved),
 }
 """Every piece by its name; one line each. A view says in its `needs` which it reads."""
 

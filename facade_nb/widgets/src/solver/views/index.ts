@@ -7,6 +7,7 @@ import { candidates } from "./candidates.ts";
 import { facade } from "./facade.ts";
 import { network } from "./network.ts";
 import { player } from "./player.ts";
+import { sizing } from "./sizing.ts";
 import { words } from "./words.ts";
 
 export const VIEWS: Record<string, ViewKind> = {
@@ -16,5 +17,6 @@ export const VIEWS: Record<string, ViewKind> = {
   facade,
   network,
   player,
+  sizing,
   words,
 };
