@@ -77,8 +77,9 @@ class Channel(Bundled):
 
     def close(self) -> None:
         """Close the wire; the model lives on."""
-        self.model.unobserve(self._on_version, "version")
-        self._forget_timer()
+        if self.comm is not None:
+            self.model.unobserve(self._on_version, "version")
+            self._forget_timer()
         super().close()
 
     def publish(self) -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Page, expect
 
-from .jupyter import Notebook
-from .test_solver import Watch, section, watch
+from .jupyter import App, Notebook, serve
+from .test_solver import TRACED, Watch, section, watch
 
 __all__ = ["watch"]
 
@@ -201,13 +202,54 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
         lab.theme("JupyterLab Light")
 
 
+def test_the_notebook_shows_its_saved_state_and_can_be_played_without_a_kernel(
+    browser: Browser, tmp_path: Path
+) -> None:
+    shutil.copy(Path(__file__).resolve().parents[2] / "notebooks" / "solver.ipynb", tmp_path)
+    with serve(tmp_path, "lab") as (address, token), browser.new_page() as page:
+        lab = Notebook(page, address, token, tmp_path, "lab")
+        lab.visit("solver.ipynb")
+        expect(page.get_by_alt_text("Elevation of Apartment house")).to_be_visible()  # before it is trusted
+        expect(page.locator("caption", has_text="Stages of Apartment house")).to_be_visible()
+        lab.trust()
+        house = page.locator(".fnb-page")
+        expect(house.locator(".fnb-traced [data-shape]").first).to_be_attached()
+        house.get_by_role("button", name="x: Words", exact=True).click()
+        for _ in range(3):
+            house.get_by_role("button", name="Step forward", exact=True).click()
+        expect(house.locator(".fnb-word[data-now]")).to_have_count(1)
+        # What was not needed before is not in the saved state, and that is said.
+        house.get_by_role("button", name="Code", exact=True).click()
+        expect(house.locator(".fnb-code-title")).to_contain_text("run the notebook to see it")
+        figure = page.locator(".fnb-part-words")
+        figure.scroll_into_view_if_needed()
+        expect(figure.locator(".fnb-tuple-box h4")).to_have_text("Candidates for alignment (6)")
+        assert lab.take_problems() == []
+
+
+@pytest.mark.parametrize("app", ["notebook", "voila"])
+def test_the_views_work_in_other_applications(browser: Browser, tmp_path: Path, app: App) -> None:
+    with serve(tmp_path, app) as (address, token), browser.new_page() as page:
+        notebook = Notebook(page, address, token, tmp_path, app)
+        notebook.open(TRACED + "SolverView(traced('residential-house'))")
+        if app == "notebook":
+            notebook.run()
+        expect(page.locator(".fnb-traced-note")).to_have_text("17 of 17 shapes", timeout=60_000)
+        notebook.button("x: Words").click()
+        for _ in range(3):
+            notebook.button("Step forward").click()
+        expect(page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("CeC")
+        notebook.button("Code").click()  # a piece that Python is asked for
+        expect(page.locator(".fnb-code-text")).to_contain_text("def words_judged(")
+
+
 def test_running_the_cell_again_leaves_nothing_behind(watch: Watch) -> None:
     lab: Notebook = watch("view = SolverView(traced('figure-7')); view")
+    shown = lab.page.locator(".fnb-view").first
     for _ in range(4):
+        shown.evaluate("e => { e.dataset.old = 'true'; }")
         lab.run()
-        expect(lab.page.locator(".fnb-view").first).to_be_visible()
-    lab.expect_python(
-        """sum(len(w.module) > 0 for w in __import__('ipywidgets').Widget.widgets.values()
-            if type(w).__name__ == 'TraceChannel')""",
-        1,
-    )
+        expect(lab.page.locator(".fnb-view:not([data-old])").first).to_be_visible()
+    widgets = "__import__('ipywidgets').Widget.widgets.values()"
+    lab.expect_python(f"sum(len(w.timeline) > 0 for w in {widgets} if type(w).__name__ == 'TraceChannel')", 1)
+    lab.expect_python(f"sum(type(w).__name__ == 'Code' and w._front == 'solver' for w in {widgets})", 1)

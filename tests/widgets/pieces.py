@@ -83,11 +83,29 @@ FIGURE_8 = Design.from_dict(
 """(CeC, ABABA) with |A| = |C| = 2, |B| = 3, |e| = 8 on a canvas of 12."""
 
 
+def _alternation() -> Trace:
+    """A pattern with alternatives, one of them of the wrong length, and a mirrored group."""
+    design = Design.from_dict(
+        {
+            "format": "facade-nb/design/1",
+            "name": "Alternatives",
+            "canvas": {"width": 6.0, "height": 1.0},
+            "symbols": {
+                name: {"size": size} for name, size in (("A", 1.0), ("B", 2.0), ("door", 3.0), ("H", 1.0))
+            },
+            "patterns": {"P": "(A|B|<door>)^k (AB)'", "Y": "H"},
+            "layers": [{"name": "wall", "x": {"pattern": "P"}, "y": {"pattern": "Y"}}],
+        }
+    )
+    return solve(design, trace=True).trace
+
+
 TRACES: Mapping[str, Callable[[], Trace]] = {
     name: cache(make)
     for name, make in {
         **{name: _gallery(name) for name in ("figure-7", "residential-house", "apartment-house")},
         "figure-7-paper": _figure_7,
+        "alternation": _alternation,
         "supplement-3.1": _supplement,
         "contradiction": _contradiction,
         "figure-8": _figure_8,

@@ -7,6 +7,7 @@ import re
 import struct
 import zlib
 from base64 import b64decode
+from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
@@ -249,10 +250,9 @@ class TestChannel:
         channel._handle_custom_msg({"op": "view", "client": "one", "here": True}, [])
         channel._handle_custom_msg({"op": "view", "client": "one", "here": False}, [])
         assert channel.words == channel.timeline == b""
-        assert channel.module == ""
         channel._handle_custom_msg({"op": "view", "client": "two", "here": True}, [])
         assert unpack(channel.words)["events"]
-        assert channel.module
+        assert channel.front_end.module
 
     def test_the_page_and_python_agree_on_the_moment(self, trace: Trace) -> None:
         view = WordsView(trace)
@@ -353,30 +353,30 @@ class TestQualifiers:
         view = QualifiersView()
         path = ["symbols", "D", "unoccludable"]
         view.channel._handle_custom_msg({"op": "set", "case": 0, "path": path, "value": True}, [])
-        assert view.channel.cases[0]["told"] == "P covers B."
-        assert view.channel.cases[0]["changed"]
-        assert not view.channel.cases[1]["changed"]
+        assert unpack(view.channel.cases)[0]["told"] == "P covers B."
+        assert unpack(view.channel.cases)[0]["changed"]
+        assert not unpack(view.channel.cases)[1]["changed"]
         view.channel._handle_custom_msg({"op": "reset", "case": 0}, [])
-        assert view.channel.cases[0]["told"] == "P covers D."
+        assert unpack(view.channel.cases)[0]["told"] == "P covers D."
 
     def test_a_case_without_a_layout_says_why(self) -> None:
         view = QualifiersView()
         view.channel._handle_custom_msg(
             {"op": "set", "case": 1, "path": ["canvas", "width"], "value": "0.5"}, []
         )
-        case = view.channel.cases[1]
+        case = unpack(view.channel.cases)[1]
         assert case["message"] == view.models[1].message != ""
         assert case["letters"] == []
         assert view.frame.told[1] == case["message"]
 
     def test_own_designs_can_be_compared(self) -> None:
         view = QualifiersView([gallery.load("qualifiers-a"), gallery.load("qualifiers-c")])
-        assert len(view.channel.cases) == 2
+        assert len(unpack(view.channel.cases)) == 2
         assert view.to_html().count("<img ") == 2
 
     def test_letters_stand_where_the_facade_has_them(self) -> None:
         view = QualifiersView()
-        for case, model in zip(view.channel.cases, view.models, strict=True):
+        for case, model in zip(unpack(view.channel.cases), view.models, strict=True):
             posts = [own["start"] for own in case["letters"] if own["symbol"] == "P"]
             shapes = [shape.rect[0] for shape in model.layout.shapes if shape.x == "P"]
             assert posts == pytest.approx(shapes)
@@ -394,3 +394,22 @@ class TestTables:
         )
         bad = TRACES["contradiction"]().analysis()
         assert "no whole numbers" in bad.inconsistent[0]
+
+
+def test_the_example_of_the_docs_runs() -> None:
+    page = Path(__file__).resolve().parents[2] / "docs" / "visible.md"
+    [example] = re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.S)
+    names: dict[str, Any] = {}
+    exec(compile(example, str(page), "exec"), names)
+    assert names["words"].model.moment == "x/words+3"
+    assert names["words"].step == 1.0
+
+
+def test_the_docs_name_every_view_and_every_target() -> None:
+    root = Path(__file__).resolve().parents[2]
+    page = (root / "docs" / "visible.md").read_text("utf-8")
+    assert [cls.__name__ for cls in (*VIEWS, QualifiersView) if f"`{cls.__name__}`" not in page] == []
+    links = (root / "facade_nb" / "widgets" / "src" / "solver" / "links.ts").read_text("utf-8")
+    kinds = re.findall(r'key\("([a-z]+)"', links)
+    assert len(kinds) > 10
+    assert [kind for kind in kinds if f"`{kind}:" not in page] == []

@@ -68,8 +68,9 @@ class TraceChannel(Bundled):
 
     def close(self) -> None:
         """Close the wire; the model lives on."""
-        self.model.unobserve(self._on_trace, "trace")
-        self.model.unobserve(self._on_moment, ["position", "picked"])
+        if self.comm is not None:
+            self.model.unobserve(self._on_trace, "trace")
+            self.model.unobserve(self._on_moment, ["position", "picked"])
         super().close()
 
     def provide(self, names: Iterable[str]) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from anywidget import AnyWidget
 from ipywidgets import Widget, widget_serialization
-from traitlets import Instance, List, Unicode
+from traitlets import Bytes, Instance, Unicode
 
 from ... import gallery
 from ...design import Design, DesignError
@@ -21,6 +21,7 @@ from ..bundled import Bundled, Message, bundle
 from ..model import FacadeModel
 from ..parts import picture
 from .built import PREFIX
+from .packing import pack
 from .timeline import hues
 
 if TYPE_CHECKING:
@@ -37,25 +38,28 @@ class QualifiersChannel(Bundled):
 
     front = "solver"
 
-    cases: List[Any] = List().tag(sync=True)
+    cases = Bytes(help="The cases as they are told, packed: the drawings are large.").tag(sync=True)
 
     def __init__(self, models: Sequence[FacadeModel]) -> None:
         self.models = tuple(models)
         self._begun = [model.design for model in models]
+        self.told: list[dict[str, Any]] = []
         super().__init__()
         for n, model in enumerate(self.models):
             model.observe(lambda _, n=n: self._publish(n), "version")
         self._refill()
 
     def _refill(self) -> None:
-        self.cases = [self._case(n) for n in range(len(self.models))]
+        self.told = [self._case(n) for n in range(len(self.models))]
+        self.cases = pack(self.told)
 
     def _empty(self) -> None:
-        self.cases = []
+        self.cases = b""
 
     def _publish(self, n: int) -> None:
         if not self._asleep and not self.models[n].busy:
-            self.cases = [*self.cases[:n], self._case(n), *self.cases[n + 1 :]]
+            self.told[n] = self._case(n)
+            self.cases = pack(self.told)
 
     def _case(self, n: int) -> dict[str, Any]:
         model = self.models[n]

@@ -22,9 +22,9 @@ import { VIEWS } from "../solver/views/index.ts";
 import { adoptStyle, watchTheme } from "../theme.ts";
 import type { Mount } from "../types.ts";
 
-export function mount({ el, model, channel }: Mount): () => void {
+export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();
-  adoptStyle(channel.get<string>("css"));
+  adoptStyle(css);
   const part = model.get<string>("part");
   const kind = VIEWS[part];
   if (!kind && part !== "solver" && part !== "qualifiers") throw new Error(`facade_nb: no view named ${part}`);

@@ -43,10 +43,10 @@ const PARTS: Record<string, Make> = {
   toolbar,
 };
 
-export function mount({ el, model, channel }: Mount): () => void {
+export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();
   const { signal } = end;
-  adoptStyle(channel.get<string>("css"));
+  adoptStyle(css);
   const store = new Store(channel, signal);
   const part = model.get<string>("part");
   const make = PARTS[part];

@@ -95,7 +95,7 @@ function question(quiz: Quiz, model: WidgetModel, refresh: () => void, signal: A
   const toggle = h(
     "button",
     { type: "button", class: "fnb-button fnb-wide fnb-predict", title: "Hide the answer, and ask" },
-    icon("ask") as never,
+    icon("ask"),
     h("span", {}, "Predict"),
   );
   toggle.addEventListener("click", () => quiz.ask(!quiz.on));

@@ -48,31 +48,42 @@ export class Placing {
   readonly letters: PlacedLetter[];
   readonly boundaries: Boundaries[];
   readonly shapes: PlacedShape[];
+  private readonly abouts = new Map<PlacedShape, string[]>();
 
-  constructor({ events }: PlacingData) {
+  /** @param chosen the word of each pattern in the layout, by axis */
+  constructor(
+    { events }: PlacingData,
+    private readonly chosen: Record<Axis, { words: Record<string, string> } | null>,
+  ) {
     this.letters = events.filter((event): event is PlacedLetter => event.event === "LetterPlaced");
     this.boundaries = events.filter((event): event is Boundaries => event.event === "BoundariesPlaced");
     this.shapes = events.filter((event): event is PlacedShape => event.event === "ShapeMerged");
   }
 
-  /** The letters of an axis that a shape is made of. */
-  lettersOf(shape: PlacedShape): Partial<Record<Axis, PlacedLetter>> {
+  /** The letters that a shape is made of, across and up. */
+  lettersOf(shape: PlacedShape): PlacedLetter[] {
     const [left, bottom, right, top] = shape.rect;
-    return {
-      x: this.find("x", shape.layer, shape.x, left, right),
-      y: this.find("y", shape.layer, shape.y, bottom, top),
-    } as never;
+    const across = this.find("x", shape.layer, shape.x, left, right);
+    const up = this.find("y", shape.layer, shape.y, bottom, top);
+    return [across, up].filter((letter) => letter !== undefined);
   }
 
-  /** What a shape is about: its letters, their columns, symbols, layer. */
-  about(shape: PlacedShape): string[] {
+  /** What a shape is about: its letters, their columns, symbols, words and patterns, its layer. */
+  about(shape: PlacedShape): readonly string[] {
+    const known = this.abouts.get(shape);
+    if (known) return known;
     const keys = [target.layer(shape.layer), target.symbol(shape.x), target.symbol(shape.y)];
-    for (const letter of Object.values(this.lettersOf(shape)))
-      if (letter)
-        keys.push(
-          target.letter(letter.axis, letter.layer, letter.letter),
-          target.column(letter.axis, letter.group, letter.column),
-        );
+    for (const letter of this.lettersOf(shape)) {
+      const { axis, pattern } = letter;
+      const word = this.chosen[axis]?.words[pattern];
+      keys.push(
+        target.letter(axis, letter.layer, letter.letter),
+        target.column(axis, letter.group, letter.column),
+        target.pattern(pattern),
+        ...(word === undefined ? [] : [target.word(axis, pattern, word)]),
+      );
+    }
+    this.abouts.set(shape, keys);
     return keys;
   }
 

@@ -49,11 +49,7 @@ export class Scale {
 }
 
 function control(label: string, name: IconName, act: () => void): HTMLButtonElement {
-  const button = h(
-    "button",
-    { type: "button", class: "fnb-button", "aria-label": label, title: label },
-    icon(name) as never,
-  );
+  const button = h("button", { type: "button", class: "fnb-button", "aria-label": label, title: label }, icon(name));
   button.addEventListener("click", act);
   return button;
 }

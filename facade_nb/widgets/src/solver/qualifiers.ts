@@ -5,10 +5,12 @@ import { h, mark, setText, svg } from "../dom.ts";
 import { parseDrawing } from "../drawing.ts";
 import { formatNumber } from "../fields.ts";
 import { type IconName, icon } from "../icons.ts";
+import { announce } from "../presence.ts";
 import { themeOf } from "../theme.ts";
 import type { WidgetModel } from "../types.ts";
 import { hueOf } from "./letters.ts";
 import { Links, linked, target } from "./links.ts";
+import { type Bytes, byteLength, unpack } from "./packing.ts";
 
 interface SymbolCase {
   name: string;
@@ -64,8 +66,16 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
   const ask = (message: Record<string, unknown>) => {
     if (live) channel.send({ ...message, client });
   };
+  let cases: Case[] = [];
+  const load = async () => {
+    const bytes = channel.get<Bytes>("cases");
+    if (!byteLength(bytes)) return; // put away: they come when Python has heard of this view
+    const told = await unpack<Case[]>(bytes);
+    if (signal.aborted || bytes !== channel.get<Bytes>("cases")) return; // newer ones have come
+    cases = told;
+    show();
+  };
   const show = () => {
-    const cases = channel.get<Case[]>("cases");
     setText(trouble, channel.get<string>("trouble").trim().split("\n").at(-1) ?? "");
     while (cards.length < cases.length) {
       const card = new Card(cards.length, ask);
@@ -75,21 +85,20 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
     for (const [n, one] of cases.entries()) cards[n]?.show(one);
     links.apply(el);
   };
-  channel.on("change:cases", show);
+  channel.on("change:cases", load);
   channel.on("change:trouble", show);
   const dress = new MutationObserver(() => requestAnimationFrame(show));
   dress.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
   requestAnimationFrame(show); // in the page it has a theme
   links.listen(el, signal);
   links.watch(() => links.apply(el), signal);
-  if (live) channel.send({ op: "view", client, here: true });
+  announce(channel, client, signal);
   signal.addEventListener("abort", () => {
-    channel.off("change:cases", show);
+    channel.off("change:cases", load);
     channel.off("change:trouble", show);
     dress.disconnect();
-    if (live) channel.send({ op: "view", client, here: false });
   });
-  show();
+  void load();
   return el;
 }
 
@@ -173,11 +182,7 @@ class Card {
 
   private toggle(symbol: string, name: IconName & (typeof QUALIFIERS)[number][0]): HTMLButtonElement {
     const label = `${symbol} is ${name}, case ${letterOf(this.number)}`;
-    const button = h(
-      "button",
-      { type: "button", class: "fnb-toggle", "aria-label": label, title: label },
-      icon(name) as never,
-    );
+    const button = h("button", { type: "button", class: "fnb-toggle", "aria-label": label, title: label }, icon(name));
     button.addEventListener("click", () => {
       const value = button.getAttribute("aria-pressed") !== "true";
       this.ask({ op: "set", case: this.number, path: ["symbols", symbol, name], value });
@@ -220,7 +225,7 @@ class Card {
       for (const [name, value] of Object.entries(linked([target.symbol(shape.dataset.x ?? "")])))
         mark(shape, name, value);
     picture.append(over);
-    this.drawing.replaceChildren(picture as never);
+    this.drawing.replaceChildren(picture);
   }
 
   private letter(one: Case, own: Case["letters"][number], x: number, y: number, width: number): SVGGElement {

@@ -16,14 +16,21 @@ export interface Rows<T> {
 /**
  * @param height of a row, in pixels
  * @param most rows that are in sight at once
- * @param make makes the row of an item anew
+ * @param key names an item, and all that its row depends on: while it is the same, the row stays
+ * @param make makes the row of an item
  * @param drawn is called after rows were made
  */
 export function rows<T>(
-  options: { height: number; most: number; make: (item: T, index: number) => HTMLElement; drawn?: () => void },
+  options: {
+    height: number;
+    most: number;
+    key: (item: T) => string;
+    make: (item: T) => HTMLElement;
+    drawn?: () => void;
+  },
   signal: AbortSignal,
 ): Rows<T> {
-  const { height, most, make } = options;
+  const { height, most, key, make } = options;
   const above = h("div", { "aria-hidden": "true" });
   const below = h("div", { "aria-hidden": "true" });
   const body = h("div", { role: "rowgroup" });
@@ -31,6 +38,7 @@ export function rows<T>(
   let items: readonly T[] = [];
   let spoken = -1;
   let window: [number, number] = [-1, -1];
+  let drawn = new Map<string, HTMLElement>();
 
   const draw = () => {
     const first = Math.max(0, Math.floor(el.scrollTop / height) - AROUND);
@@ -38,7 +46,17 @@ export function rows<T>(
     window = [first, last];
     above.style.height = `${first * height}px`;
     below.style.height = `${(items.length - last) * height}px`;
-    body.replaceChildren(...items.slice(first, last).map((item, n) => make(item, first + n)));
+    const next = new Map(items.slice(first, last).map((item) => [key(item), item]));
+    for (const [name, row] of drawn) if (!next.has(name)) row.remove();
+    let at = body.firstElementChild;
+    drawn = new Map(
+      [...next].map(([name, item]) => {
+        const row = drawn.get(name) ?? make(item);
+        if (row === at) at = row.nextElementSibling;
+        else body.insertBefore(row, at);
+        return [name, row];
+      }),
+    );
     options.drawn?.();
   };
   el.addEventListener(

@@ -1,5 +1,6 @@
 // What all views of one trace on a page share: its pieces, the player, the links. There is one session for a channel.
 
+import { announce } from "../presence.ts";
 import type { WidgetModel } from "../types.ts";
 import { Links } from "./links.ts";
 import { type Moment, momentIn, watchMoments } from "./moments.ts";
@@ -24,6 +25,7 @@ export class Session {
   private readonly views = new Set<() => void>();
   private loading: Promise<Loaded> | null = null;
   private loaded: AbortController | null = null;
+  private present = new AbortController();
   private telling = 0;
   /** The last position that came from Python or was told to it: -1 is the end. */
   private known = -1;
@@ -92,7 +94,8 @@ export class Session {
     this.channel.on("change:serial", this.onSerial);
     this.channel.on("change:position", this.onPosition);
     this.channel.on("change:picked", this.onPicked);
-    if (this.live) this.channel.send({ op: "view", client: this.client, here: true });
+    this.present = new AbortController();
+    announce(this.channel, this.client, this.present.signal);
   }
 
   private end(): void {
@@ -100,7 +103,7 @@ export class Session {
     this.channel.off("change:position", this.onPosition);
     this.channel.off("change:picked", this.onPicked);
     this.forget();
-    if (this.live) this.channel.send({ op: "view", client: this.client, here: false });
+    this.present.abort();
   }
 
   private forget(): void {

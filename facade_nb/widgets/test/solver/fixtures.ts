@@ -16,6 +16,7 @@ export const DESIGNS = [
   "figure-7-paper",
   "residential-house",
   "apartment-house",
+  "alternation",
   "contradiction",
   "figure-8",
   "figure-8-ida",

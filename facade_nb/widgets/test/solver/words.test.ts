@@ -85,6 +85,18 @@ describe("the bounds of Eq. 7", () => {
   );
 });
 
+describe("alternation and mirrors", () => {
+  it("the choice stands in a column of its own, mirrored letters have a dash", async () => {
+    one = await show(words, "alternation");
+    const heads = text('[data-pattern="P"] .fnb-word-head [role=columnheader]');
+    expect(heads.slice(0, 3)).toEqual(["k", "choice", "w1"]);
+    const rows = table("P").map((row) => row.slice(0, 3));
+    expect(rows).toContainEqual(["1", "<door>", "⟨door⟩B′A′"]);
+    expect(rows).toContainEqual(["2", "A", "A2B′A′"]);
+    expect(rows).toContainEqual(["1", "B", "BB′A′"]);
+  });
+});
+
 describe("the words", () => {
   it("come one by one", async () => {
     one = await show(words, "figure-7");

@@ -43,7 +43,7 @@ class AlignmentView implements View {
 
   constructor(private readonly context: ViewContext) {
     this.data = context.pieces.alignment as AlignmentData;
-    this.placing = new Placing(context.pieces.placing as PlacingData);
+    this.placing = new Placing(context.pieces.placing as PlacingData, context.timeline.data.chosen);
     this.choice = new AxisChoice(context.timeline, context.refresh);
     const sizes: [Sizes, string][] = [
       ["auto", "As far as it is played"],

@@ -144,6 +144,8 @@ class AnalysisView implements View {
       h("span", { class: "fnb-pair-middle" }, ...(middle.length ? middle.map((own) => this.term(own)) : ["ε"])),
       h("span", { class: "fnb-pair-end" }, ...one.suffix.map(term)),
     ];
+    // It is about the letters that are left over: they light up with it, on the façade too.
+    const left = [...new Set([...one.left, ...one.right].flatMap((own) => this.symbols(own)))];
     const equationText = h("span", { class: "fnb-pair-equation" });
     if (one.text) equationText.append("⇒ ", ...equation(one.text));
     else equationText.append(h("span", { class: "fnb-muted" }, one.note ? `no equation: ${one.note}` : "no equation"));
@@ -156,7 +158,7 @@ class AnalysisView implements View {
         "data-conflict": !!conflict,
         "data-against": against,
         "data-now": now,
-        ...linked([target.equation(axis, number)], this.about(one)),
+        ...linked([target.equation(axis, number), ...left], this.about(one)),
       },
       h("span", { class: "fnb-pair-number" }, `(${number + 1})`),
       h("div", { class: "fnb-pair-lines" }, ...line(0, one.left), ...line(1, one.right)),
@@ -186,9 +188,12 @@ class AnalysisView implements View {
 
   private term(own: Term): HTMLElement {
     const el = term(own);
-    const symbols = own.letters.map((letter) => target.symbol(letter.replace(/'$/, "")));
-    for (const [name, value] of Object.entries(linked(symbols))) mark(el, name, value);
+    for (const [name, value] of Object.entries(linked(this.symbols(own)))) mark(el, name, value);
     return el;
+  }
+
+  private symbols(own: Term): string[] {
+    return own.letters.map((letter) => target.symbol(letter.replace(/'$/, "")));
   }
 
   private about(one: Compared): string[] {

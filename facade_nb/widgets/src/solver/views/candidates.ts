@@ -61,7 +61,7 @@ const METRICS: Column[] = [
     name: "J",
     label: "J",
     title: "What it costs, metres: see the objective",
-    width: "50px",
+    width: "44px",
     value: (own) => own.cost,
     tells: true,
   },
@@ -69,23 +69,23 @@ const METRICS: Column[] = [
     name: "omega",
     label: "Ω",
     title: "Alignment error Ω = Σ ωⱼ, metres",
-    width: "50px",
+    width: "44px",
     value: (own) => own.omega,
     tells: true,
   },
   {
     name: "columns",
-    label: "columns",
+    label: "cols",
     title: "Columns of its alignment, all groups",
-    width: "62px",
+    width: "36px",
     value: (own) => own.columns,
     tells: true,
   },
   {
     name: "deviation",
-    label: "deviation",
+    label: "dev.",
     title: "√Σ (size − preferred)² after sizing, metres",
-    width: "68px",
+    width: "44px",
     value: (own) => own.deviation,
     tells: true,
   },
@@ -93,7 +93,7 @@ const METRICS: Column[] = [
     name: "bound",
     label: "J ≥",
     title: "What it costs at least, by its sizes alone, metres",
-    width: "50px",
+    width: "44px",
     value: (own) => own.bound,
     tells: true,
   },
@@ -117,7 +117,7 @@ class CandidatesView implements View {
   readonly el = h("div", { class: "fnb-candidates" });
   readonly controls: HTMLElement[];
   readonly quiz: Quiz;
-  private readonly all: Candidate[];
+  private readonly told: Record<Axis, Candidate[]>;
   private readonly choice: AxisChoice;
   private readonly list: Rows<Candidate>;
   private readonly head = h("div", { role: "row", class: "fnb-candidate fnb-candidate-head" });
@@ -134,15 +134,24 @@ class CandidatesView implements View {
   private seen: Candidate[] = [];
   private now = -1;
   private scale = 1;
+  private axis: Axis | null = null;
+  private headed = "";
   private by = "";
 
   constructor(private readonly context: ViewContext) {
-    this.all = (context.pieces.candidates as { events: Candidate[] }).events;
+    const { events } = context.pieces.candidates as { events: Candidate[] };
+    this.told = { x: events.filter((each) => each.axis === "x"), y: events.filter((each) => each.axis === "y") };
     this.choice = new AxisChoice(context.timeline, context.refresh);
     this.typed.addEventListener("input", context.refresh);
     this.controls = [this.choice.el, this.typed];
     this.list = rows<Candidate>(
-      { height: HEIGHT, most: MOST, make: (own) => this.row(own), drawn: () => context.links.apply(this.el) },
+      {
+        height: HEIGHT,
+        most: MOST,
+        key: (own) => `${own.axis}${own.number} ${own.at === this.now} ${this.quiz.stamp}`,
+        make: (own) => this.row(own),
+        drawn: () => context.links.apply(this.el),
+      },
       context.signal,
     );
     const table = h(
@@ -161,7 +170,7 @@ class CandidatesView implements View {
 
   show(position: number): void {
     const axis = this.choice.at(position);
-    const own = this.all.filter((each) => each.axis === axis);
+    const own = this.told[axis];
     // A prediction is made before anything is known: it is of all candidates.
     const seen = this.quiz.hides ? own : own.filter((each) => each.at <= position);
     const now = !this.quiz.hides && seen.at(-1)?.at === position ? position : -1;
@@ -172,8 +181,12 @@ class CandidatesView implements View {
     this.by = by;
     this.seen = seen;
     this.now = now;
-    this.scale = Math.max(1e-9, ...own.map((each) => Math.max(each.cost ?? 0, each.bound)).filter((n) => n < 1e6));
-    this.columns = this.columnsOf(own);
+    if (axis !== this.axis) {
+      this.axis = axis;
+      this.scale = Math.max(1e-9, ...own.map((each) => Math.max(each.cost ?? 0, each.bound)).filter((n) => n < 1e6));
+      this.columns = this.columnsOf(own);
+      this.headed = "";
+    }
     const holds = filter(this.typed.value);
     const shown = seen.filter((each) => holds(filterable(each)));
     this.sort(shown);
@@ -206,7 +219,7 @@ class CandidatesView implements View {
         name: "fate",
         label: "fate",
         title: "What became of it",
-        width: "112px",
+        width: "96px",
         value: (each) => each.fate,
         tells: true,
       },
@@ -244,10 +257,13 @@ class CandidatesView implements View {
   }
 
   private drawHead(own: readonly Candidate[]): void {
+    const by = [this.sorted.name, this.sorted.down, this.seen.length > 0].join();
+    if (by === this.headed) return;
+    this.headed = by;
     const patterns = this.patterns();
     const widths = [
       ...this.columns.map((each) => each.width),
-      "110px",
+      "80px",
       ...patterns.map((name) => `minmax(90px, ${widest(own, name)}fr)`),
     ];
     this.el.style.setProperty("--fnb-columns", widths.join(" "));
@@ -353,7 +369,7 @@ class CandidatesView implements View {
 
   private truths(): ReadonlyMap<string, Truth> {
     const axis = this.choice.at(this.context.player.position);
-    const own = this.all.filter((each) => each.axis === axis);
+    const own = this.told[axis];
     const best = own.find((each) => each.fate === "best");
     return new Map(own.map((each) => [String(each.number), { right: each === best, why: because(each, best) }]));
   }

@@ -3,6 +3,7 @@
 
 import { h, mark, setText, svg } from "../../dom.ts";
 import { type Box, boxOf, type Drawing, parseDrawing } from "../../drawing.ts";
+import { icon } from "../../icons.ts";
 import { themeOf } from "../../theme.ts";
 import { linked, target } from "../links.ts";
 import { type PlacedLetter, Placing, type PlacingData } from "../placing.ts";
@@ -34,6 +35,8 @@ class FacadeView implements View {
   private readonly strips = svg("g");
   private readonly marks = svg("g");
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
+  readonly controls: HTMLElement[];
+  private preview = true;
   private theme: "light" | "dark" | null = null;
   private drawing: Drawing | null = null;
   private shapes: SVGGElement[] = [];
@@ -41,8 +44,21 @@ class FacadeView implements View {
 
   constructor(private readonly context: ViewContext) {
     this.data = context.pieces.facade as FacadeData;
-    this.placing = new Placing(context.pieces.placing as PlacingData);
-    this.el = h("div", { class: "fnb-traced" }, this.sheet, this.note);
+    this.placing = new Placing(context.pieces.placing as PlacingData, context.timeline.data.chosen);
+    this.el = h("div", { class: "fnb-traced", "data-preview": true }, this.sheet, this.note);
+    const toggle = h(
+      "button",
+      { type: "button", class: "fnb-button fnb-wide", "aria-pressed": "true", title: "Show faintly what it becomes" },
+      icon("eye"),
+      h("span", {}, "Preview"),
+    );
+    toggle.addEventListener("click", () => {
+      this.preview = !this.preview;
+      mark(this.el, "data-preview", this.preview);
+      mark(toggle, "aria-pressed", String(this.preview));
+      context.refresh();
+    });
+    this.controls = [toggle];
     const observer = new MutationObserver(() => context.refresh());
     observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
     context.signal.addEventListener("abort", () => observer.disconnect());
@@ -52,10 +68,10 @@ class FacadeView implements View {
   show(position: number): void {
     this.dress();
     const drawn = played(this.data.shapes, position);
-    for (const [n, shape] of this.shapes.entries()) mark(shape, "visibility", n < drawn ? null : "hidden");
+    for (const [n, shape] of this.shapes.entries()) mark(shape, "data-later", n >= drawn);
     // Lines and shadows are those of all shapes of a layer together: they come with the last shape.
     const done = drawn === this.data.shapes.length && drawn > 0;
-    for (const element of this.finish) mark(element, "visibility", done ? null : "hidden");
+    for (const element of this.finish) mark(element, "data-later", !done);
     this.drawStrips(position, drawn > 0);
     setText(this.note, this.say(position, drawn));
   }
@@ -86,9 +102,7 @@ class FacadeView implements View {
     for (const [n, shape] of this.shapes.entries()) {
       const told = this.placing.shapes[n];
       if (!told) continue;
-      const letters = Object.values(this.placing.lettersOf(told)).map((own) =>
-        target.letter(own.axis, own.layer, own.letter),
-      );
+      const letters = this.placing.lettersOf(told).map((own) => target.letter(own.axis, own.layer, own.letter));
       for (const [name, value] of Object.entries(linked([target.shape(n), ...letters], this.placing.about(told))))
         mark(shape, name, value);
     }
@@ -101,7 +115,7 @@ class FacadeView implements View {
     });
     picture.prepend(frame);
     picture.append(this.strips, this.marks);
-    this.sheet.replaceChildren(picture as never);
+    this.sheet.replaceChildren(picture);
   }
 
   /** Before there are shapes: the letters that are placed, across and up, and the boundaries of their columns. */
@@ -132,14 +146,14 @@ class FacadeView implements View {
     const own: SVGElement[] = [];
     const single = [...keys].some((key) => key.startsWith("shape:"));
     for (const [n, shape] of this.shapes.entries()) {
-      if (shape.getAttribute("visibility") === "hidden") continue;
+      if (!this.preview && shape.hasAttribute("data-later")) continue;
       const told = this.placing.shapes[n];
       const hit = single ? keys.has(target.shape(n)) : told && this.placing.about(told).some((key) => keys.has(key));
       if (hit) own.push(this.rect(name, boxOf(shape)));
     }
     if (single) return own;
     for (const line of this.placing.boundaries) {
-      if (line.at > position) continue;
+      if (!this.preview && line.at > position) continue;
       for (const [j, value] of line.boundaries.entries()) {
         const next = line.boundaries[j + 1];
         if (keys.has(target.boundary(line.axis, line.group, j)))
@@ -150,7 +164,7 @@ class FacadeView implements View {
     }
     // A letter without a shape of its own: transparent, or masked.
     const hidden = this.placing.letters.filter(
-      (each) => each.at <= position && keys.has(target.letter(each.axis, each.layer, each.letter)),
+      (each) => (this.preview || each.at <= position) && keys.has(target.letter(each.axis, each.layer, each.letter)),
     );
     for (const each of hidden) own.push(this.rect(`${name} fnb-traced-letter`, this.strip(each)));
     return own;

@@ -41,7 +41,12 @@ class PlayerView implements View {
     const { text } = context.pieces.captions as Captions;
     this.positions = text.map((_, at) => at);
     this.list = rows<number>(
-      { height: HEIGHT, most: MOST, make: (at) => this.row(at, text[at] ?? "") },
+      {
+        height: HEIGHT,
+        most: MOST,
+        key: (at) => `${at} ${Math.sign(at - this.now)}`,
+        make: (at) => this.row(at, text[at] ?? ""),
+      },
       context.signal,
     );
     this.code.append(this.title, this.text);
@@ -55,7 +60,7 @@ class PlayerView implements View {
         "aria-pressed": "false",
         title: "Show the code of what is played",
       },
-      icon("code") as never,
+      icon("code"),
       h("span", {}, "Code"),
     );
     toggle.addEventListener("click", () => {
@@ -79,8 +84,12 @@ class PlayerView implements View {
   private async load(): Promise<void> {
     if (this.data || this.code.hidden) return;
     setText(this.title, "Loading…");
-    this.data = await this.context.session.piece<CodeData>("code");
-    if (!this.context.signal.aborted) this.context.refresh();
+    try {
+      this.data = await this.context.session.piece<CodeData>("code");
+      if (!this.context.signal.aborted) this.context.refresh();
+    } catch (error) {
+      setText(this.title, error instanceof Error ? error.message : String(error));
+    }
   }
 
   private showCode(position: number): void {

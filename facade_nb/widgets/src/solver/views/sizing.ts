@@ -61,6 +61,8 @@ class SizingView implements View {
   private system: System | null = null;
   private moment: Moment | null = null;
   private by = "";
+  /** What all rows depend on: the axis, and what is known of its solution. */
+  private rowsBy = "";
 
   constructor(private readonly context: ViewContext) {
     const { events } = context.pieces.sizing as { events: SizingEvent[] };
@@ -85,7 +87,13 @@ class SizingView implements View {
       return [name, tab];
     });
     this.list = rows<Constraint>(
-      { height: HEIGHT, most: MOST, make: (own) => this.row(own), drawn: () => context.links.apply(this.table) },
+      {
+        height: HEIGHT,
+        most: MOST,
+        key: (own) => `${this.rowsBy}|${own.number}`,
+        make: (own) => this.row(own),
+        drawn: () => context.links.apply(this.table),
+      },
       context.signal,
     );
     this.table = h(
@@ -130,6 +138,7 @@ class SizingView implements View {
     }
     this.system = system;
     this.moment = moment;
+    this.rowsBy = [axis, moment.step?.at, moment.solved?.at].join();
     this.el.replaceChildren(this.body);
     this.sum.replaceChildren(...this.summary(system, moment));
     this.picture.replaceChildren(forces(system, moment, this.context.timeline.data.symbols));

@@ -156,6 +156,7 @@ class WordsView implements View {
       const now = told[seen - 1]?.at === position ? position : -1;
       const taken = chosen && chosen.at <= position ? (chosen.words[pattern] ?? null) : null;
       if (section.is(`${stamp}|${seen}|${now}|${taken}`)) continue;
+      section.stamp = stamp;
       section.show(
         own ? { ...own, words: own.words.filter((word) => word.event.at <= position) } : null,
         told.length,
@@ -244,6 +245,8 @@ class Section {
   private unsized: string[] = [];
   private columns = "";
   private by: string | null = null;
+  /** Changes with the verdicts and the question. */
+  stamp = "";
 
   constructor(
     private readonly number: number,
@@ -256,7 +259,13 @@ class Section {
   ) {
     this.span = longest * 1.02;
     this.list = rows<Candidate>(
-      { height: HEIGHT, most: MOST, make: (word) => this.row(word), drawn: () => context.links.apply(this.el) },
+      {
+        height: HEIGHT,
+        most: MOST,
+        key: (word) => this.keyOf(word),
+        make: (word) => this.row(word),
+        drawn: () => context.links.apply(this.el),
+      },
       context.signal,
     );
     this.ruler = h("div", { role: "row", class: "fnb-word fnb-word-head" });
@@ -347,6 +356,13 @@ class Section {
     return [canvas];
   }
 
+  /** A word, and all that its row depends on besides. */
+  private keyOf(word: Candidate): string {
+    const { at } = word.event;
+    const state = `${at === this.now} ${word.event.word === this.taken} ${this.stamp} ${this.columns}`;
+    return `${keyOf(this.info.name, word)} ${state}`;
+  }
+
   private row(word: Candidate): HTMLElement {
     const { event, sizes } = word;
     const { symbols } = this.context.timeline.data;
@@ -366,7 +382,7 @@ class Section {
         "aria-label": `${formatNumber(word.size)} metres of ${formatNumber(this.canvas)}`,
       },
       band,
-      ...boxes(this.drawn(word), this.span, symbols, 300),
+      ...boxes(this.drawn(word), this.span, symbols),
       line,
     );
     const values = [
