@@ -145,9 +145,9 @@ describe("sizing, step by step", () => {
     expect(one.view.el.querySelectorAll('.fnb-rows [data-kind="inequality"]').length).toBe(0);
     tab("Cx ≤ e");
     expect(one.view.el.querySelectorAll('.fnb-rows [data-kind="equation"]').length).toBe(0);
-    expect(texts(".fnb-size-text")).toContain("default:x0 < default:x1");
+    expect(texts(".fnb-size-text")).toContain("default: x0 < x1");
     tab("written out");
-    expect(texts(".fnb-size-min li")).toContain("(default:1-4-1.t − default:1-4-1.s − 1.1)²");
+    expect(texts(".fnb-size-min li")).toContain("(1-4-1.t − 1-4-1.s − 1.1)²");
   });
 
   it("draws its matrix: an entry where the system has one, with its sign", async () => {

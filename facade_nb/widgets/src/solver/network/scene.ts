@@ -11,6 +11,7 @@ const NODES = 2_000; // up to so many nodes,
 const EDGES = 60_000; // and so many edges, a lattice is listed as a whole
 const SMALL = 400; // up to so many edges, those that are forbidden are drawn too
 const ARCS = 4_000; // arcs that are drawn at once
+const WIDE = 1 << 14; // more than any place
 const LIGHT = 240; // of a larger network so many of the lightest permitted edges are drawn
 
 export type ArcKind = "permitted" | "forbidden" | "weighed" | "refused" | "path" | "choice";
@@ -217,7 +218,15 @@ export function sceneOf(
     }
     return own;
   };
-  for (const step of told.taken) node(story.placesOf(step)).taken++;
+  const taken = new Map<number, { step: number; times: number }>();
+  for (const step of told.taken) {
+    // A step of the player goes over all that was done so far: nothing is made here but what is drawn.
+    const at = story.placeOf(step, a) * WIDE + story.placeOf(step, b);
+    const own = taken.get(at);
+    if (own) own.times++;
+    else taken.set(at, { step, times: 1 });
+  }
+  for (const { step, times } of taken.values()) node(story.placesOf(step)).taken += times;
   const path = chosen ? (choices.cuts ? pathArcs(subject) : base.shortest) : [];
   for (const arc of path) for (const places of [arc.from, arc.to]) node(places).onPath = true;
 
@@ -267,34 +276,41 @@ function arcsOf(
     drawn.add(arc.key);
   }
   const exact = base.lattice !== null;
-  const steps = [...told.weighed, ...told.refused].sort((x, y) => x - y);
-  const seen = new Map<string, number>();
-  for (let k = steps.length - 1; k >= 0 && arcs.length < ARCS; k--) {
-    const step = steps[k] as number;
-    const from = story.placesOf(step);
-    const to = story.afterOf(step);
-    const here = focused !== null && at.shown(from) === focused;
-    const refused = story.data.steps.kind[step] === 2;
-    if (refused && (!here || !choices.forbidden || exact)) continue;
-    if (at.chosen && exact && !here) continue;
-    const ends = from.map((place, b) => to[b] ?? place);
-    const line = `${at.shown(from)}>${at.shown(ends)}${refused}`;
-    if (seen.has(line) && !here) continue;
-    seen.set(line, step);
-    const column = story.columnOf(step);
-    arcs.push({
-      kind: refused ? "refused" : "weighed",
-      from,
-      to: ends,
-      column,
-      omega: Number.isNaN(story.data.steps.omega[step]) ? null : (story.data.steps.omega[step] ?? null),
-      constraint: refused ? story.reasonOf(step) : "",
-      text: story.textOf(step),
-      key: edgeKey(subject, from, column),
-      step: -1,
-    });
-  }
+  const seen = new Set<number>();
+  const [a, b] = choices.pair;
+  const looked = at.focus ? (at.focus[a] ?? 0) * WIDE + (at.focus[b] ?? 0) : -1;
+  const draw = (step: number, refused: boolean) => {
+    const from = story.placeOf(step, a) * WIDE + story.placeOf(step, b);
+    const here = from === looked;
+    if (refused ? !here : at.chosen && exact && !here) return;
+    const to = story.afterPlaceOf(step, a) * WIDE + story.afterPlaceOf(step, b);
+    const line = (from * WIDE * 2 + to) * 2 + Number(refused);
+    if (seen.has(line) && !here) return;
+    seen.add(line);
+    arcs.push(stepArc(story, subject, step, refused ? "refused" : "weighed"));
+  };
+  for (let k = told.weighed.length - 1; k >= 0 && arcs.length < ARCS; k--) draw(told.weighed[k] as number, false);
+  if (choices.forbidden && !exact && looked >= 0)
+    for (let k = told.refused.length - 1; k >= 0 && arcs.length < ARCS; k--) draw(told.refused[k] as number, true);
   return arcs;
+}
+
+/** A step of the search as an arc. */
+export function stepArc(story: Story, subject: Subject, step: number, kind: ArcKind): Arc {
+  const from = story.placesOf(step);
+  const column = story.columnOf(step);
+  const omega = story.data.steps.omega[step] ?? Number.NaN;
+  return {
+    kind,
+    from,
+    to: story.afterOf(step).map((place, b) => place ?? from[b] ?? 0),
+    column,
+    omega: Number.isNaN(omega) ? null : omega,
+    constraint: kind === "refused" ? story.reasonOf(step) : "",
+    text: story.textOf(step),
+    key: edgeKey(subject, from, column),
+    step: -1,
+  };
 }
 
 /** Running totals of both words from a node, and the region where they differ by at most μ (supplement, Figure 6). */
@@ -350,30 +366,15 @@ function matches(
 
 /** Every column that leaves a node of the drawing, those that may come next first. */
 export function leaving(story: Story, subject: Subject, base: Base, told: Told, places: readonly number[]): Arc[] {
-  const at = places.join();
   if (base.lattice) {
+    const at = places.join();
     const own = base.arcs.filter((arc) => arc.from.join() === at);
     return own.sort((x, y) => rankOf(y) - rankOf(x) || (x.omega ?? 9e9) - (y.omega ?? 9e9));
   }
-  const arcs: Arc[] = [];
-  for (const step of [...told.weighed, ...told.refused]) {
-    if (story.placesOf(step).join() !== at) continue;
-    const refused = story.data.steps.kind[step] === 2;
-    const column = story.columnOf(step);
-    const after = story.afterOf(step).map((place, b) => place ?? places[b] ?? 0);
-    const omega = story.data.steps.omega[step] ?? Number.NaN;
-    arcs.push({
-      kind: refused ? "refused" : "weighed",
-      from: [...places],
-      to: after,
-      column,
-      omega: Number.isNaN(omega) ? null : omega,
-      constraint: refused ? story.reasonOf(step) : "",
-      text: story.textOf(step),
-      key: edgeKey(subject, places, column),
-      step: -1,
-    });
-  }
+  const arcs = [
+    ...told.weighed.filter((step) => story.isAt(step, places)).map((step) => stepArc(story, subject, step, "weighed")),
+    ...told.refused.filter((step) => story.isAt(step, places)).map((step) => stepArc(story, subject, step, "refused")),
+  ];
   const distinct = new Map(arcs.map((arc) => [arc.key + arc.to.join(), arc]));
   return [...distinct.values()].sort((x, y) => rankOf(y) - rankOf(x) || (x.omega ?? 9e9) - (y.omega ?? 9e9));
 }

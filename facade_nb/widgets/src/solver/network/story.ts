@@ -217,6 +217,23 @@ export class Story {
     return Array.from(this.steps.places.subarray(this.steps.offset[step], this.steps.offset[step + 1]));
   }
 
+  /** Whether a step is of the node at some places. */
+  isAt(step: number, places: readonly number[]): boolean {
+    const from = this.steps.offset[step] ?? 0;
+    if ((this.steps.offset[step + 1] ?? 0) - from !== places.length) return false;
+    return places.every((place, b) => this.steps.places[from + b] === place);
+  }
+
+  /** Where a band stands at a step, and after it. */
+  placeOf(step: number, band: number): number {
+    return band < 0 ? 0 : (this.steps.places[(this.steps.offset[step] ?? 0) + band] ?? 0);
+  }
+
+  afterPlaceOf(step: number, band: number): number {
+    const after = band < 0 ? 0 : (this.steps.after[(this.steps.offset[step] ?? 0) + band] ?? 0);
+    return after < 0 ? this.placeOf(step, band) : after;
+  }
+
   /** Where an edge leads, per band; null where that does not matter. */
   afterOf(step: number): (number | null)[] {
     return Array.from(this.steps.after.subarray(this.steps.offset[step], this.steps.offset[step + 1]), (place) =>

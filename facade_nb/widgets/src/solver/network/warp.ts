@@ -9,7 +9,7 @@ import { edgeKey } from "./scene.ts";
 import { lettersBetween, type MergerNote, type Subject } from "./story.ts";
 
 const WIDE = 860;
-const LEFT = 92;
+const LEFT = 108;
 const TREE = 26;
 const ROW = 46;
 const BAR = 20;

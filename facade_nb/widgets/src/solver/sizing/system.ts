@@ -177,19 +177,24 @@ export class System {
     ];
   }
 
-  /** The name of a letter as the paper's Figure 7 writes it, counted from 1; with the group where there are several. */
-  ijk({ group, band, column, place }: Place): string {
-    const name = `${band + 1}-${column + 1}-${place + 1}`;
-    return this.paths.length > 1 ? `${this.paths[group]?.group ?? group}:${name}` : name;
+  /** The name of a letter as the paper's Figure 7 writes it: word, column, letter, counted from 1. */
+  ijk({ band, column, place }: Place): string {
+    return `${band + 1}-${column + 1}-${place + 1}`;
   }
 
-  variableName(v: number): string {
+  /** What a text is about where there are several groups. */
+  private of(group: number | undefined, text: string): string {
+    const name = group !== undefined && group >= 0 && this.paths.length > 1 ? this.paths[group]?.group : undefined;
+    return name === undefined ? text : `${name}: ${text}`;
+  }
+
+  /** The name of a variable; with its group where it is to stand alone. */
+  variableName(v: number, alone = false): string {
     const own = this.posed.meaning[v];
     if (!own) return "";
     if (own.kind === "size") return `|${own.symbol}|`;
-    const group = this.paths.length > 1 ? `${this.paths[own.group]?.group ?? own.group}:` : "";
-    if (own.kind === "boundary") return `${group}x${own.column}`;
-    return `${this.ijk(own)}.${own.kind === "start" ? "s" : "t"}`;
+    const name = own.kind === "boundary" ? `x${own.column}` : `${this.ijk(own)}.${own.kind === "start" ? "s" : "t"}`;
+    return alone ? this.of(own.group, name) : name;
   }
 
   /** What a constraint is, and what it is about, for the links. */
@@ -237,7 +242,7 @@ export class System {
         terms: [[v, 1]],
         lower,
         upper,
-        text: parts,
+        text: own.kind === "size" ? parts : this.of(own.group, parts),
         places: [],
         symbol: own.symbol,
       },
@@ -257,7 +262,19 @@ export class System {
       }),
     );
     const symbol = /= \|(.+)\|$/.exec(name)?.[1] ?? "";
-    return { number, name, kind, terms, lower, upper, text: this.say(name, places, symbol, terms), places, symbol };
+    const boundary = this.posed.meaning[terms[0]?.[0] ?? -1];
+    const group = places[0]?.group ?? (name.startsWith("extent") ? undefined : boundary?.group);
+    return {
+      number,
+      name,
+      kind,
+      terms,
+      lower,
+      upper,
+      text: this.of(group, this.say(name, places, symbol, terms)),
+      places,
+      symbol,
+    };
   }
 
   private say(name: string, places: Place[], symbol: string, terms: [number, number][]): string {

@@ -8,7 +8,17 @@ import { target } from "../links.ts";
 import { columnText, leavingList, litLetters } from "../network/lists.ts";
 import { ASPECT, boundsOf, curveOf, type Look, MARGIN, paint, pointOf } from "../network/paint.ts";
 import { Plane, type Point } from "../network/plane.ts";
-import { type Arc, type Base, baseOf, edgeKey, leaving, nodeKey, type Scene, sceneOf } from "../network/scene.ts";
+import {
+  type Arc,
+  type Base,
+  baseOf,
+  edgeKey,
+  leaving,
+  nodeKey,
+  type Scene,
+  sceneOf,
+  stepArc,
+} from "../network/scene.ts";
 import { type NetworkData, Story, type Subject, sizeOf, TAKEN, type Told } from "../network/story.ts";
 import { warp } from "../network/warp.ts";
 import { Quiz, type Truth } from "../quiz.ts";
@@ -338,7 +348,7 @@ class NetworkView implements View {
           const why = right
             ? `No alignment that goes on so costs less than J = ${formatNumber(bound)} m: the least of all.`
             : `J ≥ ${formatNumber(bound)} m this way; another edge promises ${formatNumber(least)} m.`;
-          return { arc: this.stepArc(subject, step), right, why };
+          return { arc: { ...stepArc(this.story, subject, step, "choice"), text: "" }, right, why };
         });
       if (choices.some(({ right }) => right) && choices.length > 1) return choices;
     }
@@ -367,24 +377,6 @@ class NetworkView implements View {
       from = column.after;
     }
     return [];
-  }
-
-  private stepArc(subject: Subject, step: number): Arc {
-    const from = this.story.placesOf(step);
-    const column = this.story.columnOf(step);
-    const to = this.story.afterOf(step).map((place, b) => place ?? from[b] ?? 0);
-    const omega = this.story.data.steps.omega[step] ?? Number.NaN;
-    return {
-      kind: "choice",
-      from,
-      to,
-      column,
-      omega: Number.isNaN(omega) ? null : omega,
-      constraint: "",
-      text: "",
-      key: edgeKey(subject, from, column),
-      step,
-    };
   }
 
   private keyOf = ({ arc }: Choice): string => `${arc.key}>${arc.to.join(",")}`;

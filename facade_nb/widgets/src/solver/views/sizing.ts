@@ -291,7 +291,7 @@ class SizingView implements View {
         "span",
         {
           class: `fnb-size-variable ${own?.kind === "size" ? hueOf(this.context.timeline.data.symbols, own.symbol) : ""}`,
-          title: system.variableName(v),
+          title: system.variableName(v, true),
           ...linked([target.variable(system.posed.axis, name)], this.variableAbout(system, v)),
         },
         h("span", {}, wide ? system.variableName(v) : ""),
@@ -328,7 +328,7 @@ class SizingView implements View {
         {
           class: "fnb-size-cell",
           "data-sign": coefficient > 0 ? "plus" : "minus",
-          title: `${text} · ${system.variableName(v)}`,
+          title: `${text} · ${system.variableName(v, true)}`,
         },
         text,
       );
