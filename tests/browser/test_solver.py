@@ -224,6 +224,30 @@ def test_a_live_model_is_followed(watch: Watch) -> None:
     assert section(page, "Bx").locator(".fnb-eq").inner_text() != before
 
 
+def test_an_error_of_ours_is_shown_where_the_view_would_be(watch: Watch) -> None:
+    lab = watch("view = WordsView(traced('figure-7')); view")
+    lab.run(
+        TRACED
+        + """
+from facade_nb.widgets.visible import channel as _channel
+_made, _channel.chunk = _channel.chunk, lambda *_: 1 / 0
+view = WordsView(traced('figure-7'))
+_channel.chunk = _made
+view"""
+    )
+    expect(lab.page.locator(".fnb-trouble summary")).to_have_text("ZeroDivisionError: division by zero")
+
+
+def test_an_address_leads_to_a_moment(watch: Watch) -> None:
+    lab = watch("view = WordsView(traced('residential-house')); view")
+    lab.page.evaluate("() => { location.hash = '#facade-nb=x/words+2&design=Residential%20house'; }")
+    expect(lab.page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("fDf")
+    lab.page.evaluate("() => { location.hash = '#facade-nb=x/words+3&design=Another'; }")
+    lab.page.wait_for_timeout(200)
+    expect(lab.page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("fDf")
+    lab.page.evaluate("() => history.replaceState(null, '', location.pathname + location.search)")
+
+
 @pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
 def test_looks(watch: Watch, out: Path, theme: str) -> None:
     """Screenshots for people, and that the theme is followed."""
