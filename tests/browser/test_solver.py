@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
-from .jupyter import Notebook
+from .jupyter import Notebook, serve
 
 TRACED = """
 from IPython.display import display
@@ -246,6 +247,19 @@ def test_an_address_leads_to_a_moment(watch: Watch) -> None:
     lab.page.wait_for_timeout(200)
     expect(lab.page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("fDf")
     lab.page.evaluate("() => history.replaceState(null, '', location.pathname + location.search)")
+
+
+def test_a_copied_link_opens_the_page_at_its_moment(browser: Browser, tmp_path: Path) -> None:
+    with serve(tmp_path, "lab") as (address, token), browser.new_page() as page:
+        lab = Notebook(page, address, token, tmp_path, "lab")
+        lab.open(TRACED + "view = WordsView(traced('residential-house')); view")
+        lab.run()
+        expect(page.locator(".fnb-play-count")).to_have_text(re.compile(r"(\d+) / \1"))
+        page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
+        page.goto(
+            f"{address}/lab/tree/test.ipynb?token={token}#facade-nb=x/words+3&design=Residential%20house"
+        )
+        expect(page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("CeC", timeout=30_000)
 
 
 @pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
