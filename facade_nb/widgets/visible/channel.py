@@ -76,15 +76,16 @@ class TraceChannel(Bundled):
     def provide(self, names: Iterable[str]) -> None:
         """Have pieces of the trace in the traits."""
         for name in names:
-            if name not in self._provided:
+            if name not in self._provided and self._fill(name):
                 self._provided[name] = None
-                self._fill(name)
 
-    def _fill(self, name: str) -> None:
+    def _fill(self, name: str) -> bool:
         try:
             setattr(self, name, chunk(self.model.trace, name))
         except Exception:  # the edge to the browser: it is shown there, not lost in a log
             self.trouble = traceback.format_exc()
+            return False
+        return True
 
     def _refill(self) -> None:
         with self.hold_sync():

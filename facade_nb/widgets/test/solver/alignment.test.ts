@@ -147,3 +147,17 @@ describe("an alignment tried by hand", () => {
     }
   });
 });
+
+describe("at preferred sizes", () => {
+  it("every column is as wide as its largest element, however narrow", async () => {
+    one = await show(alignment, "apartment-house");
+    one.view.controls?.[0]?.querySelectorAll("button")[1]?.click();
+    one.view.controls?.[1]?.querySelectorAll("button")[1]?.click();
+    const boxes = [...group("3").querySelectorAll<HTMLElement>(".fnb-align-row .fnb-box")];
+    const width = (symbol: string) => parseFloat(boxes.find((box) => box.textContent === symbol)?.style.width ?? "0");
+    expect(width("D") / width("B")).toBeCloseTo(0.3 / 1.2, 3);
+    const starts = boxes.map((box) => parseFloat(box.style.left));
+    const ends = boxes.map((box) => parseFloat(box.style.left) + parseFloat(box.style.width));
+    for (const [n, start] of starts.slice(1).entries()) expect(start).toBeCloseTo(ends[n] ?? 0, 2);
+  });
+});

@@ -106,7 +106,8 @@ export function atPreferred(path: PathNote, cuts: Cuts, placements: Readonly<Rec
   for (const [j, column] of columns.entries()) {
     const totals = column.map((_, b) => (sizes[j]?.[b] ?? []).reduce((sum, size) => sum + size, 0));
     const rigid = totals.filter((_, b) => !isElastic(path, columns, j, b));
-    const width = Math.max(least, ...(rigid.some((own) => own > 0) ? rigid : totals));
+    // An element of no width, which only the reader can make, is drawn so that it can be taken hold of.
+    const width = Math.max(0, ...(rigid.some((own) => own > 0) ? rigid : totals)) || least;
     const start = boundaries.at(-1) ?? 0;
     boundaries.push(start + width);
     elements.push(

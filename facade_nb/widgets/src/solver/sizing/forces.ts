@@ -7,7 +7,7 @@ import { linked, target } from "../links.ts";
 import { isForce, type Moment, type Place, type System } from "./system.ts";
 
 const WIDE = 900;
-const LEFT = 96;
+const LEFT = 124;
 const RIGHT = 50;
 const BEFORE = 9;
 const AFTER = 26;
@@ -39,7 +39,7 @@ export function forces(system: System, moment: Moment, symbols: Record<string, n
       const label = svg(
         "text",
         { class: "fnb-forces-layer", x: LEFT - 10, y: y + BEFORE + 18 },
-        layer.length > 13 ? `${layer.slice(0, 12)}…` : layer,
+        layer.length > 19 ? `${layer.slice(0, 18)}…` : layer,
       );
       drawing.append(label);
       let at = 0;
