@@ -13,11 +13,14 @@ from .parts import (
 )
 from .studio import MassingView, Studio
 from .visible import (
+    AlignmentView,
     AnalysisView,
     CandidatesView,
     FacadeView,
+    NetworkView,
     PlayerView,
     QualifiersView,
+    SizingView,
     SolverView,
     TraceModel,
     TraceView,
@@ -25,6 +28,7 @@ from .visible import (
 )
 
 __all__ = [
+    "AlignmentView",
     "AnalysisView",
     "CandidatesView",
     "CanvasEditor",
@@ -35,11 +39,13 @@ __all__ = [
     "FacadeView",
     "LayerEditor",
     "MassingView",
+    "NetworkView",
     "Part",
     "PatternEditor",
     "PlayerView",
     "QualifiersView",
     "Selection",
+    "SizingView",
     "SolverView",
     "Studio",
     "SymbolEditor",

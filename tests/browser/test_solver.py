@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
-from .jupyter import Notebook
+from .jupyter import Notebook, serve
 
 TRACED = """
 from IPython.display import display
@@ -222,6 +223,43 @@ def test_a_live_model_is_followed(watch: Watch) -> None:
     lab.field("Canvas width in metres").fill("9")
     expect(section(page, "Bx").locator(".fnb-tick").first).to_have_text("canvas 9 m")
     assert section(page, "Bx").locator(".fnb-eq").inner_text() != before
+
+
+def test_an_error_of_ours_is_shown_where_the_view_would_be(watch: Watch) -> None:
+    lab = watch("view = WordsView(traced('figure-7')); view")
+    lab.run(
+        TRACED
+        + """
+from facade_nb.widgets.visible import channel as _channel
+_made, _channel.chunk = _channel.chunk, lambda *_: 1 / 0
+view = WordsView(traced('figure-7'))
+_channel.chunk = _made
+view"""
+    )
+    expect(lab.page.locator(".fnb-trouble summary")).to_have_text("ZeroDivisionError: division by zero")
+
+
+def test_an_address_leads_to_a_moment(watch: Watch) -> None:
+    lab = watch("view = WordsView(traced('residential-house')); view")
+    lab.page.evaluate("() => { location.hash = '#facade-nb=x/words+2&design=Residential%20house'; }")
+    expect(lab.page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("fDf")
+    lab.page.evaluate("() => { location.hash = '#facade-nb=x/words+3&design=Another'; }")
+    lab.page.wait_for_timeout(200)
+    expect(lab.page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("fDf")
+    lab.page.evaluate("() => history.replaceState(null, '', location.pathname + location.search)")
+
+
+def test_a_copied_link_opens_the_page_at_its_moment(browser: Browser, tmp_path: Path) -> None:
+    with serve(tmp_path, "lab") as (address, token), browser.new_page() as page:
+        lab = Notebook(page, address, token, tmp_path, "lab")
+        lab.open(TRACED + "view = WordsView(traced('residential-house')); view")
+        lab.run()
+        expect(page.locator(".fnb-play-count")).to_have_text(re.compile(r"(\d+) / \1"))
+        page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
+        page.goto(
+            f"{address}/lab/tree/test.ipynb?token={token}#facade-nb=x/words+3&design=Residential%20house"
+        )
+        expect(page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("CeC", timeout=30_000)
 
 
 @pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])

@@ -6,11 +6,14 @@ import sys
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
+from random import Random
 from typing import Any
 
 from facade_nb import Design, NoLayout, gallery, solve
 from facade_nb.solver import Objective, Trace
+from facade_nb.solver.events import PathChosen
 from facade_nb.widgets.visible.chunks import CHUNKS, chunk
+from facade_nb.widgets.visible.packing import pack
 
 __all__ = ["TRACES", "write"]
 
@@ -56,6 +59,30 @@ def _pair(over: str, under: str, counters: Mapping[str, Any] | None = None) -> D
     )
 
 
+def _figure_8(search: str = "best") -> Trace:
+    """The network of (CeC, ABABA), with SPEC 7's sizes."""
+    return solve(FIGURE_8, search=search, trace=True).trace
+
+
+FIGURE_8 = Design.from_dict(
+    {
+        "format": "facade-nb/design/1",
+        "name": "The network of Figure 8",
+        "canvas": {"width": 12.0, "height": 3.0},
+        "symbols": {
+            name: {"size": size} for name, size in {"A": 2.0, "B": 3.0, "C": 2.0, "e": 8.0, "Y": 3.0}.items()
+        },
+        "counters": {"k": {"value": 2}},
+        "patterns": {"walls": "A(BA)^k", "corners": "cec; c := C", "height": "Y"},
+        "layers": [
+            {"name": "walls", "x": {"pattern": "walls"}, "y": {"pattern": "height"}},
+            {"name": "corners", "x": {"pattern": "corners"}, "y": {"pattern": "height"}, "depth": 1},
+        ],
+    }
+)
+"""(CeC, ABABA) with |A| = |C| = 2, |B| = 3, |e| = 8 on a canvas of 12."""
+
+
 def _alternation() -> Trace:
     """A pattern with alternatives, one of them of the wrong length, and a mirrored group."""
     design = Design.from_dict(
@@ -81,6 +108,9 @@ TRACES: Mapping[str, Callable[[], Trace]] = {
         "alternation": _alternation,
         "supplement-3.1": _supplement,
         "contradiction": _contradiction,
+        "figure-8": _figure_8,
+        "figure-8-ida": lambda: _figure_8("ida"),
+        "qualifiers-d": _gallery("qualifiers-d"),
     }.items()
 }
 
@@ -92,6 +122,68 @@ def write(folder: Path) -> None:
         trace = make()
         for piece in CHUNKS:
             (folder / f"{name}.{piece}.bin").write_bytes(chunk(trace, piece))
+        (folder / f"{name}.oracle.bin").write_bytes(pack(_oracle(trace)))
+
+
+def _oracle(trace: Trace) -> dict[str, Any]:
+    """What Python says of columns, for the twin in the browser: whole lattices, and alignments made up at random."""
+    random = Random(8)
+    lattices, judged = [], []
+    for path in trace.of_kind(PathChosen):
+        if len(path.bands) <= 2:
+            lattices.append({"axis": path.axis, "group": path.group, "edges": _edges(trace, path)})
+        for _ in range(60):
+            columns = _made_up(random, path)
+            try:
+                verdicts = trace.judge(path.axis, path.group, columns)
+            except ValueError:
+                told = None
+            else:
+                told = [
+                    [w.omega, w.cost, w.width, r.constraint if r else "", r.text if r else ""]
+                    for w, r in verdicts
+                ]
+            judged.append({"axis": path.axis, "group": path.group, "columns": columns, "verdicts": told})
+    return {"lattices": lattices, "judged": judged}
+
+
+def _edges(trace: Trace, path: PathChosen) -> list[Any]:
+    lattice = trace.lattice(path.axis, path.group)
+    if len(lattice.edges) > 5000:
+        return []
+    at = [[*n.position, int(n.owed)] for n in lattice.nodes]
+    alive = [int(n.reachable) + 2 * int(n.alive) for n in lattice.nodes]
+    return [
+        [
+            at[e.source],
+            at[e.target],
+            e.column,
+            e.omega,
+            e.cost,
+            e.width,
+            e.constraint or "",
+            e.text,
+            alive[e.source],
+        ]
+        for e in lattice.edges
+    ]
+
+
+def _made_up(random: Random, path: PathChosen) -> list[list[list[int]]]:
+    """The chosen alignment with some boundaries moved by a letter, and some letters cut."""
+    ends = [list(column.after) for column in path.columns]
+    for _ in range(random.randrange(1, 4)):
+        j, b = random.randrange(len(ends)), random.randrange(len(path.bands))
+        ends[j][b] += random.choice((-2, -1, 1, 2))
+    columns, before = [], [0] * len(path.bands)
+    for places in ends:
+        columns.append([_letters(old, new) for old, new in zip(before, places, strict=True)])
+        before = [max(old, new) for old, new in zip(before, places, strict=True)]
+    return columns
+
+
+def _letters(old: int, new: int) -> list[int]:
+    return list(range(old >> 1, (new + 1) >> 1)) if new > old or (new == old and new & 1) else []
 
 
 if __name__ == "__main__":

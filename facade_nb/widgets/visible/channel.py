@@ -41,6 +41,9 @@ class TraceChannel(Bundled):
     words = _piece()
     analysis = _piece()
     candidates = _piece()
+    network = _piece()
+    alignment = _piece()
+    sizing = _piece()
 
     serial = Int(help="Goes up when the pieces are those of another trace.").tag(sync=True)
     position = Int(-1).tag(sync=True)
@@ -73,15 +76,16 @@ class TraceChannel(Bundled):
     def provide(self, names: Iterable[str]) -> None:
         """Have pieces of the trace in the traits."""
         for name in names:
-            if name not in self._provided:
+            if name not in self._provided and self._fill(name):
                 self._provided[name] = None
-                self._fill(name)
 
-    def _fill(self, name: str) -> None:
+    def _fill(self, name: str) -> bool:
         try:
             setattr(self, name, chunk(self.model.trace, name))
         except Exception:  # the edge to the browser: it is shown there, not lost in a log
             self.trouble = traceback.format_exc()
+            return False
+        return True
 
     def _refill(self) -> None:
         with self.hold_sync():

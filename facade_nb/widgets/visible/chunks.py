@@ -7,6 +7,7 @@ from typing import Any
 
 from ...solver import Trace
 from ...solver.events import (
+    ActiveSetStep,
     AxisPosed,
     BoundariesPlaced,
     CandidateJudged,
@@ -18,13 +19,16 @@ from ...solver.events import (
     PatternNotAnalysed,
     PatternsCompared,
     ShapeMerged,
+    SystemPosed,
     SystemReduced,
+    SystemSolved,
     WordJudged,
 )
 from ...solver.tracing.codec import to_plain
 from .built import built
 from .captions import captions
 from .code import code
+from .networks import aligned, networks
 from .packing import pack
 from .timeline import timeline
 
@@ -51,6 +55,9 @@ CHUNKS: Mapping[str, Callable[[Trace], Json]] = {
     "words": _picking(AxisPosed, WordJudged),
     "analysis": _picking(PatternNotAnalysed, PatternsCompared, SystemReduced, PairInconsistent),
     "candidates": _picking(CandidateJudged),
+    "network": networks,
+    "alignment": aligned,
+    "sizing": _picking(SystemPosed, ActiveSetStep, SystemSolved),
 }
 """Every piece by its name; one line each. A view says in its `needs` which it reads."""
 

@@ -9,7 +9,7 @@ from html import escape
 from ...render.style import num
 from ...solver.events import LetterNote
 
-__all__ = ["HUES", "INK", "MUTED", "Sheet", "spelled", "table"]
+__all__ = ["ARC", "HUES", "INK", "MUTED", "PATH", "STEP", "Sheet", "spelled", "table"]
 
 HUES = (
     "#d9b48f", "#8fb8d8", "#b9cf8c", "#e3a1a1", "#b7a8d8", "#8ecfc0", "#ead27a", "#c9c4bb", "#e2b0d2", "#a3b1bd",
@@ -17,6 +17,8 @@ HUES = (
 """Colours of symbols on light paper, as styles/solver.css has them."""
 INK, MUTED, PAPER = "#23201c", "#6f6a62", "#fbfaf6"
 ACCENT, SECOND, GOOD, BAD = "#c2410c", "#0b6e99", "#388e3c", "#d32f2f"
+STEP, ARC, PATH = "#e08a1e", "#2f6fb2", "#d0202c"
+"""Colours of the paper's Figure 8: steps of the automaton, arcs of its closure, the path."""
 _SANS, _MONO = (
     "system-ui, 'Segoe UI', Helvetica, Arial, sans-serif",
     "Menlo, Consolas, 'DejaVu Sans Mono', monospace",
@@ -74,6 +76,38 @@ class Sheet:
         """Draw a line."""
         dashed = f' stroke-dasharray="{dash}"' if dash else ""
         self._parts.append(f'<path d="M{num(x0)} {num(y0)}L{num(x1)} {num(y1)}" stroke="{stroke}"{dashed}/>')
+
+    def arc(
+        self, x0: float, y0: float, x1: float, y1: float, *, stroke: str, width: float = 1.0
+    ) -> tuple[float, float]:
+        """Draw a bent line; gives its middle."""
+        dx, dy = x1 - x0, y1 - y0
+        bend = 0.16 if not dx or not dy else 0.09
+        x, y = (x0 + x1) / 2 + dy * bend, (y0 + y1) / 2 - dx * bend
+        self._parts.append(
+            f'<path d="M{num(x0)} {num(y0)}Q{num(x)} {num(y)} {num(x1)} {num(y1)}" fill="none" stroke="{stroke}" '
+            f'stroke-width="{num(width)}"/>'
+        )
+        return (x0 + 2 * x + x1) / 4, (y0 + 2 * y + y1) / 4
+
+    def node(self, x: float, y: float, w: float, h: float, lines: Sequence[str]) -> None:
+        """Draw a box around a point, with lines of text in it."""
+        self._parts.append(
+            f'<rect x="{num(x - w / 2)}" y="{num(y - h / 2)}" width="{num(w)}" height="{num(h)}" rx="4" '
+            f'fill="{PAPER}" stroke="{INK}"/>'
+        )
+        for n, line in enumerate(lines):
+            at = y + 4 + 13 * (n - (len(lines) - 1) / 2)
+            self.text(x, at, line, size=11, anchor="middle", mono=True)
+
+    def badge(self, x: float, y: float, text: str, *, stroke: str) -> None:
+        """Draw a short text on a line that it is about."""
+        w = 7 * len(text) + 8
+        self._parts.append(
+            f'<rect x="{num(x - w / 2)}" y="{num(y - 8)}" width="{num(w)}" height="16" rx="8" fill="{PAPER}" '
+            f'stroke="{stroke}"/>'
+        )
+        self.text(x, y + 4, text, size=11, fill=stroke, anchor="middle", mono=True)
 
     def letter(
         self, x: float, y: float, w: float, h: float, letter: LetterNote, hue: int, *, free: bool = False,

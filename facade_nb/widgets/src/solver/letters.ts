@@ -75,26 +75,23 @@ export interface DrawnLetter {
   attributes?: Record<string, string | null>;
 }
 
-/** Letters as boxes on a line of `span` metres; `wide` is about how many pixels that is. */
-export function boxes(
-  drawn: readonly DrawnLetter[],
-  span: number,
-  symbols: Record<string, number>,
-  wide: number,
-): HTMLElement[] {
+/** Letters as boxes on a line of `span` metres. A name that its box has no room for is not seen. */
+export function boxes(drawn: readonly DrawnLetter[], span: number, symbols: Record<string, number>): HTMLElement[] {
   return drawn.map(({ letter, start, end, free, attributes }) => {
-    const box = h("span", {
-      class: `fnb-box ${hueOf(symbols, letter.symbol)}`,
-      "data-ghost": letter.transparent,
-      "data-open": !letter.opaque && !letter.transparent,
-      "data-free": free,
-      ...attributes,
-    });
+    const name = h(letter.mirrored ? "i" : "b", { class: letter.mirrored ? "fnb-mirrored" : null }, letter.symbol);
+    const box = h(
+      "span",
+      {
+        class: `fnb-box ${hueOf(symbols, letter.symbol)}`,
+        "data-ghost": letter.transparent,
+        "data-open": !letter.opaque && !letter.transparent,
+        "data-free": free,
+        ...attributes,
+      },
+      name,
+    );
     box.style.left = `${((100 * start) / span).toFixed(3)}%`;
     box.style.width = `${((100 * (end - start)) / span).toFixed(3)}%`;
-    const room = (wide * (end - start)) / span;
-    if (room >= 8 * letter.symbol.length)
-      box.append(letter.mirrored ? h("i", { class: "fnb-mirrored" }, letter.symbol) : letter.symbol);
     return box;
   });
 }

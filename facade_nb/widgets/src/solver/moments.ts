@@ -25,7 +25,17 @@ export function momentIn(address: string): Moment | undefined {
   }
 }
 
-/** Call back for a link to a moment that is clicked anywhere in the page, and for the page's own address. */
+/** Where the page was opened at: JupyterLab takes the fragment out of its address, but not out of its history. */
+let asked =
+  typeof performance.getEntriesByType === "function" ? performance.getEntriesByType("navigation")[0]?.name : undefined;
+
+/** Go to the moment that the page was opened at, if this is its design. It is gone to once. */
+export function visit(go: (moment: Moment) => boolean): void {
+  const moment = momentIn(asked ?? "");
+  if (moment && go(moment)) asked = undefined;
+}
+
+/** Call back for a link to a moment that is clicked anywhere in the page, and when the page's address changes to one. */
 export function watchMoments(go: (moment: Moment) => boolean, signal: AbortSignal): void {
   const arrive = () => {
     const moment = momentIn(location.href);

@@ -174,9 +174,12 @@ export function playbar(session: Session, player: Player, signal: AbortSignal): 
   };
   show();
   player.watch(show, signal);
-  void session.piece<{ text: string[] }>("captions").then(({ text }) => {
-    said = text;
-    if (!signal.aborted) show();
-  });
+  session.piece<{ text: string[] }>("captions").then(
+    ({ text }) => {
+      said = text;
+      if (!signal.aborted) show();
+    },
+    (error: Error) => setText(caption, error.message),
+  );
   return el;
 }

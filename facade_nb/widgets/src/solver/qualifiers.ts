@@ -82,6 +82,7 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
       cards.push(card);
       grid.append(card.el);
     }
+    grid.style.setProperty("--fnb-count", String(cards.length));
     for (const [n, one] of cases.entries()) cards[n]?.show(one);
     links.apply(el);
   };

@@ -3,7 +3,7 @@
 import { announce } from "../presence.ts";
 import type { WidgetModel } from "../types.ts";
 import { Links } from "./links.ts";
-import { type Moment, momentIn, watchMoments } from "./moments.ts";
+import { type Moment, visit, watchMoments } from "./moments.ts";
 import { type Bytes, byteLength, unpack } from "./packing.ts";
 import { Player } from "./player.ts";
 import { Timeline, type TimelineData } from "./timeline.ts";
@@ -84,10 +84,10 @@ export class Session {
     const position = this.channel.get<number>("position");
     if (position === this.known) return;
     this.known = position;
-    void this.loading?.then(({ player, timeline }) => player.go(position < 0 ? timeline.last : position));
+    this.loading?.then(({ player, timeline }) => player.go(position < 0 ? timeline.last : position), ignore);
   };
   private readonly onPicked = (): void => {
-    void this.loading?.then(({ links }) => links.pick(this.channel.get<string[]>("picked")));
+    this.loading?.then(({ links }) => links.pick(this.channel.get<string[]>("picked")), ignore);
   };
 
   private begin(): void {
@@ -108,7 +108,7 @@ export class Session {
 
   private forget(): void {
     clearTimeout(this.telling);
-    void this.loading?.then(({ player }) => player.pause());
+    this.loading?.then(({ player }) => player.pause(), ignore);
     this.loaded?.abort();
     this.loaded = this.loading = null;
     this.pieces.clear();
@@ -128,8 +128,7 @@ export class Session {
       player.go(position);
       return true;
     };
-    const here = momentIn(location.href);
-    if (here) go(here);
+    visit(go);
     watchMoments(go, end.signal);
     player.watch(() => this.tellSoon(player), end.signal);
     links.watch(() => this.save({ picked: [...links.picked] }, "picked"), end.signal);
@@ -155,6 +154,7 @@ export class Session {
   private async fetch(name: string): Promise<Bytes> {
     const bytes = this.channel.get<Bytes>(name);
     if (byteLength(bytes)) return bytes;
+    if (this.trouble) throw new Error(this.trouble);
     if (!this.live) throw new Error(`This saved page has no piece “${name}”: run the notebook to see it.`);
     const arrived = new Promise<Bytes>((resolve, reject) => {
       const finish = (act: () => void) => {
@@ -176,3 +176,6 @@ export class Session {
     return arrived;
   }
 }
+
+/** What failed to load is told where it was to be shown. */
+function ignore(): void {}

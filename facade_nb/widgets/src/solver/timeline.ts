@@ -74,11 +74,6 @@ export class Timeline {
     return this.data.stages[this.stageAt(position)]?.axis || "x";
   }
 
-  /** The last position of a stage of an axis, the last time it comes; undefined where it does not. */
-  endOf(axis: Axis | "", stage: string): number | undefined {
-    return this.data.stages.findLast((own) => own.axis === axis && own.stage === stage)?.last;
-  }
-
   /** A position as text: the axis, the stage, and how many events into it, `x/words+12` (visible/timeline.py). */
   momentOf(position: number): string {
     const at = this.stageAt(position);

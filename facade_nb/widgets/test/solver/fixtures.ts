@@ -18,6 +18,8 @@ export const DESIGNS = [
   "apartment-house",
   "alternation",
   "contradiction",
+  "figure-8",
+  "figure-8-ida",
 ] as const;
 
 /** A piece of a design's trace, as it travels. */

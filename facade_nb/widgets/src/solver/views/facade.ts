@@ -37,6 +37,9 @@ class FacadeView implements View {
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
   readonly controls: HTMLElement[];
   private preview = true;
+  /** Where letters and boundaries are placed. */
+  private readonly placed: number[];
+  private by = "";
   private theme: "light" | "dark" | null = null;
   private drawing: Drawing | null = null;
   private shapes: SVGGElement[] = [];
@@ -46,6 +49,8 @@ class FacadeView implements View {
     this.data = context.pieces.facade as FacadeData;
     this.placing = new Placing(context.pieces.placing as PlacingData, context.timeline.data.chosen);
     this.el = h("div", { class: "fnb-traced", "data-preview": true }, this.sheet, this.note);
+    const { letters, boundaries } = this.placing;
+    this.placed = [...letters, ...boundaries].map((own) => own.at).sort((a, b) => a - b);
     const toggle = h(
       "button",
       { type: "button", class: "fnb-button fnb-wide", "aria-pressed": "true", title: "Show faintly what it becomes" },
@@ -68,6 +73,9 @@ class FacadeView implements View {
   show(position: number): void {
     this.dress();
     const drawn = played(this.data.shapes, position);
+    const by = [this.theme, drawn, played(this.placed, position)].join("|");
+    if (by === this.by) return;
+    this.by = by;
     for (const [n, shape] of this.shapes.entries()) mark(shape, "data-later", n >= drawn);
     // Lines and shadows are those of all shapes of a layer together: they come with the last shape.
     const done = drawn === this.data.shapes.length && drawn > 0;

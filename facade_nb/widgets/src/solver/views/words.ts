@@ -382,7 +382,7 @@ class Section {
         "aria-label": `${formatNumber(word.size)} metres of ${formatNumber(this.canvas)}`,
       },
       band,
-      ...boxes(this.drawn(word), this.span, symbols, 300),
+      ...boxes(this.drawn(word), this.span, symbols),
       line,
     );
     const values = [

@@ -1,0 +1,493 @@
+// Draws the Network view's scene on a canvas: everything that is in sight, in as much detail as there is room for.
+
+import type { LetterNote } from "../letters.ts";
+import type { Camera, Point } from "./plane.ts";
+import type { Arc, ArcKind, Scene } from "./scene.ts";
+import { restOf } from "./story.ts";
+
+export const ASPECT = 0.58; // rows are so much closer than columns
+export const MARGIN = { left: 46, top: 36, right: 30, bottom: 24 };
+const BOXES = 58; // pixels between columns from which nodes are boxes with words in them
+const DOTS = 11; // from which every node is drawn
+const STRIP = 30;
+
+/** Colours and fonts, as the page's theme has them. */
+export interface Look {
+  ink: string;
+  muted: string;
+  paper: string;
+  step: string;
+  arc: string;
+  path: string;
+  error: string;
+  lit: string;
+  region: string;
+  mono: string;
+  onHue: string;
+  hue(symbol: string): string;
+}
+
+export interface Marks {
+  lit: ReadonlySet<string>;
+  picked: ReadonlySet<string>;
+  hovered: Arc | null;
+  /** Letters of the words that are lit: bands and numbers. */
+  letters: ReadonlySet<string>;
+  /** Choices of the question, by key: what stands beside them. */
+  choices: ReadonlyMap<string, string>;
+}
+
+export function pointOf(scene: Pick<Scene, "pair">, places: readonly number[]): Point {
+  const [a, b] = scene.pair;
+  return { x: (places[b] ?? 0) / 2, y: a < 0 ? 0 : ((places[a] ?? 0) / 2) * ASPECT };
+}
+
+export function boundsOf(scene: Scene) {
+  const [rows, cols] = scene.size;
+  const above = rows === 1 ? 0.15 * (cols - 1) + 0.2 : 0;
+  return { left: -0.4, right: cols - 0.6, top: -0.25 - above, bottom: (rows - 1) * ASPECT + 0.3 };
+}
+
+/** The curve of an arc: its ends and the point that bends it. */
+export function curveOf(scene: Scene, arc: Arc): [Point, Point, Point] {
+  const [from, to] = [pointOf(scene, arc.from), pointOf(scene, arc.to)];
+  const [dx, dy] = [to.x - from.x, to.y - from.y];
+  const flat = dx === 0 || dy === 0;
+  const bend = scene.size[0] === 1 ? 0.3 : flat ? 0.16 : 0.09;
+  return [from, { x: (from.x + to.x) / 2 + dy * bend, y: (from.y + to.y) / 2 - dx * bend }, to];
+}
+
+export function paint(
+  context: CanvasRenderingContext2D,
+  scene: Scene,
+  camera: Camera,
+  width: number,
+  height: number,
+  look: Look,
+  marks: Marks,
+): void {
+  new Painter(context, scene, camera, width, height, look, marks).run();
+}
+
+const KINDS: Record<ArcKind, { alpha: number; width: number; dash: number[] }> = {
+  forbidden: { alpha: 0.3, width: 0.9, dash: [2, 3] },
+  refused: { alpha: 0.45, width: 0.9, dash: [2, 3] },
+  permitted: { alpha: 0.5, width: 1.1, dash: [] },
+  weighed: { alpha: 0.95, width: 1.5, dash: [] },
+  choice: { alpha: 1, width: 2.2, dash: [] },
+  path: { alpha: 1, width: 3.2, dash: [] },
+};
+
+class Painter {
+  private readonly cell: number;
+
+  constructor(
+    private readonly c: CanvasRenderingContext2D,
+    private readonly scene: Scene,
+    private readonly camera: Camera,
+    private readonly width: number,
+    private readonly height: number,
+    private readonly look: Look,
+    private readonly marks: Marks,
+  ) {
+    this.cell = camera.scale;
+  }
+
+  run(): void {
+    this.region();
+    this.grid();
+    for (const kind of ["forbidden", "refused", "permitted", "weighed", "choice", "path"] as const) this.arcs(kind);
+    this.highlights();
+    this.walks();
+    this.nodes();
+    this.weights();
+    this.headers();
+  }
+
+  private sx(x: number): number {
+    return (x - this.camera.x) * this.cell;
+  }
+
+  private sy(y: number): number {
+    return (y - this.camera.y) * this.cell;
+  }
+
+  private screen({ x, y }: Point): Point {
+    return { x: this.sx(x), y: this.sy(y) };
+  }
+
+  /** The rows and columns that are in sight. */
+  private seen(): { rows: [number, number]; cols: [number, number] } {
+    const [rows, cols] = this.scene.size;
+    const range = (from: number, to: number, most: number): [number, number] => [
+      Math.max(0, Math.floor(from)),
+      Math.min(most - 1, Math.ceil(to)),
+    ];
+    const { x, y } = this.camera;
+    return {
+      cols: range(x, x + this.width / this.cell, cols),
+      rows: range(y / ASPECT, (y + this.height / this.cell) / ASPECT, rows),
+    };
+  }
+
+  /** The transitions of the automaton: one letter of one word, so all of them together are the lines of a grid. */
+  private grid(): void {
+    const { c, scene } = this;
+    const [rows, cols] = scene.size;
+    const seen = this.seen();
+    const every = Math.max(1, Math.ceil(3 / (this.cell * ASPECT)));
+    const [right, bottom] = [this.sx(cols - 1), this.sy((rows - 1) * ASPECT)];
+    c.beginPath();
+    for (let i = seen.rows[0]; i <= seen.rows[1]; i++) {
+      if (i % every && i !== rows - 1) continue;
+      const y = this.sy(i * ASPECT);
+      c.moveTo(this.sx(0), y);
+      c.lineTo(right, y);
+    }
+    for (let j = seen.cols[0]; j <= seen.cols[1] && rows > 1; j++) {
+      if (j % every && j !== cols - 1) continue;
+      const x = this.sx(j);
+      c.moveTo(x, this.sy(0));
+      c.lineTo(x, bottom);
+    }
+    c.strokeStyle = this.look.step;
+    c.globalAlpha = this.cell >= BOXES ? 1 : this.cell >= DOTS ? 0.7 : 0.4;
+    c.lineWidth = this.cell >= BOXES ? 1.6 : this.cell >= DOTS ? 1 : 0.6;
+    c.stroke();
+    c.globalAlpha = 1;
+  }
+
+  private arcs(kind: ArcKind): void {
+    const { c, scene, look } = this;
+    const style = KINDS[kind];
+    c.strokeStyle = kind === "path" ? look.path : kind === "refused" || kind === "forbidden" ? look.error : look.arc;
+    const focused = scene.focus !== null && kind === "permitted";
+    c.globalAlpha = focused ? 0.85 : style.alpha;
+    c.lineWidth = this.cell < DOTS && kind !== "path" ? 0.7 : style.width;
+    c.setLineDash(this.cell < DOTS ? [] : style.dash);
+    c.beginPath();
+    const heads: [Point, Point, boolean][] = [];
+    for (const arc of scene.arcs) {
+      if (arc.kind !== kind) continue;
+      const [from, bend, to] = curveOf(scene, arc).map((point) => this.screen(point)) as [Point, Point, Point];
+      if (Math.max(from.x, to.x, bend.x) < 0 || Math.min(from.x, to.x, bend.x) > this.width) continue;
+      if (Math.max(from.y, to.y, bend.y) < 0 || Math.min(from.y, to.y, bend.y) > this.height) continue;
+      c.moveTo(from.x, from.y);
+      if (this.cell < DOTS) c.lineTo(to.x, to.y);
+      else c.quadraticCurveTo(bend.x, bend.y, to.x, to.y);
+      if ((kind === "path" || kind === "choice") && this.cell >= 24) heads.push([bend, to, this.half(arc.to)]);
+    }
+    c.stroke();
+    c.setLineDash([]);
+    c.fillStyle = c.strokeStyle;
+    for (const [bend, to, half] of heads) this.head(bend, to, kind === "path" ? 7 : 6, half);
+    c.globalAlpha = 1;
+  }
+
+  /** An arrow's head, before the node that it points at. */
+  private head(bend: Point, to: Point, size: number, half: boolean): void {
+    const { c } = this;
+    const length = Math.hypot(to.x - bend.x, to.y - bend.y) || 1;
+    const [ux, uy] = [(to.x - bend.x) / length, (to.y - bend.y) / length];
+    const { w, h } = half ? { w: 8, h: 8 } : this.box();
+    const gap = Math.min(w / 2 / Math.max(Math.abs(ux), 1e-6), h / 2 / Math.max(Math.abs(uy), 1e-6));
+    const [x, y] = [to.x - ux * gap, to.y - uy * gap];
+    c.beginPath();
+    c.moveTo(x, y);
+    c.lineTo(x - ux * size * 1.4 - uy * size * 0.7, y - uy * size * 1.4 + ux * size * 0.7);
+    c.lineTo(x - ux * size * 1.4 + uy * size * 0.7, y - uy * size * 1.4 - ux * size * 0.7);
+    c.fill();
+  }
+
+  private highlights(): void {
+    const { c, scene, marks, look } = this;
+    for (const arc of scene.arcs) {
+      const own = marks.lit.has(arc.key) || marks.picked.has(arc.key) || arc === marks.hovered;
+      if (!own) continue;
+      const [from, bend, to] = curveOf(scene, arc).map((point) => this.screen(point)) as [Point, Point, Point];
+      c.beginPath();
+      c.moveTo(from.x, from.y);
+      c.quadraticCurveTo(bend.x, bend.y, to.x, to.y);
+      c.strokeStyle = look.lit;
+      c.lineWidth = 5;
+      c.globalAlpha = 0.8;
+      c.stroke();
+      c.globalAlpha = 1;
+    }
+  }
+
+  /** Where a letter count from the node that is looked at lies. */
+  private from(place: number, n: number): number {
+    return n === 0 ? place / 2 : (place >> 1) + n;
+  }
+
+  private region(): void {
+    const { c, scene, look } = this;
+    const { focus, delta, pair } = scene;
+    if (!focus || !delta?.region) return;
+    const [pa, pb] = [focus[pair[0]] ?? 0, focus[pair[1]] ?? 0];
+    c.fillStyle = look.region;
+    for (const [i, first] of delta.region.first.entries()) {
+      const last = delta.region.last[i] ?? -1;
+      if (first > last) continue;
+      const y = this.from(pa, i) * ASPECT;
+      const [x0, x1] = [this.sx(this.from(pb, first) - 0.5), this.sx(this.from(pb, last) + 0.5)];
+      c.fillRect(x0, this.sy(y - ASPECT / 2), x1 - x0, this.cell * ASPECT + 0.5);
+    }
+  }
+
+  /** The two pointers that trace the region's borders: they read one letter a step. */
+  private walks(): void {
+    const { c, scene, look } = this;
+    const { focus, delta, pair } = scene;
+    if (!focus || !delta?.region || this.cell < 5) return;
+    const [pa, pb] = [focus[pair[0]] ?? 0, focus[pair[1]] ?? 0];
+    const shift = Math.min(0.16, 7 / this.cell);
+    for (const [walk, side] of [
+      [delta.region.lower, 1],
+      [delta.region.upper, -1],
+    ] as const) {
+      const points = walk.map(([i, j]) => ({
+        x: this.sx(this.from(pb, j) + side * shift),
+        y: this.sy((this.from(pa, i) - side * shift) * ASPECT),
+      }));
+      c.strokeStyle = look.step;
+      c.fillStyle = look.step;
+      c.lineWidth = this.cell >= BOXES ? 2.4 : 1.4;
+      c.beginPath();
+      for (const [n, { x, y }] of points.entries()) n ? c.lineTo(x, y) : c.moveTo(x, y);
+      c.stroke();
+      if (this.cell < 34) continue;
+      for (let n = 1; n < points.length; n++) {
+        const [p, q] = [points[n - 1] as Point, points[n] as Point];
+        const [dx, dy] = [Math.sign(q.x - p.x), Math.sign(q.y - p.y)];
+        const [x, y] = [(p.x + q.x) / 2 + dx * 3, (p.y + q.y) / 2 + dy * 3];
+        c.beginPath();
+        c.moveTo(x + dx * 4, y + dy * 4);
+        c.lineTo(x - dx * 4 - dy * 4, y - dy * 4 + dx * 4);
+        c.lineTo(x - dx * 4 + dy * 4, y - dy * 4 - dx * 4);
+        c.fill();
+      }
+    }
+  }
+
+  /** How large a node is drawn. */
+  private box(): { w: number; h: number } {
+    if (this.cell >= BOXES) return { w: Math.min(this.cell * 0.6, 74), h: Math.min(this.cell * ASPECT * 0.66, 34) };
+    const r = Math.max(2.4, Math.min(9, this.cell * 0.24));
+    return { w: r, h: r };
+  }
+
+  private nodes(): void {
+    const { scene } = this;
+    const seen = this.seen();
+    const [a, b] = scene.pair;
+    const boxes = this.cell >= BOXES;
+    if (this.cell >= DOTS) {
+      for (let i = seen.rows[0]; i <= seen.rows[1]; i++)
+        for (let j = seen.cols[0]; j <= seen.cols[1]; j++) {
+          const places = scene.subject.bands.map((_, n) => (n === a ? 2 * i : n === b ? 2 * j : 0));
+          if (a < 0 && i > 0) continue;
+          if (!scene.nodes.has(`${places[a] ?? 0},${places[b] ?? 0}`)) this.node(places, boxes, 0, false);
+        }
+      if (this.cell >= 22) for (const places of scene.cut) this.node(places, false, 0, false);
+    }
+    for (const own of scene.nodes.values()) {
+      this.node(own.places, boxes && !this.half(own.places), own.taken, own.onPath);
+    }
+    if (scene.focus) this.focus(scene.focus);
+  }
+
+  private node(places: readonly number[], boxed: boolean, taken: number, onPath: boolean): void {
+    const { c, scene, look } = this;
+    const { x, y } = this.screen(pointOf(scene, places));
+    if (x < -40 || y < -40 || x > this.width + 40 || y > this.height + 40) return;
+    const inside = scene.exact && scene.subject.bands.length <= 2 ? scene.alive.has(places.join()) : true;
+    const ahead = this.ahead(places);
+    const shape = () => {
+      c.beginPath();
+      if (boxed) c.roundRect(x - w / 2, y - h / 2, w, h, 4);
+      else if (this.half(places) && this.cell >= DOTS) {
+        const r = Math.min(5, Math.max(2.6, this.cell * 0.07)) + (taken ? 0.6 : 0);
+        c.moveTo(x, y - r);
+        c.lineTo(x + r, y);
+        c.lineTo(x, y + r);
+        c.lineTo(x - r, y);
+        c.closePath();
+      } else
+        c.arc(
+          x,
+          y,
+          Math.max(w / 2, taken && scene.subject.bands.length > 2 ? Math.min(7, 1.6 + taken ** 0.4) : 0),
+          0,
+          7,
+        );
+    };
+    const { w, h } = this.box();
+    shape();
+    c.fillStyle = look.paper;
+    c.fill(); // what is behind a faint node is not to be read through it
+    c.globalAlpha = ahead === false ? 0.35 : inside || onPath || taken ? 1 : 0.55;
+    c.fillStyle = taken ? look.arc : look.paper;
+    c.strokeStyle = onPath ? look.path : taken ? look.arc : inside ? look.ink : look.muted;
+    c.lineWidth = onPath ? 2.2 : taken ? 1.4 : 1;
+    shape();
+    if (boxed && taken) {
+      c.fillStyle = look.paper;
+      c.fill();
+      c.save();
+      c.globalAlpha *= 0.22;
+      c.fillStyle = look.arc;
+      c.fill();
+      c.restore();
+    } else c.fill();
+    c.stroke();
+    if (boxed) this.label(places, x, y, w, ahead === true);
+    c.globalAlpha = 1;
+  }
+
+  /** Whether a node can be come to from the one that is looked at; null: none is. */
+  private ahead(places: readonly number[]): boolean | null {
+    const { focus, pair } = this.scene;
+    if (!focus) return null;
+    return pair.every((band) => band < 0 || (places[band] ?? 0) >= (focus[band] ?? 0));
+  }
+
+  private label(places: readonly number[], x: number, y: number, w: number, ahead: boolean): void {
+    const { c, scene, look } = this;
+    const [a, b] = scene.pair;
+    c.textAlign = "center";
+    c.textBaseline = "middle";
+    const { focus, delta } = scene;
+    if (focus && this.shown(places) === this.shown(focus)) return;
+    const value = ahead && focus && delta ? this.delta(places) : null;
+    if (value !== null) {
+      c.font = `600 13px ${look.mono}`;
+      c.fillStyle = look.ink;
+      c.fillText(String(Number(value.toFixed(2))), x, y + 0.5);
+      return;
+    }
+    c.font = `11px ${look.mono}`;
+    c.fillStyle = look.ink;
+    const fits = Math.max(2, Math.floor((w - 4) / 6.8));
+    const short = (text: string) => (text.length > fits ? `${text.slice(0, fits - 1)}…` : text);
+    const own = (band: number) => {
+      const word = scene.subject.bands[band];
+      return word ? short(restOf(word, places[band] ?? 0)) : "";
+    };
+    if (a < 0) c.fillText(own(b), x, y);
+    else {
+      c.fillText(own(a), x, y - 6.5);
+      c.fillText(own(b), x, y + 7);
+    }
+  }
+
+  private shown(places: readonly number[]): string {
+    return this.scene.pair.map((band) => places[band] ?? 0).join();
+  }
+
+  /** Whether a node lies within a letter of one of the words that are drawn. */
+  private half(places: readonly number[]): boolean {
+    return this.scene.pair.some((band) => ((places[band] ?? 0) & 1) === 1);
+  }
+
+  /** What both words differ by at a node, read from the one that is looked at. */
+  private delta(places: readonly number[]): number | null {
+    const { focus, delta, pair } = this.scene;
+    if (!focus || !delta) return null;
+    const index = (band: number) => ((places[band] ?? 0) >> 1) - ((focus[band] ?? 0) >> 1);
+    const [row, col] = [delta.rows[index(pair[0])], delta.cols[index(pair[1])]];
+    if (row === null || col === null || row === undefined || col === undefined) return null;
+    return Math.abs(row - col);
+  }
+
+  private focus(places: readonly number[]): void {
+    const { c, look } = this;
+    const { x, y } = this.screen(pointOf(this.scene, places));
+    const { w, h } = this.box();
+    c.strokeStyle = look.ink;
+    c.lineWidth = 2.2;
+    c.beginPath();
+    const half = this.half(places);
+    if (this.cell >= BOXES && !half) c.roundRect(x - w / 2, y - h / 2, w, h, 4);
+    else c.arc(x, y, half ? 8 : Math.max(5, w / 2 + 2), 0, 7);
+    c.stroke();
+    const r = this.cell >= BOXES && !half ? 7 : 4;
+    c.beginPath();
+    c.moveTo(x - r, y - r);
+    c.lineTo(x + r, y + r);
+    c.moveTo(x - r, y + r);
+    c.lineTo(x + r, y - r);
+    c.stroke();
+  }
+
+  /** ω of the edges of the path, of choices, and, where they are few, of all. */
+  private weights(): void {
+    const { c, scene, look, marks } = this;
+    if (this.cell < 38) return;
+    const few = scene.arcs.length <= 24 && !marks.choices.size && this.cell >= 80 && !scene.delta;
+    c.font = `600 11px ${look.mono}`;
+    c.textAlign = "center";
+    c.textBaseline = "middle";
+    for (const arc of scene.arcs) {
+      const beside = arc.kind === "choice" ? marks.choices.get(`${arc.key}>${arc.to.join()}`) : undefined;
+      const shown = arc.kind === "path" || beside !== undefined || (few && arc.kind !== "forbidden");
+      if (!shown || (arc.omega === null && beside === undefined)) continue;
+      const [from, bend, to] = curveOf(scene, arc);
+      const middle = { x: (from.x + 2 * bend.x + to.x) / 4, y: (from.y + 2 * bend.y + to.y) / 4 };
+      const { x, y } = this.screen(middle);
+      const text = beside ?? String(Number((arc.omega ?? 0).toFixed(2)));
+      const wide = 6.8 * text.length + 8;
+      c.fillStyle = look.paper;
+      c.beginPath();
+      c.roundRect(x - wide / 2, y - 8, wide, 16, 8);
+      c.fill();
+      c.lineWidth = 1;
+      c.strokeStyle = arc.kind === "path" ? look.path : look.arc;
+      c.stroke();
+      c.fillStyle = arc.kind === "path" ? look.path : look.arc;
+      c.fillText(text, x, y + 0.5);
+    }
+  }
+
+  /** The words along both sides, which stay in sight. */
+  private headers(): void {
+    const { c, scene, look } = this;
+    const [a, b] = scene.pair;
+    c.fillStyle = look.paper;
+    c.fillRect(0, 0, this.width, STRIP);
+    if (a >= 0) c.fillRect(0, 0, STRIP + 4, this.height);
+    const seen = this.seen();
+    const side = Math.min(20, this.cell * 0.8);
+    for (let j = Math.max(0, seen.cols[0] - 1); j < scene.right.length && j <= seen.cols[1]; j++)
+      this.letter(scene.right[j] as LetterNote, this.sx(j + 0.5), STRIP / 2, side, 20, `${b}:${j}`);
+    if (a < 0) return;
+    const tall = Math.min(20, this.cell * ASPECT * 0.8);
+    for (let i = Math.max(0, seen.rows[0] - 1); i < scene.down.length && i <= seen.rows[1]; i++)
+      this.letter(scene.down[i] as LetterNote, STRIP / 2, this.sy((i + 0.5) * ASPECT), 20, tall, `${a}:${i}`);
+    c.fillRect(0, 0, STRIP + 4, STRIP);
+  }
+
+  private letter(letter: LetterNote, x: number, y: number, w: number, h: number, key: string): void {
+    const { c, look, marks } = this;
+    if (x < 4 || y < 4 || x > this.width || y > this.height) return;
+    c.globalAlpha = letter.transparent ? 0.4 : 1;
+    c.fillStyle = look.hue(letter.symbol);
+    c.fillRect(x - w / 2, y - h / 2, w, h);
+    c.globalAlpha = 1;
+    const lit = marks.letters.has(key);
+    c.strokeStyle = lit ? look.lit : letter.transparent ? look.muted : look.onHue;
+    c.lineWidth = lit ? 2.5 : 0.6;
+    c.setLineDash(letter.transparent && !lit ? [3, 2] : []);
+    if (lit || Math.min(w, h) > 6) c.strokeRect(x - w / 2, y - h / 2, w, h);
+    c.setLineDash([]);
+    c.fillStyle = look.paper;
+    if (Math.min(w, h) < 11) return;
+    c.font = `${letter.transparent ? "italic " : "600 "}11px ${look.mono}`;
+    c.textAlign = "center";
+    c.textBaseline = "middle";
+    c.fillStyle = letter.transparent ? look.ink : look.onHue;
+    c.fillText(letter.symbol.slice(0, 2) + (letter.mirrored ? "′" : ""), x, y + 0.5);
+    c.fillStyle = look.paper;
+  }
+}

@@ -1,0 +1,288 @@
+// The networks of a trace, and what the search has done in one of them at a moment.
+
+import type { Axis, Timeline } from "../timeline.ts";
+import { played } from "../timeline.ts";
+import type { BandNote } from "../weighing.ts";
+
+export interface NetworkNote {
+  at: number;
+  axis: Axis;
+  network: number;
+  names: string[];
+  bands: BandNote[][];
+  canvas: number;
+  tolerance: number;
+  search: string;
+  closed: { at: number; nodes: number; bound: number | null; cut: boolean } | null;
+}
+
+export interface PathNote {
+  at: number;
+  axis: Axis;
+  group: string;
+  bands: BandNote[];
+  columns: { letters: number[][]; after: number[]; sizes: number[][]; width: number; omega: number }[];
+  error: number;
+  width: number;
+  network: number | null;
+  nodes: number[];
+  canvas: number;
+  tolerance: number;
+  layers: string[];
+  /** Which group of its network it is in; -1 where that is not told. */
+  number: number;
+}
+
+/** Steps of all networks, one after the other; `offset` says where the places of each begin (visible/networks.py). */
+export interface Steps {
+  at: Int32Array;
+  network: Int16Array;
+  kind: Uint8Array;
+  group: Int16Array;
+  fate: Uint8Array;
+  text: Int32Array;
+  way: Uint8Array;
+  omega: Float64Array;
+  cost: Float64Array;
+  bound: Float64Array;
+  path: Int32Array;
+  parent: Int32Array;
+  offset: Int32Array;
+  places: Int16Array;
+  after: Int16Array;
+  filled: Uint8Array;
+  kinds: string[];
+  fates: string[];
+  texts: string[];
+}
+
+export interface RegionNote {
+  at: number;
+  axis: Axis;
+  network: number;
+  group: number;
+  places: number[];
+  words: [number, number];
+  lower: [number, number][];
+  upper: [number, number][];
+  way: string;
+}
+
+export interface MergerNote {
+  at: number;
+  event: "PairsMerged" | "ControlsAligned";
+  axis: Axis;
+  network: number;
+  cost: number | null;
+  parts?: [number, number[], number[][]][];
+  nodes?: [number, number[][]][];
+}
+
+export interface NetworkData {
+  networks: NetworkNote[];
+  steps: Steps;
+  regions: RegionNote[];
+  merged: MergerNote[];
+  paths: PathNote[];
+}
+
+export const TAKEN = 0;
+export const WEIGHED = 1;
+export const REFUSED = 2;
+
+/** The network of one group. */
+export interface Subject {
+  key: string;
+  axis: Axis;
+  name: string;
+  bands: BandNote[];
+  canvas: number;
+  tolerance: number;
+  search: string;
+  /** Number of the network, and of the group in it; -1 where the search in it is not told. */
+  network: number;
+  group: number;
+  first: number;
+  path: PathNote | null;
+  /** Its steps, by their numbers. */
+  steps: number[];
+  at: number[];
+}
+
+/** What the search has done in a network up to a moment; steps by their numbers. */
+export interface Told {
+  taken: number[];
+  weighed: number[];
+  refused: number[];
+  /** The node that was taken up last; the step that is told right now. */
+  current: number | undefined;
+  now: number | undefined;
+}
+
+export class Story {
+  readonly subjects: Subject[] = [];
+  private readonly steps: Steps;
+
+  constructor(
+    readonly data: NetworkData,
+    private readonly timeline: Timeline,
+  ) {
+    this.steps = data.steps;
+    for (const [n, own] of data.networks.entries())
+      for (const [group, bands] of own.bands.entries()) {
+        const found = data.paths.find(
+          (path) => path.axis === own.axis && path.network === own.network && path.number === group,
+        );
+        this.subjects.push({
+          key: `${own.axis}:${own.network}:${group}`,
+          axis: own.axis,
+          name: found?.group ?? own.names[group] ?? String(group),
+          bands,
+          canvas: own.canvas,
+          tolerance: own.tolerance,
+          search: own.search,
+          network: own.network,
+          group,
+          first: own.at,
+          path: found ?? null,
+          ...this.stepsOf(n, group),
+        });
+      }
+    for (const path of data.paths)
+      if (!this.subjects.some((own) => own.path === path))
+        this.subjects.push({
+          key: `${path.axis}:${path.group}`,
+          axis: path.axis,
+          name: path.group,
+          bands: path.bands,
+          canvas: path.canvas,
+          tolerance: path.tolerance,
+          search: timeline.data.search,
+          network: -1,
+          group: -1,
+          first: path.at,
+          path,
+          steps: [],
+          at: [],
+        });
+  }
+
+  private stepsOf(network: number, group: number): { steps: number[]; at: number[] } {
+    const steps: number[] = [];
+    const at: number[] = [];
+    for (let n = 0; n < this.steps.at.length; n++)
+      if (this.steps.network[n] === network && this.steps.group[n] === group) {
+        steps.push(n);
+        at.push(this.steps.at[n] ?? 0);
+      }
+    return { steps, at };
+  }
+
+  /** The network that is spoken of at a position; where several are chosen, the largest of the axis. */
+  subjectAt(position: number): Subject | undefined {
+    const axis = this.timeline.axisAt(position);
+    const own = this.subjects.filter((subject) => subject.axis === axis);
+    const here = own.find((subject) => subject.path?.at === position);
+    if (here) return here;
+    const largest = (list: Subject[]) =>
+      list.reduce<Subject | undefined>((a, b) => (a && sizeOf(a) >= sizeOf(b) ? a : b), undefined);
+    if (own.some((subject) => subject.path && subject.path.at <= position))
+      return largest(own.filter((subject) => subject.path));
+    let [found, last]: [Subject | undefined, number] = [undefined, -1];
+    for (const subject of own) {
+      const n = played(subject.at, position);
+      const latest = n ? (subject.at[n - 1] ?? -1) : subject.first <= position ? subject.first : -1;
+      if (latest > last) [found, last] = [subject, latest];
+    }
+    return found ?? largest(own.filter((subject) => subject.path)) ?? own[0];
+  }
+
+  /** What is told of a network at a position. */
+  told(subject: Subject, position: number): Told {
+    const made: Told = { taken: [], weighed: [], refused: [], current: undefined, now: undefined };
+    const seen = played(subject.at, position);
+    for (let k = 0; k < seen; k++) {
+      const n = subject.steps[k] as number;
+      const kind = this.steps.kind[n];
+      if (kind === TAKEN) made.taken.push(n);
+      else if (kind === WEIGHED) made.weighed.push(n);
+      else if (kind === REFUSED) made.refused.push(n);
+    }
+    made.current = made.taken.at(-1);
+    if (seen && subject.at[seen - 1] === position) made.now = subject.steps[seen - 1];
+    return made;
+  }
+
+  placesOf(step: number): number[] {
+    return Array.from(this.steps.places.subarray(this.steps.offset[step], this.steps.offset[step + 1]));
+  }
+
+  /** Whether a step is of the node at some places. */
+  isAt(step: number, places: readonly number[]): boolean {
+    const from = this.steps.offset[step] ?? 0;
+    if ((this.steps.offset[step + 1] ?? 0) - from !== places.length) return false;
+    return places.every((place, b) => this.steps.places[from + b] === place);
+  }
+
+  /** Where a band stands at a step, and after it. */
+  placeOf(step: number, band: number): number {
+    return band < 0 ? 0 : (this.steps.places[(this.steps.offset[step] ?? 0) + band] ?? 0);
+  }
+
+  afterPlaceOf(step: number, band: number): number {
+    const after = band < 0 ? 0 : (this.steps.after[(this.steps.offset[step] ?? 0) + band] ?? 0);
+    return after < 0 ? this.placeOf(step, band) : after;
+  }
+
+  /** Where an edge leads, per band; null where that does not matter. */
+  afterOf(step: number): (number | null)[] {
+    return Array.from(this.steps.after.subarray(this.steps.offset[step], this.steps.offset[step + 1]), (place) =>
+      place < 0 ? null : place,
+    );
+  }
+
+  /** The letters of an edge's column, per band. */
+  columnOf(step: number): (number[] | null)[] {
+    const from = this.steps.offset[step] ?? 0;
+    return this.afterOf(step).map((after, b) =>
+      after === null
+        ? null
+        : lettersBetween(this.steps.places[from + b] ?? 0, after, this.steps.filled[from + b] === 1),
+    );
+  }
+
+  /** The next step of a kind in a network, behind a position. */
+  next(subject: Subject, position: number, kind: number): number | undefined {
+    for (let k = played(subject.at, position); k < subject.steps.length; k++)
+      if (this.steps.kind[subject.steps[k] as number] === kind) return subject.steps[k];
+    return undefined;
+  }
+
+  reasonOf(step: number): string {
+    return this.steps.fates[this.steps.fate[step] ?? 0] ?? "";
+  }
+
+  textOf(step: number): string {
+    return this.steps.texts[this.steps.text[step] ?? 0] ?? "";
+  }
+}
+
+/** Nodes of a lattice of whole letters: how large a network is. */
+export const sizeOf = (subject: { bands: readonly BandNote[] }): number =>
+  subject.bands.reduce((product, band) => product * (band.letters.length + 1), 1);
+
+export function lettersBetween(from: number, to: number, filled = to > from): number[] {
+  if (!filled) return [];
+  const first = from >> 1;
+  const behind = Math.max(first + 1, (to + 1) >> 1);
+  return Array.from({ length: behind - first }, (_, n) => first + n);
+}
+
+/** What is still to come of a word at a place. */
+export function restOf(band: BandNote, place: number): string {
+  const rest = band.letters
+    .slice(place >> 1)
+    .map(({ symbol, mirrored }) => (/^\p{L}\d*$/u.test(symbol) ? symbol : `⟨${symbol}⟩`) + (mirrored ? "′" : ""))
+    .join("");
+  return place & 1 ? `…${rest}` : rest || "ε";
+}

@@ -1,0 +1,579 @@
+// Network: the alignment decision network as the paper's Figure 8 (states as pairs of suffixes, steps of the automaton,
+// arcs of the closure, the path), with weights, the tolerance region of the supplement's Figure 6, and what is forbidden.
+// More than two words are seen as a pair of them, as a path across all, and as they are joined.
+
+import { h, mark, setText } from "../../dom.ts";
+import { formatNumber } from "../../fields.ts";
+import { target } from "../links.ts";
+import { columnText, leavingList, litLetters } from "../network/lists.ts";
+import { ASPECT, boundsOf, curveOf, type Look, MARGIN, paint, pointOf } from "../network/paint.ts";
+import { Plane, type Point } from "../network/plane.ts";
+import {
+  type Arc,
+  type Base,
+  baseOf,
+  edgeKey,
+  leaving,
+  nodeKey,
+  type Scene,
+  sceneOf,
+  stepArc,
+} from "../network/scene.ts";
+import { type NetworkData, Story, type Subject, sizeOf, TAKEN, type Told } from "../network/story.ts";
+import { warp } from "../network/warp.ts";
+import { Quiz, type Truth } from "../quiz.ts";
+import type { View, ViewContext, ViewKind } from "../view.ts";
+import { EPS, type Objective } from "../weighing.ts";
+
+const CHOICES = 8;
+
+export const network: ViewKind = {
+  title: "Network",
+  subtitle: "Every way to cut the words into columns; the shortest path is the alignment (5.2)",
+  needs: ["network"],
+  make: (context) => new NetworkView(context),
+};
+
+interface Choice {
+  arc: Arc;
+  right: boolean;
+  why: string;
+}
+
+class NetworkView implements View {
+  readonly el: HTMLElement;
+  readonly controls: HTMLElement[];
+  readonly quiz: Quiz;
+  private readonly story: Story;
+  private readonly plane: Plane;
+  private readonly select = h("select", { class: "fnb-net-select", "aria-label": "Network" });
+  private readonly downs = h("select", { "aria-label": "Word drawn downwards" });
+  private readonly rights = h("select", { "aria-label": "Word drawn to the right" });
+  private readonly pairs: HTMLElement;
+  private readonly cuts: HTMLInputElement;
+  private readonly forbidden: HTMLInputElement;
+  private readonly status = h("p", { class: "fnb-net-status", role: "status" });
+  private readonly beside = h("div", { class: "fnb-net-beside" });
+  private readonly below = h("div", { class: "fnb-net-below" });
+  private readonly legend = h("p", { class: "fnb-net-legend" });
+  private readonly note = h("p", { class: "fnb-empty" });
+  private readonly body: HTMLElement;
+  private readonly bases = new Map<string, Base>();
+  private chosen = "";
+  private pair: Record<string, [number, number]> = {};
+  private scene: Scene | null = null;
+  private told: Told | null = null;
+  private hovered: Arc | null = null;
+  private looked: Look | null = null;
+  private by = "";
+  private belowBy = "";
+  private pickedNow = "";
+
+  constructor(private readonly context: ViewContext) {
+    this.story = new Story(context.pieces.network as NetworkData, context.timeline);
+    const check = (label: string, title: string, on: boolean) => {
+      const input = h("input", { type: "checkbox" });
+      input.checked = on;
+      input.addEventListener("change", () => context.refresh());
+      return { input, label: h("label", { class: "fnb-field", title }, input, label) };
+    };
+    const cuts = check("cut letters", "Transparent letters may be cut: nodes within them", true);
+    const forbidden = check("forbidden", "Edges that a constraint forbids", true);
+    this.cuts = cuts.input;
+    this.forbidden = forbidden.input;
+    this.select.append(
+      h("option", { value: "" }, "auto"),
+      ...this.story.subjects.map((own) => h("option", { value: own.key }, labelOf(own))),
+    );
+    this.select.addEventListener("change", () => {
+      this.chosen = this.select.value;
+      this.context.links.pick([]);
+      context.refresh();
+    });
+    this.pairs = h("span", { class: "fnb-field" }, "words", this.downs, "×", this.rights);
+    for (const [side, select] of [this.downs, this.rights].entries())
+      select.addEventListener("change", () => {
+        const own = this.scene?.subject;
+        if (!own) return;
+        const pair = this.pairOf(own);
+        const next = Number(select.value);
+        const before = pair[side] as number;
+        const other = pair[1 - side] as number;
+        const made: [number, number] = [...pair];
+        made[side] = next;
+        if (next === other) made[1 - side] = before;
+        this.choose(own, made);
+      });
+    this.controls = [this.select, this.pairs, cuts.label, forbidden.label];
+    this.plane = new Plane(
+      {
+        label: "Network",
+        margin: MARGIN,
+        bounds: () => (this.scene ? boundsOf(this.scene) : { left: 0, top: 0, right: 1, bottom: 1 }),
+        draw: (drawing, camera, width, height) => {
+          if (!this.scene) return;
+          const { lit, picked } = context.links;
+          paint(drawing, this.scene, camera, width, height, this.look(), {
+            lit,
+            picked,
+            hovered: this.hovered,
+            letters: litLetters(this.scene.subject, new Set([...lit, ...picked])),
+            choices: this.quiz.on ? this.marks() : new Map(),
+          });
+        },
+        hover: (at) => this.hover(at),
+        press: (at) => this.press(at),
+        key: (event) => this.key(event),
+      },
+      context.signal,
+    );
+    this.body = h(
+      "div",
+      { class: "fnb-net-body" },
+      h("div", { class: "fnb-net-main" }, this.plane.el, this.legend, this.status),
+      this.beside,
+    );
+    this.el = h("div", { class: "fnb-network" }, this.note);
+    this.quiz = new Quiz("Which edge is next?", () => this.truths(), true);
+    const observer = new MutationObserver(() => {
+      this.looked = null;
+      setTimeout(() => this.plane.invalidate(), 50); // when the page has its colours
+    });
+    observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
+    context.signal.addEventListener("abort", () => observer.disconnect());
+    requestAnimationFrame(() => {
+      this.looked = null;
+      this.plane.invalidate();
+    });
+  }
+
+  show(position: number): void {
+    const subject = this.story.subjects.find((own) => own.key === this.chosen) ?? this.story.subjectAt(position);
+    if (!subject || subject.first > position) {
+      this.el.replaceChildren(this.note); // nothing of another moment is left behind
+      const none = "The trace tells of no network: there was no layout before one was made.";
+      setText(this.note, subject ? "No network is opened yet: play on, or go to the stage Alignment." : none);
+      this.below.replaceChildren();
+      this.belowBy = "";
+      this.by = "";
+      this.pairs.hidden = true;
+      return;
+    }
+    if (this.note.parentNode === this.el) this.el.replaceChildren(this.body, this.below);
+    const picked = this.pickedIn(subject);
+    this.told = this.story.told(subject, position);
+    const base = this.base(subject, this.cuts.checked);
+    const pair = this.pairOf(subject);
+    const choices = { pair, cuts: this.cuts.checked || !base.lattice, forbidden: this.forbidden.checked, picked };
+    const scene = sceneOf(this.story, subject, base, this.told, position, choices, this.quiz.hides);
+    if (this.quiz.on)
+      scene.arcs.push(...this.questions(subject, position).map(({ arc }) => ({ ...arc, kind: "choice" as const })));
+    const fresh = this.scene?.subject !== subject || this.scene.pair.join() !== pair.join();
+    this.scene = scene;
+    this.hovered = null;
+    const by = [
+      subject.key,
+      pair.join(),
+      picked?.join(),
+      position,
+      this.cuts.checked,
+      this.forbidden.checked,
+      this.quiz.stamp,
+    ];
+    if (by.join("|") !== this.by) {
+      this.by = by.join("|");
+      this.words(subject, base, position);
+    }
+    this.shape();
+    if (fresh) this.plane.fit();
+    else this.plane.settle();
+  }
+
+  light(): void {
+    const { links } = this.context;
+    links.apply(this.beside);
+    links.apply(this.below);
+    const picked = [...links.picked].find((key) => key.startsWith("node:")) ?? "";
+    if (picked !== this.pickedNow) {
+      this.pickedNow = picked;
+      this.context.refresh(); // another node is looked at
+      return;
+    }
+    this.plane.invalidate();
+  }
+
+  /** Text around the drawing: legend, what is looked at, what leaves it, the path across all words. */
+  private words(subject: Subject, base: Base, position: number): void {
+    const scene = this.scene as Scene;
+    const many = subject.bands.length > 2;
+    this.pairs.hidden = !many;
+    (this.cuts.parentElement as HTMLElement).hidden = !scene.exact;
+    if (many) this.options(subject);
+    const [rows, cols] = scene.size;
+    const steps = scene.arcs.filter((arc) => arc.kind === "path");
+    const omega = steps.reduce((sum, arc) => sum + (arc.omega ?? 0), 0);
+    const size = sizeOf(subject);
+    const nodes = many
+      ? `${size.toLocaleString("en")} nodes, seen as ${rows} × ${cols}`
+      : rows > 1
+        ? `${rows} × ${cols} nodes`
+        : `${cols} nodes`;
+    const cut = scene.cut.length ? ` and ${scene.cut.length} within cut letters` : "";
+    const told = this.told as Told;
+    const found = steps.length ? ` The path has ${steps.length} columns, Ω = ${formatNumber(omega, 3)} m.` : "";
+    const search = subject.at.length
+      ? ` ${told.taken.length} taken up, ${told.weighed.length} edges weighed, ${told.refused.length} refused.`
+      : "";
+    setText(
+      this.status,
+      `${labelOf(subject)}: ${nodes}${cut}, μ = ${formatNumber(subject.tolerance)} m.${search}${found}`,
+    );
+    mark(this.plane.canvas, "aria-label", `Network of ${this.status.textContent} Arrow keys go from node to node.`);
+    const legend: [string, string][] = [
+      ["step", "automaton steps"],
+      [
+        "arc",
+        scene.exact && !scene.focus && base.arcs.length > scene.arcs.length + 200
+          ? "closure: the lightest of its permitted arcs"
+          : "closure",
+      ],
+      ...(steps.length ? ([["path", "path, with ω"]] as [string, string][]) : []),
+      ...(scene.delta
+        ? ([["region", "|δ| ≤ μ, traced along its border; numbers: δ from ✕"]] as [string, string][])
+        : []),
+      ...(scene.arcs.some((arc) => arc.constraint) ? ([["forbidden", "forbidden"]] as [string, string][]) : []),
+      ...(told.taken.length ? ([["taken", "taken up"]] as [string, string][]) : []),
+    ];
+    this.legend.replaceChildren(
+      ...legend.map(([kind, text]) => h("span", {}, h("i", { class: `fnb-net-key fnb-net-key-${kind}` }), text)),
+    );
+    if (this.quiz.on) this.beside.replaceChildren(this.question(subject, position));
+    else {
+      const focus = scene.focus ?? subject.bands.map(() => 0);
+      const arcs = leaving(this.story, subject, base, told, focus);
+      const onPath = new Set(steps.map((arc) => arc.key));
+      const marked = arcs.map((arc) => (onPath.has(arc.key) ? { ...arc, kind: "path" as const } : arc));
+      this.beside.replaceChildren(leavingList(subject, focus, marked));
+    }
+    const chosen = subject.path && subject.path.at <= position && !this.quiz.hides;
+    const merged = this.story.data.merged.findLast(
+      (own) => own.at <= position && own.axis === subject.axis && own.network === subject.network,
+    );
+    const by = many && chosen ? [subject.key, this.pairOf(subject), merged?.at].join() : "";
+    if (by === this.belowBy) return;
+    this.belowBy = by;
+    this.below.replaceChildren(
+      ...(by
+        ? [
+            warp(subject, this.context.timeline.data.symbols, this.pairOf(subject), merged, (pair) =>
+              this.choose(subject, pair),
+            ),
+          ]
+        : []),
+    );
+  }
+
+  private options(subject: Subject): void {
+    const pair = this.pairOf(subject);
+    for (const [side, select] of [this.downs, this.rights].entries()) {
+      select.replaceChildren(
+        ...subject.bands.map((band, b) => {
+          const name = subject.path?.layers[band.rows[0] ?? 0] ?? `word ${b + 1}`;
+          return h("option", { value: b, selected: b === pair[side] }, name);
+        }),
+      );
+      select.value = String(pair[side]);
+    }
+  }
+
+  private choose(subject: Subject, pair: [number, number]): void {
+    this.pair[subject.key] = pair;
+    this.context.refresh();
+  }
+
+  /** Which bands are drawn downwards and to the right. */
+  private pairOf(subject: Subject): [number, number] {
+    if (subject.bands.length === 1) return [-1, 0];
+    return this.pair[subject.key] ?? [0, subject.bands.length > 2 ? longest(subject) || 1 : 1];
+  }
+
+  private base(subject: Subject, cuts: boolean): Base {
+    const key = `${subject.key}|${cuts}`;
+    let made = this.bases.get(key);
+    if (!made) {
+      made = baseOf(subject, this.context.timeline.data.objective as unknown as Objective, cuts);
+      this.bases.set(key, made);
+    }
+    return made;
+  }
+
+  /** Room for the rows, and no more. */
+  private shape(): void {
+    const { left, right, top, bottom } = boundsOf(this.scene as Scene);
+    const ratio = (bottom - top) / (right - left);
+    this.plane.el.style.setProperty("--fnb-net-ratio", ratio.toFixed(3));
+  }
+
+  /** The node of this network that the reader has picked. */
+  private pickedIn(subject: Subject): number[] | null {
+    for (const key of this.context.links.picked) {
+      if (!key.startsWith("node:")) continue;
+      const places = (decodeURIComponent(key.split(":").at(-1) ?? "") || "").split(",").map(Number);
+      if (nodeKey(subject, places) === key && places.length === subject.bands.length) return places;
+    }
+    return null;
+  }
+
+  // The question
+
+  /** What can be chosen: edges that wait for their turn; once the search is over, those that leave the path's first fork. */
+  private questions(subject: Subject, position: number): Choice[] {
+    const { data } = this.story;
+    const next = this.story.next(subject, position, TAKEN);
+    const path = next === undefined ? -1 : (data.steps.path[next] ?? -1);
+    if (next !== undefined && path >= 0) {
+      const [until, least] = [data.steps.at[next] ?? 0, data.steps.bound[next] ?? 0];
+      const told = this.story.told(subject, until - 1);
+      const gone = new Set(told.taken.map((step) => data.steps.path[step]));
+      const open = told.weighed.filter(
+        (step) => !gone.has(data.steps.path[step] ?? -1) && this.story.reasonOf(step) !== "dropped",
+      );
+      const choices = open
+        .sort((x, y) => (data.steps.bound[x] ?? 0) - (data.steps.bound[y] ?? 0) || x - y)
+        .slice(0, CHOICES)
+        .sort((x, y) => x - y)
+        .map((step): Choice => {
+          const bound = data.steps.bound[step] ?? 0;
+          const right = bound <= least + EPS;
+          const why = right
+            ? `No alignment that goes on so costs less than J = ${formatNumber(bound)} m: the least of all.`
+            : `J ≥ ${formatNumber(bound)} m this way; another edge promises ${formatNumber(least)} m.`;
+          return { arc: { ...stepArc(this.story, subject, step, "choice"), text: "" }, right, why };
+        });
+      if (choices.some(({ right }) => right) && choices.length > 1) return choices;
+    }
+    const base = this.base(subject, true);
+    const columns = subject.path?.columns ?? [];
+    let from = subject.bands.map(() => 0);
+    for (const column of columns) {
+      const arcs = leaving(this.story, subject, base, this.story.told(subject, 1e9), from).filter(
+        (arc) => !arc.constraint,
+      );
+      const key = edgeKey(subject, from, column.letters);
+      const own = arcs.find((arc) => arc.key === key && arc.to.join() === column.after.join());
+      if (own && arcs.length > 1) {
+        const others = arcs.filter((arc) => arc !== own).slice(0, CHOICES - 1);
+        return [own, ...others]
+          .sort((x, y) => x.to.join().localeCompare(y.to.join(), "en", { numeric: true }))
+          .map((arc) => ({
+            arc,
+            right: arc === own,
+            why:
+              arc === own
+                ? `The path goes here: ω = ${formatNumber(arc.omega)} m, Ω = ${formatNumber(subject.path?.error)} m in all.`
+                : arc.text || `ω = ${formatNumber(arc.omega)} m; going on from here costs more in all.`,
+          }));
+      }
+      from = column.after;
+    }
+    return [];
+  }
+
+  private keyOf = ({ arc }: Choice): string => `${arc.key}>${arc.to.join(",")}`;
+
+  private truths(): ReadonlyMap<string, Truth> {
+    const subject = this.scene?.subject;
+    if (!subject) return new Map();
+    const choices = this.questions(subject, this.context.player.position);
+    return new Map(choices.map((own) => [this.keyOf(own), { right: own.right, why: own.why }]));
+  }
+
+  /** The choices' letters, by which the drawing names them. */
+  private marks(): Map<string, string> {
+    const subject = this.scene?.subject;
+    if (!subject) return new Map();
+    const choices = this.questions(subject, this.context.player.position);
+    return new Map(choices.map((own, n) => [this.keyOf(own), String.fromCharCode(97 + n)]));
+  }
+
+  private question(subject: Subject, position: number): HTMLElement {
+    const choices = this.questions(subject, position);
+    if (!choices.length)
+      return h(
+        "p",
+        { class: "fnb-muted" },
+        "There is only one way on from here: step back, or choose another network.",
+      );
+    const searching = this.story.next(subject, position, TAKEN) !== undefined;
+    const list = choices.map((own, n) => {
+      const key = this.keyOf(own);
+      const { state, why } = this.quiz.verdict(key);
+      const radio = h("input", {
+        type: "radio",
+        name: "fnb-net-choice",
+        "aria-label": `edge ${String.fromCharCode(97 + n)}`,
+      });
+      radio.checked = this.quiz.has(key);
+      radio.disabled = this.quiz.done;
+      radio.addEventListener("change", () => this.quiz.choose(key));
+      return h(
+        "li",
+        { class: "fnb-net-edge", "data-verdict": state, "data-choice": String.fromCharCode(97 + n) },
+        h("label", {}, radio, h("b", {}, String.fromCharCode(97 + n)), columnText(subject, own.arc.column, own.arc.to)),
+        h("span", { class: "fnb-net-omega" }, own.arc.omega === null ? "" : `ω ${formatNumber(own.arc.omega, 2)}`),
+        h("span", { class: "fnb-net-why" }, why),
+      );
+    });
+    const text = searching
+      ? "These edges wait for their turn. The search takes up the one by which an alignment can be cheapest."
+      : "Which of these does the shortest path take?";
+    return h("div", { class: "fnb-net-leaving" }, h("p", { class: "fnb-muted" }, text), h("ul", {}, ...list));
+  }
+
+  // The pointer and the keys
+
+  private hover(at: Point | null): void {
+    const { links } = this.context;
+    const scene = this.scene;
+    if (!scene || !at) {
+      if (this.hovered) this.plane.invalidate();
+      this.hovered = null;
+      links.hover([]);
+      return;
+    }
+    const node = this.nodeAt(at);
+    const arc = node ? null : this.arcAt(at);
+    this.hovered = arc;
+    mark(this.plane.canvas, "title", arc ? this.sentence(arc) : null);
+    if (node) links.hover([nodeKey(scene.subject, node)]);
+    else if (arc) {
+      const path = scene.subject.path;
+      links.hover(arc.kind === "path" && path ? [arc.key, target.column(path.axis, path.group, arc.step)] : [arc.key]);
+    } else links.hover([]);
+    this.plane.invalidate();
+  }
+
+  private press(at: Point): void {
+    const scene = this.scene;
+    if (!scene) return;
+    this.plane.canvas.focus({ preventScroll: true });
+    const arc = this.nodeAt(at) ? null : this.arcAt(at);
+    if (this.quiz.on && arc) {
+      const own = this.questions(scene.subject, this.context.player.position).find((one) => one.arc.key === arc.key);
+      if (own) this.quiz.choose(this.keyOf(own));
+      return;
+    }
+    const node = this.nodeAt(at);
+    if (node) this.context.links.toggle([nodeKey(scene.subject, node)]);
+    else if (arc) this.context.links.toggle([arc.key]);
+    else this.context.links.pick([]);
+  }
+
+  private key(event: KeyboardEvent): boolean {
+    const scene = this.scene;
+    const moves: Record<string, [number, number]> = {
+      ArrowLeft: [0, -1],
+      ArrowRight: [0, 1],
+      ArrowUp: [-1, 0],
+      ArrowDown: [1, 0],
+    };
+    const move = moves[event.key];
+    if (!scene || !move) return false;
+    const [a, b] = scene.pair;
+    const places = [...(scene.focus ?? scene.subject.bands.map(() => 0))];
+    const go = (band: number, by: number) => {
+      if (band < 0 || !by) return;
+      const most = 2 * (scene.subject.bands[band]?.letters.length ?? 0);
+      const at = places[band] ?? 0;
+      places[band] = Math.max(0, Math.min(most, at & 1 ? at + by : at + 2 * by));
+    };
+    go(a, move[0]);
+    go(b, move[1]);
+    this.context.links.pick([nodeKey(scene.subject, places)]);
+    this.plane.reveal(pointOf(scene, places));
+    return true;
+  }
+
+  /** The node under a point of the drawing. */
+  private nodeAt({ x, y }: Point): number[] | null {
+    const scene = this.scene as Scene;
+    const cell = this.plane.camera.scale;
+    const near = Math.min(0.4, Math.max(0.12, 9 / cell));
+    const [a, b] = scene.pair;
+    const known = [...scene.cut, ...[...scene.nodes.values()].map((own) => own.places)].filter((places) =>
+      places.some((place) => place & 1),
+    );
+    for (const places of known) {
+      const at = pointOf(scene, places);
+      if (Math.hypot(at.x - x, at.y - y) < Math.min(near, 0.15)) return places;
+    }
+    const [i, j] = [a < 0 ? 0 : Math.round(y / ASPECT), Math.round(x)];
+    const [rows, cols] = scene.size;
+    if (i < 0 || j < 0 || i >= rows || j >= cols) return null;
+    if (Math.abs(x - j) > near || Math.abs(y - (a < 0 ? 0 : i * ASPECT)) > near * 0.7) return null;
+    const found = scene.nodes.get(`${a < 0 ? 0 : 2 * i},${2 * j}`);
+    if (found) return found.places;
+    return scene.subject.bands.length > 2
+      ? null
+      : scene.subject.bands.map((_, n) => (n === a ? 2 * i : n === b ? 2 * j : 0));
+  }
+
+  /** The arc that is nearest to a point, of those that are near. */
+  private arcAt(at: Point): Arc | null {
+    const scene = this.scene as Scene;
+    let [found, best]: [Arc | null, number] = [null, 8 / this.plane.camera.scale];
+    for (const arc of scene.arcs) {
+      const [p, q, r] = curveOf(scene, arc);
+      if (Math.max(p.x, q.x, r.x) < at.x - best || Math.min(p.x, q.x, r.x) > at.x + best) continue;
+      for (let n = 0; n <= 16; n++) {
+        const t = n / 16;
+        const [u, v, w] = [(1 - t) ** 2, 2 * t * (1 - t), t * t];
+        const distance = Math.hypot(u * p.x + v * q.x + w * r.x - at.x, u * p.y + v * q.y + w * r.y - at.y);
+        const favour = arc.kind === "path" || arc.kind === "choice" ? 0.7 : 1;
+        if (distance * favour < best) [found, best] = [arc, distance * favour];
+      }
+    }
+    return found;
+  }
+
+  private sentence(arc: Arc): string {
+    const subject = (this.scene as Scene).subject;
+    const names = columnText(subject, arc.column, arc.to).textContent ?? "";
+    const omega = arc.omega === null ? "" : `, ω = ${formatNumber(arc.omega)} m`;
+    return `${[...names].join(" ")}${omega}${arc.constraint ? `: ${arc.text}` : ""}`;
+  }
+
+  private look(): Look {
+    if (this.looked) return this.looked;
+    const style = getComputedStyle(this.plane.canvas);
+    const value = (name: string, other: string) => style.getPropertyValue(name).trim() || other;
+    const hues = Array.from({ length: 10 }, (_, n) => value(`--fnb-hue-${n}`, "#ccc"));
+    const { symbols } = this.context.timeline.data;
+    this.looked = {
+      ink: value("--fnb-text", "#222"),
+      muted: value("--fnb-muted", "#777"),
+      paper: value("--fnb-paper", "#fff"),
+      step: value("--fnb-net-step", "#e08a1e"),
+      arc: value("--fnb-net-arc", "#2f6fb2"),
+      path: value("--fnb-net-path", "#d32f2f"),
+      error: value("--fnb-muted", "#777"),
+      lit: value("--fnb-lit", "#f2a900"),
+      region: value("--fnb-net-region", "rgb(224 138 30 / 22%)"),
+      mono: value("--fnb-mono", "monospace"),
+      onHue: value("--fnb-on-hue", "#222"),
+      hue: (symbol) => hues[(symbols[symbol] ?? 0) % 10] ?? "#ccc",
+    };
+    return this.looked;
+  }
+}
+
+const labelOf = (subject: Subject): string =>
+  `${subject.axis}: ${subject.name}${subject.path || subject.network < 0 ? "" : ` (network ${subject.network})`}`;
+
+/** The band, but the first, with the longest word. */
+function longest(subject: Subject): number {
+  let found = 0;
+  for (const [b, band] of subject.bands.entries())
+    if (b && (!found || band.letters.length > (subject.bands[found]?.letters.length ?? 0))) found = b;
+  return found;
+}

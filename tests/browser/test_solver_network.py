@@ -1,0 +1,170 @@
+"""Network, in a real JupyterLab: what stands on the canvas and beside it."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from .jupyter import Notebook
+
+TRACED = """
+from IPython.display import display
+from facade_nb import Design, gallery, solve
+from facade_nb.widgets import *
+FIGURE_8 = Design.from_dict({
+    "format": "facade-nb/design/1", "name": "Figure 8", "canvas": {"width": 12.0, "height": 3.0},
+    "symbols": {"A": {"size": 2}, "B": {"size": 3}, "C": {"size": 2}, "e": {"size": 8}, "Y": {"size": 3}},
+    "counters": {"k": {"value": 2}}, "patterns": {"walls": "A(BA)^k", "corners": "cec; c := C", "height": "Y"},
+    "layers": [
+        {"name": "walls", "x": {"pattern": "walls"}, "y": {"pattern": "height"}},
+        {"name": "corners", "x": {"pattern": "corners"}, "y": {"pattern": "height"}, "depth": 1},
+    ],
+})
+def traced(name, **more):
+    return solve(gallery.load(name), trace=True, **more)
+"""
+
+Watch = Callable[[str], Notebook]
+
+
+@pytest.fixture
+def watch(lab: Notebook) -> Watch:
+    """Show views; the code's last line is displayed."""
+
+    def run(code: str) -> Notebook:
+        lab.run(TRACED + textwrap.dedent(code))
+        expect(lab.page.locator(".fnb-plane-canvas")).to_be_visible()
+        lab.page.wait_for_timeout(300)
+        return lab
+
+    return run
+
+
+def colour_at(page: Page, x: float, y: float) -> list[int]:
+    """The colour of the canvas at a point, CSS pixels from its corner."""
+    return page.evaluate(
+        """([x, y]) => {
+            const canvas = document.querySelector('.fnb-plane-canvas');
+            const ratio = canvas.width / canvas.getBoundingClientRect().width;
+            return [...canvas.getContext('2d').getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data];
+        }""",
+        [x, y],
+    )
+
+
+def count(page: Page, colour: str) -> int:
+    """How many pixels of the canvas have nearly the colour of a variable of the style sheet."""
+    return page.evaluate(
+        """name => {
+            const canvas = document.querySelector('.fnb-plane-canvas');
+            const own = getComputedStyle(canvas).getPropertyValue(name).trim();
+            const [r, g, b] = own.match(/[0-9a-f]{2}/gi).map(part => parseInt(part, 16));
+            const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+            let found = 0;
+            for (let n = 0; n < data.length; n += 4)
+                if (Math.abs(data[n] - r) + Math.abs(data[n + 1] - g) + Math.abs(data[n + 2] - b) < 24) found++;
+            return found;
+        }""",
+        colour,
+    )
+
+
+def test_figure_8_is_on_the_screen(watch: Watch) -> None:
+    page = watch("NetworkView(solve(FIGURE_8, trace=True))").page
+    status = page.locator(".fnb-net-status")
+    expect(status).to_contain_text("4 × 6 nodes and 6 within cut letters")
+    expect(status).to_contain_text("The path has 5 columns, Ω = 0 m.")
+    assert count(page, "--fnb-net-path") > 300
+    assert count(page, "--fnb-net-step") > 500
+    page.get_by_role("checkbox", name="cut letters").uncheck()
+    expect(status).to_contain_text("4 × 6 nodes, μ")
+    expect(status).to_contain_text("The path has 3 columns, Ω = 0 m.")
+    first = page.locator(".fnb-net-edge[data-path] .fnb-net-column")
+    assert first.locator(".fnb-net-element").all_inner_texts() == ["C", "A"]
+
+
+def test_a_node_that_is_clicked_shows_its_region_and_its_edges(watch: Watch) -> None:
+    page = watch("NetworkView(solve(FIGURE_8, trace=True), player=False)").page
+    canvas = page.locator(".fnb-plane-canvas")
+    canvas.focus()
+    canvas.press("ArrowRight")
+    canvas.press("ArrowDown")
+    expect(page.locator(".fnb-net-leaving h4 code")).to_have_text("eC / BABA")
+    expect(page.locator(".fnb-net-legend")).to_contain_text("δ from ✕")
+    refused = page.locator(".fnb-net-edge[data-constraint=C1]").first
+    expect(refused).to_contain_text("no row stands behind it with opaque letters (C1)")
+    # A click does the same: find the first node by what the keys have told.
+    box = canvas.bounding_box()
+    assert box
+    canvas.press("Escape")
+    expect(page.locator(".fnb-net-leaving h4 code")).to_have_text("CeC / ABABA")
+    for dx in range(0, 160, 10):  # in the third row, right of the middle, there is a node
+        canvas.click(position={"x": box["width"] / 2 + dx, "y": box["height"] / 2 + 40})
+        if page.locator(".fnb-net-leaving h4 code").inner_text() != "CeC / ABABA":
+            break
+    text = page.locator(".fnb-net-leaving h4 code").inner_text()
+    assert text in {"C / BA", "C / A"}
+
+
+def test_the_network_follows_the_player(watch: Watch) -> None:
+    lab = watch("view = NetworkView(traced('residential-house'), at='x/alignment+100'); view")
+    page = lab.page
+    expect(page.locator(".fnb-net-status")).to_contain_text("taken up")
+    expect(page.locator(".fnb-net-status")).not_to_contain_text("The path has")
+    before = page.locator(".fnb-network").inner_html()
+    assert count(page, "--fnb-net-path") < 20
+    for _ in range(8):
+        lab.button("Step forward").click()
+    page.wait_for_timeout(100)
+    assert page.locator(".fnb-network").inner_html() != before
+    for _ in range(8):
+        lab.button("Step back").click()
+    page.wait_for_timeout(100)
+    assert page.locator(".fnb-network").inner_html() == before
+    page.get_by_role("slider", name="Position in the trace").press("End")
+    expect(page.locator(".fnb-net-status")).to_contain_text("The path has 7 columns")
+    assert count(page, "--fnb-net-path") > 200
+    expect(page.locator(".fnb-warp-node")).to_have_count(8)
+    lab.button("Step back").click()
+
+
+def test_which_edge_is_next(watch: Watch) -> None:
+    lab = watch("view = NetworkView(traced('residential-house'), predict=True, at='x/alignment+120'); view")
+    page = lab.page
+    expect(page.locator(".fnb-quiz-prompt")).to_have_text("Which edge is next?")
+    expect(page.get_by_role("radio")).not_to_have_count(0)
+    assert "J ≥" not in page.locator(".fnb-network").inner_text()
+    page.get_by_role("radio").first.check()
+    lab.button("Check").click()
+    right = bool(lab.python("view.answer.get('right', [])"))
+    expect(page.locator(".fnb-quiz-outcome")).to_contain_text("Right." if right else "No.")
+    expect(page.locator(".fnb-net-edge[data-verdict]").first).to_contain_text("J")
+    lab.expect_python("len(view.answer['right']) + len(view.answer['wrong'])", 1)
+
+
+def test_columns_light_up_across_views(watch: Watch) -> None:
+    lab = watch(
+        "layout = traced('residential-house'); "
+        "display(NetworkView(layout, player=False), FacadeView(layout, player=False))"
+    )
+    page = lab.page
+    page.locator(".fnb-warp-column").nth(3).dispatch_event("pointerover", {"bubbles": True})
+    expect(page.locator(".fnb-traced-column")).to_have_count(1)
+
+
+@pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
+def test_looks(watch: Watch, out: Path, theme: str) -> None:
+    """Screenshots for people; and the canvas is drawn in the theme's colours."""
+    lab = watch("NetworkView(traced('apartment-house'), player=False)")
+    try:
+        lab.theme(theme)  # type: ignore[arg-type]
+        lab.page.wait_for_timeout(600)
+        paper = sum(colour_at(lab.page, 4, 4)[:3])
+        assert paper > 600 if theme.endswith("Light") else paper < 200
+        lab.page.screenshot(path=out / f"solver-network-{theme[11:].lower()}.png")
+    finally:
+        lab.theme("JupyterLab Light")

@@ -1,0 +1,127 @@
+"""Network, Alignment and Sizing on the Python side: their pieces and static forms."""
+
+from __future__ import annotations
+
+import re
+from base64 import b64decode
+from xml.etree import ElementTree
+
+import numpy as np
+
+from facade_nb import gallery
+from facade_nb.solver.events import ActiveSetStep, EdgeRefused, EdgeWeighed, NodeTaken, PathChosen
+from facade_nb.widgets import AlignmentView, NetworkView, SizingView
+from facade_nb.widgets.visible import chunks, networks
+
+from .pieces import FIGURE_8, TRACES
+from .test_visible import unpack
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def drawing(html: str) -> ElementTree.Element:
+    """The picture in a static form."""
+    return ElementTree.fromstring(b64decode(re.search(r'base64,([^"]*)', html)[1]))
+
+
+def texts(html: str) -> list[str]:
+    return [own.text or "" for own in drawing(html).iter(f"{SVG}text")]
+
+
+class TestNetworkPiece:
+    def test_every_step_comes_with_its_places_and_numbers(self) -> None:
+        trace = TRACES["residential-house"]()
+        told = unpack(chunks.chunk(trace, "network"))
+        steps = told["steps"]
+        events = [(at, e) for at, e in enumerate(trace.events) if type(e).__name__ in networks.KINDS]
+        assert steps["at"].tolist() == [at for at, _ in events]
+        for n, (_, e) in enumerate(events):
+            assert steps["kinds"][steps["kind"][n]] == type(e).__name__
+            span = slice(steps["offset"][n], steps["offset"][n + 1])
+            assert tuple(steps["places"][span]) == e.places
+            if isinstance(e, EdgeWeighed):
+                assert steps["omega"][n] == e.omega
+                assert tuple(steps["after"][span]) == e.after
+                assert [bool(own) for own in e.column] == steps["filled"][span].astype(bool).tolist()
+            if isinstance(e, EdgeRefused):
+                assert steps["fates"][steps["fate"][n]] == e.constraint
+                assert steps["texts"][steps["text"][n]] == e.text
+                assert [own is None for own in e.column] == (steps["after"][span] < 0).tolist()
+            if isinstance(e, NodeTaken):
+                assert np.isnan(steps["omega"][n])
+
+    def test_paths_know_their_network_and_their_layers(self) -> None:
+        trace = TRACES["apartment-house"]()
+        told = unpack(chunks.chunk(trace, "network"))
+        for own, path in zip(told["paths"], trace.of_kind(PathChosen), strict=True):
+            opened = next(
+                n for n in told["networks"] if (n["axis"], n["network"]) == (path.axis, path.network)
+            )
+            assert opened["bands"][own["number"]] == own["bands"]
+            assert len(own["layers"]) == sum(len(band.rows) for band in path.bands)
+
+    def test_a_failure_has_a_piece_too(self) -> None:
+        told = unpack(chunks.chunk(TRACES["contradiction"](), "network"))
+        assert told["paths"] == []
+        assert len(told["steps"]["at"]) == sum(
+            type(e).__name__ in networks.KINDS for e in TRACES["contradiction"]().events
+        )
+
+
+class TestNetworkView:
+    def test_the_static_form_is_figure_8(self) -> None:
+        html = NetworkView(FIGURE_8).to_html()
+        written = texts(html)
+        assert any("4 × 6 nodes" in text for text in written)
+        assert {"CeC", "ABABA", "eC", "BABA", "ε"} <= {*written}
+        paths = [own for own in drawing(html).iter(f"{SVG}path") if own.get("stroke") == "#d0202c"]
+        assert len(paths) == 5
+        assert "/".join(written[-6:-1]) == "0/0/0/0/0"
+
+    def test_of_many_words_the_path_is_listed(self) -> None:
+        html = NetworkView(gallery.load("residential-house")).to_html()
+        assert "<td>f / C / A</td>" in html
+        assert "<td>D / e / B</td>" in html
+
+    def test_the_frame_is_that_of_the_edges(self) -> None:
+        frame = NetworkView(FIGURE_8).frame
+        assert {"omega", "fate", "constraint", "chosen"} <= {*frame.columns}
+
+
+class TestAlignmentView:
+    def test_the_static_form_is_the_matrix_to_scale(self) -> None:
+        html = AlignmentView(FIGURE_8).to_html()
+        boxes = [
+            own
+            for own in drawing(html).iter(f"{SVG}rect")
+            if own.get("class") in {"g", "h0", "h1", "h2", "h3"}
+        ]
+        widths = [float(own.get("width", 0)) for own in boxes[:10]]
+        assert np.allclose(widths[5:], np.multiply([2, 3, 2, 3, 2], widths[5] / 2), atol=0.1)
+        assert np.allclose(widths[:5], widths[5:], atol=0.1)  # e is cut where B and A meet
+        assert "Ω = 0 m, W = 12 m" in texts(html)
+
+    def test_the_piece_has_the_tolerance_that_the_path_keeps(self) -> None:
+        told = unpack(chunks.chunk(TRACES["figure-8"](), "alignment"))
+        (own,) = (path for path in told["paths"] if path["axis"] == "x")
+        assert (own["tolerance"], own["canvas"]) == (6.0, 12.0)
+        assert own["layers"] == ["corners", "walls"]
+
+
+class TestSizingView:
+    def test_the_static_form_lists_sizes_and_rows(self) -> None:
+        html = SizingView(gallery.load("residential-house")).to_html()
+        assert "<td>x</td><td>D</td><td>1.1</td><td>1.19</td><td>0.0081</td>" in html
+        assert "<td>1:0-3-0 = |D|</td><td>=</td><td>0.18</td>" in html
+        assert "<td>f</td><td>free</td>" in html
+
+    def test_the_frame_is_that_of_the_equations(self) -> None:
+        frame = SizingView(FIGURE_8).frame
+        assert {"1:0-0-0 = |C|", "0:0-0-0 = |C|"} & {*frame.name}
+        assert {"multiplier", "active"} <= {*frame.columns}
+
+    def test_the_piece_has_every_step(self) -> None:
+        trace = TRACES["residential-house"]()
+        told = unpack(chunks.chunk(trace, "sizing"))["events"]
+        assert [own["event"] for own in told].count("ActiveSetStep") == len(trace.of_kind(ActiveSetStep))
+        assert {own["event"] for own in told} == {"SystemPosed", "ActiveSetStep", "SystemSolved"}
