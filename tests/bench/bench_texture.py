@@ -87,7 +87,8 @@ def _frames(questions: dict[str, Question], present: dict[str, Painter]) -> None
             for view in SIGHTS:
                 half = spent["Full", view, one] / 2
                 print(
-                    f"{one} on Full, {view}: {half:.0f} ms, half of its CPU time; goal under {GOAL_FULL:g} on two free cores"
+                    f"{one} on Full, {view}: {half:.0f} ms, half of its CPU time; "
+                    f"goal under {GOAL_FULL:g} on two free cores"
                 )
 
 
