@@ -9,7 +9,7 @@ VENV := .venv/bin
 # .venv/bin first: a Node that set-up brought lies there.
 export PATH := $(CURDIR)/$(VENV):$(PATH)
 
-.PHONY: help lab test check bench front watch format floors lock clean setup-lab setup-test
+.PHONY: help lab test check bench front watch core notebooks format floors lock clean setup-lab setup-test
 .DEFAULT_GOAL := help
 
 help:  ## list the targets
@@ -30,8 +30,14 @@ bench: setup-test  ## print what is measured
 front: setup-test  ## build the front end into facade_nb/widgets/static
 	@node scripts/front.mjs
 
+notebooks: setup-test  ## run the notebooks again that hold widgets: their saved state has the front end
+	@$(VENV)/python scripts/notebooks.py
+
 watch: setup-test  ## build the front end again after every change
 	@node scripts/front.mjs --watch
+
+core: setup-test  ## build the solver's compiled search into facade_nb/solver/core/core.wasm
+	@$(VENV)/python scripts/core.py
 
 format: setup-test  ## format Python and TypeScript
 	@$(VENV)/ruff check -q --fix-only && $(VENV)/ruff format && node_modules/.bin/biome check --write .

@@ -1,8 +1,8 @@
 """The command line: ``python -m facade_nb solve DESIGN.json`` and ``… render GRAMMAR.txt`` (SPEC 6).
 
-Exit status 0: done; 2: the input is at fault; 3: the design has no layout; 1: a drawing that this machine
-cannot make. Messages go to stderr, without a traceback. Everything is computed before the first file is
-written, and files are written whole or not at all.
+Exit status 0: done; 2: the input is at fault; 3: the design has no layout, and nothing but its trace is written;
+1: a drawing that this machine cannot make. Messages go to stderr, without a traceback. Everything is computed before
+the first file is written, and files are written whole or not at all.
 """
 
 from __future__ import annotations
@@ -70,7 +70,12 @@ def _seconds(text: str) -> float:
 
 def _solve(options: argparse.Namespace) -> int:
     design = Design.from_json(Path(options.design))
-    layout = solve(design, trace=options.trace is not None, time_limit=options.time_limit)
+    try:
+        layout = solve(design, trace=options.trace is not None, time_limit=options.time_limit)
+    except NoLayout as error:
+        if options.trace:  # what was tried is what there is to look at now
+            write_together([(options.trace, error.trace.to_json())])
+        raise
     text = json.dumps(layout.to_dict(), ensure_ascii=False, indent=2, allow_nan=False) + "\n"
     files: list[tuple[str, str | bytes]] = []
     if options.out:

@@ -55,6 +55,7 @@ def add_render(commands: Any) -> None:
     parser.add_argument(
         "--angle", type=_angle, default=50.0, metavar="DEGREES", help="width of view; default: 50"
     )
+    parser.add_argument("--hour", type=_hour, metavar="HOUR", help="in the light of this hour, 0 to 24")
     parser.add_argument("--out", metavar="FILE.png", help="write the picture")
     parser.add_argument("--rules", metavar="FILE.npy", help="write which rule is seen at each pixel (int32)")
     parser.set_defaults(parser=parser)
@@ -95,7 +96,9 @@ def render_command(options: argparse.Namespace) -> int:
     }
     files: list[tuple[str, str | bytes]] = []
     if options.out:
-        files.append((options.out, render_texture(grammar, **given, antialias=options.antialias)))
+        files.append(
+            (options.out, render_texture(grammar, **given, antialias=options.antialias, hour=options.hour))
+        )
     if options.rules:
         import numpy as np
 
@@ -193,6 +196,14 @@ def _triple(text: str) -> tuple[float, float, float]:
     if not values:
         raise argparse.ArgumentTypeError(f"expected three numbers, such as 6,1.7,10; found {text!r}")
     return values[0], values[1], values[2]
+
+
+def _hour(text: str) -> float:
+    """An hour of the day."""
+    values = _numbers(text, ",", 1)
+    if not values or not 0 <= values[0] <= 24:
+        raise argparse.ArgumentTypeError(f"expected an hour from 0 to 24, such as 9.5; found {text!r}")
+    return values[0]
 
 
 def _angle(text: str) -> float:

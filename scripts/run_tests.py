@@ -30,12 +30,13 @@ STEPS: dict[str, Sequence[str | Path]] = {
     "biome": (TOOLS / "biome", "ci", "--colors=off", "."),
     "tsc": (TOOLS / "tsc", "--noEmit"),
     "bundles": ("node", ROOT / "scripts" / "front.mjs", "--check"),
+    "core": (PYTHON, ROOT / "scripts" / "core.py", "--check"),
     "vitest": (TOOLS / "vitest", "run"),
     "pytest": (*PYTEST, "-n", "auto", "--dist", "loadfile", "tests", "--ignore=tests/browser"),
     "browser": (*PYTEST, "tests/browser"),
 }
 GROUPS = {
-    "check": ("ruff", "format", "mypy", "imports", "biome", "tsc", "bundles"),
+    "check": ("ruff", "format", "mypy", "imports", "biome", "tsc", "bundles", "core"),
     "python": ("ruff", "format", "mypy", "imports", "pytest"),
     "front-end": ("biome", "tsc", "bundles", "vitest"),
 }

@@ -15,6 +15,8 @@ import pytest
 
 from facade_nb import Layout, gallery, solve
 from facade_nb.cli import main
+from facade_nb.solver import Trace
+from facade_nb.solver.events import NoLayoutFound
 from tests.oracle.designs import design
 
 KINDS = ["out", "trace", "svg", "glb"]
@@ -263,7 +265,13 @@ class TestNoLayout:
             (tmp_path / f"old.{kind}").write_text("old")
         assert main(["solve", str(hopeless), *outputs(tmp_path)]) == 3
         assert told(capsys).startswith("No layout: Pattern 'wall': its shortest word, A, measures 9 m")
-        assert all((tmp_path / f"old.{kind}").read_text() == "old" for kind in KINDS)
+        assert all((tmp_path / f"old.{kind}").read_text() == "old" for kind in KINDS if kind != "trace")
+
+    def test_the_trace_says_what_was_tried(self, hopeless: Path, tmp_path: Path) -> None:
+        file = tmp_path / "trace.json"
+        assert main(["solve", str(hopeless), f"--trace={file}"]) == 3
+        (none,) = Trace.from_json(file).of_kind(NoLayoutFound)
+        assert none.message.startswith("Pattern 'wall': its shortest word, A, measures 9 m")
 
     def test_as_a_command(self, hopeless: Path) -> None:
         done = run("solve", hopeless)

@@ -1,4 +1,4 @@
-"""Designs that ship with the package; docs/gallery.md tells where each comes from and what it shows.
+"""Designs and texture grammars that ship; docs/gallery.md and docs/grammars.md tell where each comes from.
 
 >>> from facade_nb import gallery
 >>> gallery.load("residential-house").canvas.width
@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from importlib import resources
@@ -18,7 +19,7 @@ from ..design import edit
 from ..design.errors import DesignError, Fault, nearest
 from ..design.model import Design
 
-__all__ = ["load", "names", "step_titles", "steps"]
+__all__ = ["grammar", "grammars", "load", "names", "step_titles", "steps"]
 
 _EDITS: Mapping[str, Callable[..., Design]] = MappingProxyType(
     {name: getattr(edit, name) for name in edit.__all__}
@@ -59,6 +60,28 @@ def steps(name: str) -> list[Design]:
 def step_titles(name: str) -> list[str]:
     """Return a title for each of the designs of `steps`, in their order. Raises `DesignError` as `steps` does."""
     return list(_steps(_stepped(name))[0])
+
+
+def grammars() -> list[str]:
+    """Names of all texture grammars, in the order of the paper's figures."""
+    return sorted(_listed("grammars", ".txt"), key=_numbered)
+
+
+def grammar(name: str) -> str:
+    """Return the text of the texture grammar of that name, for `facade_nb.render.Grammar.parse`.
+
+    Raises
+    ------
+    DesignError
+        For an unknown name, with the nearest valid one.
+    """
+    _known(name, grammars(), "a texture grammar of the gallery")
+    return _text("grammars", f"{name}.txt")
+
+
+def _numbered(name: str) -> tuple[int, str]:
+    number = re.search(r"\d+", name)
+    return (int(number[0]) if number else 0, name)
 
 
 @lru_cache(maxsize=64)
@@ -106,10 +129,10 @@ def _known(name: str, valid: list[str], what: str) -> None:
         raise DesignError(Fault("gallery", message))
 
 
-def _listed(folder: str) -> list[str]:
+def _listed(folder: str, suffix: str = ".json") -> list[str]:
     root = resources.files(__name__)
     place = root.joinpath(folder) if folder else root
-    return sorted(file.name.removesuffix(".json") for file in place.iterdir() if file.name.endswith(".json"))
+    return sorted(file.name.removesuffix(suffix) for file in place.iterdir() if file.name.endswith(suffix))
 
 
 def _text(*path: str) -> str:

@@ -11,6 +11,7 @@ from .overlay import overlay_svg
 from .picture import render_png
 from .scene import Scene, Solid, build_scene
 from .texture import Grammar
+from .texture.from_layout import grammar_of
 
 __all__ = [
     "GEOMETRIES",
@@ -20,6 +21,7 @@ __all__ = [
     "Solid",
     "build_scene",
     "elevation_svg",
+    "grammar_of",
     "overlay_svg",
     "render_png",
     "write_glb",

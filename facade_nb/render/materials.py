@@ -10,10 +10,14 @@ from types import MappingProxyType
 
 from ..design.errors import DesignError, Fault, nearest
 
-__all__ = ["DEFAULT_MATERIAL", "MATERIALS", "Material", "find_material", "mix", "rgb"]
+__all__ = ["DEFAULT_MATERIAL", "MATERIALS", "RULE", "Material", "find_material", "mix", "rgb"]
 
 DEFAULT_MATERIAL = "card"
 """What a shape is made of where the design says nothing: the paper's plain boxes, with every cell to be seen."""
+
+
+RULE = "rule:"
+"""What a material begins with that is a rule of a texture grammar (`texture.from_layout`)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +101,7 @@ _HEX = re.compile(r"#(?:[0-9a-fA-F]{3}|[0-9a-fA-F]{6})")
 
 
 def find_material(name: str, place: str = "material") -> Material:
-    """Return the material of that name; a colour ``#rgb`` or ``#rrggbb`` is plain paint.
+    """Return the material of that name; a colour ``#rgb`` or ``#rrggbb`` is plain paint, ``rule:Name`` neutral grey.
 
     Raises
     ------
@@ -109,11 +113,21 @@ def find_material(name: str, place: str = "material") -> Material:
         return found
     if _HEX.fullmatch(name):
         return _paint(name.lower())
+    if name.startswith(RULE) and name != RULE:
+        return _by_rule(name)
     known = ", ".join(MATERIALS)
     message = (
         f"expected one of {known}, or a colour such as #c8b9a0; found {name!r}{nearest(name, MATERIALS)}"
     )
     raise DesignError(Fault(place, message))
+
+
+@lru_cache(maxsize=256)
+def _by_rule(name: str) -> Material:
+    """What only a texture grammar can draw is neutral grey everywhere else."""
+    return Material(
+        name, "#cbc7be", "#85817a", "", "#bdb9b0", 0.9, 0.0, "drawn by a rule of a texture grammar"
+    )
 
 
 @lru_cache(maxsize=256)

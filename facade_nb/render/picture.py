@@ -106,6 +106,7 @@ def picture(
     from .backends import choose_backend
     from .camera import Camera
     from .daylight import find_daylight
+    from .developing import binned, developed
     from .shading import Shot, expose
     from .surroundings import building
 
@@ -133,28 +134,18 @@ def picture(
         ),
         chosen,
     )
-    shown = _developed(seen.light, light)
+    shown = developed(seen.light, light.exposure)
     alpha = None
     if background == "sky":
         shown = _with_sky(shown, seen, view.rays(large), view.eye, light)
     else:
         cover = np.where(seen.ground, seen.shade, seen.building)[..., None].astype(np.float32)
-        alpha = _binned(cover, samples)
+        alpha = binned(cover, samples)
         shown = np.where(seen.ground[..., None], np.array([0.06, 0.06, 0.08], np.float32), shown) * cover
-    small = _binned(shown, samples)
+    small = binned(shown, samples)
     if alpha is not None:
         small = np.concatenate([small / np.maximum(alpha, 1e-4), alpha], axis=2)
     return (np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8)
-
-
-def _developed(light: NDArray[np.float32], daylight: Daylight) -> NDArray[np.float32]:
-    """Tone mapping (a filmic curve after Hable's fit of Narkowicz), then sRGB."""
-    import numpy as np
-
-    x = light * (0.5 * daylight.exposure)
-    x = x + 0.12 * (x.mean(axis=-1, keepdims=True) - x)  # strong colours fade a little, as on film
-    curve = np.clip(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0, 1)
-    return np.where(curve <= 0.0031308, curve * 12.92, 1.055 * curve ** (1 / 2.4) - 0.055).astype(np.float32)
 
 
 def _with_sky(
@@ -175,9 +166,3 @@ def _with_sky(
     far = np.clip((distance - 1.3 * reach) / (7.0 * reach), 0, 1)
     share = np.where(seen.building, 0, np.where(seen.ground, far**0.6, 1))[..., None]
     return (shown * (1 - share) + sky * share).astype(np.float32)
-
-
-def _binned(values: NDArray[np.float32], n: int) -> NDArray[np.float32]:
-    """Means over n × n pixels."""
-    h, w, c = values.shape
-    return values.reshape(h // n, n, w // n, n, c).mean(axis=(1, 3))

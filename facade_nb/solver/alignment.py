@@ -93,7 +93,7 @@ def align(
     group = make_group(
         rows, canvas, tolerance, Objective.paper() if objective is None else objective, cuts=cuts
     )
-    found = (search_ida if search == "ida" else search_best)([group])
+    found = (search_ida if search == "ida" else search_best)([group], keep=1)
     return None if found.best is None else alignment_of(group, found.best, 0)
 
 

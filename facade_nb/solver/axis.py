@@ -10,19 +10,21 @@ from itertools import islice, product
 from math import inf
 
 from ..design.model import Symbol
-from .candidates import Candidate, CandidateStream, candidates, rows_of
+from .candidates import Candidate, CandidateStream, candidates, inputs_of, rows_of
 from .clock import Progress
 from .columns import EPS, Group, lone_unsized, make_group
+from .compiled import CompiledDives, CompiledSearch, best_first, dives, start_afresh
 from .dive import Dives
 from .ida import search_ida
 from .instances import Instances, Range
 from .keeping import Kept
-from .letters import Word
+from .letters import Letter, Word
 from .objective import Objective
 from .pricing import Priced
 from .problem import AxisProblem
 from .search import BestFirst, Found, Stopped
 from .sizing import Sized, size_axis
+from .sweeping import can_sweep, sweeps
 from .tracing import Recorder, Walk, sizing
 from .words import axis_words
 
@@ -34,8 +36,12 @@ _STEP = 0.004
 """How far above its lower bound a candidate goes first, as a fraction of the canvas."""
 _GROWTH = 1.5
 """Each turn takes it so many times further."""
-_LONG = 150
-"""A search of more paths than this is a long one, and gives way to others after as many again."""
+_TURN = 150
+"""After so many paths a search gives way to those of other candidates."""
+_SLOW = 0.03
+"""A search that takes more seconds than this is helped by sweeps."""
+_LONG = 3_000
+"""A search of more paths than this is a long one, and dives help it."""
 
 _kept: Kept[tuple[list[Priced], float]] = Kept(512)
 """What has been found for groups, so that those that an edit leaves alone are not searched again."""
@@ -101,7 +107,7 @@ class _Run:
     so far allows less than the next of them it goes no further than that; if it ends there with more answers than
     are kept, the search is repeated in steps. That makes an answer the same whatever was searched before.
 
-    A search that takes long is helped by dives, which take as long again.
+    A search that takes long is helped by sweeps, where there are no wildcards, and by dives, which take as long again.
     """
 
     def __init__(
@@ -117,7 +123,9 @@ class _Run:
     ) -> None:
         self.groups, self.log, self._fits = groups, log, fits
         self._options = (method, nodes, check, accept)
-        self._dives: Dives | None = None
+        self._dives: Dives | CompiledDives | None = None
+        self._sweeps = sweeps(groups[0], check) if accept is None and can_sweep(groups) else None
+        self._swept: Priced | None = None
         self._spent = self._dived = 0.0
         self._again = False
         if known is None:
@@ -127,12 +135,11 @@ class _Run:
 
     def _begin(self) -> None:
         method, nodes, check, accept = self._options
-        self._first = BestFirst(
-            self.groups, keep=_TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_LONG
+        self._first: BestFirst | CompiledSearch | None = best_first(
+            self.groups, keep=_TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_TURN
         )
         self._ida = method == "ida"
-        self._found = self._first.found
-        self.done = self._first.done
+        self._found, self.done = self._first.found, self._first.done
         self._base = self._found.bound
         self._step = _STEP * max((group.canvas for group in self.groups), default=1.0)
         self._stepwise = True
@@ -150,28 +157,48 @@ class _Run:
                 self._go_on(limit, top)
             self.log.known(self.floor, len(self.ties), self.cut)
         self._spent += time.perf_counter() - begin
+        self._tidy()
+
+    def _tidy(self) -> None:
+        if self.done:
+            self._first = self._dives = None  # they take much memory
 
     @property
     def long(self) -> bool:
         """The search has taken long."""
-        return not self.done and self._found.nodes >= _LONG
+        slow = self._sweeps is not None and self._spent > _SLOW
+        return not self.done and (slow or self._found.nodes >= _LONG)
 
     def dive(self, *, at_once: bool = False) -> None:
         """Look for some alignment as long as the search has taken; or, `at_once`, until there is one."""
         _, _, check, accept = self._options
         if self.done or accept is not None:
             return
+        if self._sweeps is not None:
+            for priced in self._sweeps:
+                if self._fits is None or self._fits(priced):
+                    self._swept = priced
+            self._sweeps = None
+        if self._found.nodes < _LONG and self._swept is not None:
+            return
         if self._dives is None:
-            self._dives = Dives(self.groups, self.floor, check, self._fits)
+            self._dives = dives(self.groups, self.floor, check, self._fits)
+            if self._swept is not None:
+                self._dives.offer(self._swept)
         begin, before = time.perf_counter(), self._dived
         while not self._dives.done and (self._dived <= self._spent or (at_once and self._dives.best is None)):
             self._dives.dive()
             self._dived = before + time.perf_counter() - begin
 
+    def give_up(self) -> None:
+        """Let go of the search, but not of what it has found."""
+        if not self.done:
+            self._first = self._dives = None
+
     @property
     def known(self) -> list[Priced]:
         """The optimal structures; else the best so far."""
-        best = self._dives.best if self._dives is not None else None
+        best = self._swept if self._dives is None else self._dives.best
         return self.ties or ([best] if best is not None else [])
 
     def _go_on(self, limit: float, top: float) -> None:
@@ -201,10 +228,11 @@ class _Run:
     @property
     def paused(self) -> bool:
         """It has not come to the end of what it was asked for."""
-        return not self.done and self._first.paused
+        return not self.done and self._first is not None and self._first.paused
 
     def _go_to(self, limit: float) -> None:
         if not self._ida:
+            assert self._first is not None, "a search that was given up is not gone on with"
             self._first.advance(limit)
             self.done = self._first.done
         else:
@@ -255,6 +283,16 @@ class _Case:
         return max(self.least, sum(run.floor for run in self.runs))
 
 
+class _Rows:
+    """The rows of a group, and the words they were made of (which keeps those, and so their identities, alive)."""
+
+    __slots__ = ("letters", "unsized", "words")
+
+    def __init__(self, letters: list[tuple[Letter, ...]], words: tuple[Word, ...]) -> None:
+        self.letters, self.words = letters, words
+        self.unsized = {letter.symbol for row in letters for letter in row if letter.size is None}
+
+
 @dataclass(slots=True)
 class AxisSearch:
     """The search on one axis at one tolerance, with what it has learnt so far."""
@@ -270,6 +308,9 @@ class AxisSearch:
     found: dict[str, Instances] = field(default_factory=dict)
     cases: list[_Case] = field(default_factory=list)
     runs: dict[object, _Run] = field(default_factory=dict)
+    rows: dict[object, _Rows] = field(default_factory=dict)
+    by_words: dict[object, _Run] = field(default_factory=dict)
+    inputs: list[tuple[str, ...]] | None = None
     stream: CandidateStream | None = None
 
     def enumerate(self, across: Mapping[str, Range] | None = None) -> None:
@@ -309,6 +350,8 @@ class AxisSearch:
             self.progress,
             found,
             runs=self.runs,
+            rows=self.rows,
+            by_words=self.by_words,
         )
         other.stream = other._stream()
         return other
@@ -332,6 +375,8 @@ class AxisSearch:
                 group.edges.clear()
         self.cases.clear()
         self.runs.clear()
+        self.rows.clear()
+        self.by_words.clear()
         self.stream = None
 
     def in_order(self) -> Iterator[Candidate]:
@@ -403,6 +448,10 @@ class AxisSearch:
         if self.extend is not None:
             self.extend()
         likely = sorted(self.cases, key=lambda case: case.floor)[:3]
+        if start_afresh():
+            for case in self.cases:
+                for run in case.runs:
+                    run.give_up()
         try:
             if not likely:
                 stream = CandidateStream(
@@ -481,19 +530,40 @@ class AxisSearch:
 
     def _open(self, case: _Case) -> None:
         """Find the candidate's groups, and the searches that other candidates share with it."""
-        case.groups, case.clusters = self._groups(case.candidate)
+        rows, keys, clusters = self._rows(case.candidate)
+        groups: list[Group | None] = [None] * len(rows)
         runs: list[_Run] = []
-        for cluster in case.clusters:
-            key = tuple(group.identity for group in (case.groups[g] for g in cluster))
+        for cluster in clusters:
+            run = self._same_words(rows, cluster, tuple(keys[g] for g in cluster))
+            runs.append(run)
+            for g, group in zip(cluster, run.groups, strict=True):
+                groups[g] = group
+        case.clusters, case.groups = clusters, [group for group in groups if group is not None]
+        case.runs = runs  # all of them or none: the clock may have stopped this before
+
+    def _same_words(self, rows: Sequence[_Rows], cluster: Sequence[int], words: object) -> _Run:
+        """The search of a cluster: the one that there is for the same words, or others with the same letters."""
+        run = self.by_words.get(words)
+        if run is None:
+            free = lone_unsized(*(dict.fromkeys(rows[g].letters) for g in cluster))
+            groups = [
+                make_group(
+                    rows[g].letters,
+                    self.problem.canvas,
+                    self.tolerance,
+                    self.objective,
+                    free=free,
+                    check=self.check,
+                )
+                for g in cluster
+            ]
+            key = tuple(group.identity for group in groups)
             run = self.runs.get(key)
             if run is None:
                 known = _kept.get(self._known_as(key)) if self.trace is None else None
-                run = self._run([case.groups[g] for g in cluster], None, cluster, known)
-                self.runs[key] = run
-            runs.append(run)
-            for g, group in zip(cluster, run.groups, strict=True):
-                case.groups[g] = group
-        case.runs = runs  # all of them or none: the clock may have stopped this before
+                run = self.runs[key] = self._run(groups, None, cluster, known)
+            self.by_words[words] = run
+        return run
 
     def _run(
         self,
@@ -520,31 +590,29 @@ class AxisSearch:
     def _known_as(self, key: object) -> object:
         return key, self.problem.canvas, self.tolerance, self.objective, self.method
 
-    def _groups(self, candidate: Candidate) -> tuple[list[Group], list[list[int]]]:
-        """The groups of a candidate, and which of them share an unsized symbol and so are aligned together."""
-        flat = iter(
-            rows_of(self.problem, candidate.words, [n for _, names in self.problem.groups for n in names])
-        )
-        rows = [[next(flat) for _ in names] for _, names in self.problem.groups]
-        unsized = [{a.symbol for row in own for a in row if a.size is None} for own in rows]
+    def _rows(self, candidate: Candidate) -> tuple[list[_Rows], list[object], list[list[int]]]:
+        """The rows of each group, what they depend on, and which groups are aligned together.
+
+        Those are that share an unsized symbol.
+        """
+        if self.inputs is None:
+            self.inputs = inputs_of(self.problem)
+        rows: list[_Rows] = []
+        keys: list[object] = []
+        for g, (names, (_, standing)) in enumerate(zip(self.inputs, self.problem.groups, strict=True)):
+            words = tuple(candidate.words[name] for name in names)
+            key = (g, *map(id, words))
+            own = self.rows.get(key)
+            if own is None:
+                own = self.rows[key] = _Rows(rows_of(self.problem, candidate.words, standing), words)
+            rows.append(own)
+            keys.append(key)
         clusters: list[list[int]] = []
-        for g, symbols in enumerate(unsized):
-            joined = [c for c in clusters if any(unsized[o] & symbols for o in c)]
+        for g, one in enumerate(rows):
+            joined = [c for c in clusters if any(rows[o].unsized & one.unsized for o in c)]
             clusters = [c for c in clusters if c not in joined]
             clusters.append(sorted([g, *(o for c in joined for o in c)]))
-        groups: list[Group] = [None] * len(rows)  # type: ignore[list-item]
-        for cluster in clusters:
-            free = lone_unsized(*(dict.fromkeys(rows[g]) for g in cluster))
-            for g in cluster:
-                groups[g] = make_group(
-                    rows[g],
-                    self.problem.canvas,
-                    self.tolerance,
-                    self.objective,
-                    free=free,
-                    check=self.check,
-                )
-        return groups, clusters
+        return rows, keys, clusters
 
     def _size(self, case: _Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
         """Size every combination of equally good structures; the least deviation wins."""

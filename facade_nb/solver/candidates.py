@@ -17,7 +17,7 @@ from .letters import Letter, Word
 from .objective import Objective
 from .problem import AxisProblem
 
-__all__ = ["Candidate", "CandidateStream", "candidates", "lower_bound", "rows_of"]
+__all__ = ["Candidate", "CandidateStream", "candidates", "inputs_of", "lower_bound", "rows_of"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,6 +39,10 @@ class Candidate:
         )
 
 
+_Entry = tuple[float, int, int, dict[str, Word], dict[str, int], tuple[float, ...]]
+"""Lower bound, minus how many patterns have a word, serial number, words, counters, and the bound of each group."""
+
+
 class CandidateStream:
     """Candidates by growing lower bound, made only as far as they are asked for.
 
@@ -55,13 +59,13 @@ class CandidateStream:
         objective: Objective,
         check: Callable[[], None] | None = None,
     ) -> None:
-        self._problem, self._words, self._tolerance, self._check = problem, words, tolerance, check
+        self._words, self._check = words, check
         self._names = [name for name, _ in problem.patterns]
-        self._above = _above(problem)
+        self._long = _LongEnough(problem, tolerance)
         self._bounds = _Bounds(problem, tolerance, objective)
         self._serial = count()
-        self._queue: list[tuple[float, int, int, dict[str, Word], dict[str, int]]] = []
-        heappush(self._queue, (0.0, 0, next(self._serial), {}, {}))
+        self._queue: list[_Entry] = []
+        heappush(self._queue, (0.0, 0, next(self._serial), {}, {}, (0.0,) * len(problem.groups)))
         self._ahead: Candidate | None = None
 
     @property
@@ -81,9 +85,9 @@ class CandidateStream:
         while self._queue:
             if self._check is not None:
                 self._check()
-            bound, depth, _, chosen, values = heappop(self._queue)
+            bound, depth, _, chosen, values, parts = heappop(self._queue)
             if -depth == len(self._names):
-                if _all_long_enough(self._problem, chosen, self._above, self._tolerance):
+                if self._long.all(chosen):
                     return Candidate(chosen, values, bound)
                 continue
             name = self._names[-depth]
@@ -91,9 +95,10 @@ class CandidateStream:
                 if any(values.get(counter, value) != value for counter, value in word.counters.items()):
                     continue
                 more = {**chosen, name: word}
-                if not _long_enough(self._problem, name, more, self._above[name], self._tolerance):
+                if not self._long(name, more):
                     continue
-                least = self._bounds.of(more)
+                costs = self._bounds.after(parts, more, name)
+                least = sum(costs)
                 if least < inf:
                     entry = (
                         max(bound, least),
@@ -101,6 +106,7 @@ class CandidateStream:
                         next(self._serial),
                         more,
                         {**values, **word.counters},
+                        costs,
                     )
                     heappush(self._queue, entry)
         return None
@@ -115,7 +121,7 @@ def candidates(
 ) -> Iterator[Candidate]:
     """Every candidate whose words keep Eq. 7, in lexicographic order, as the paper goes through them."""
     names = [name for name, _ in problem.patterns]
-    above = _above(problem)
+    long = _LongEnough(problem, tolerance)
     bounds = _Bounds(problem, tolerance, objective)
 
     def descend(k: int, chosen: dict[str, Word], values: dict[str, int]) -> Iterator[Candidate]:
@@ -123,7 +129,7 @@ def candidates(
             check()
         if k == len(names):
             bound = bounds.of(chosen)
-            if bound < inf and _all_long_enough(problem, chosen, above, tolerance):
+            if bound < inf and long.all(chosen):
                 yield Candidate(dict(chosen), dict(values), bound)
             return
         name = names[k]
@@ -131,7 +137,7 @@ def candidates(
             if any(values.get(counter, value) != value for counter, value in word.counters.items()):
                 continue
             chosen[name] = word
-            if _long_enough(problem, name, chosen, above[name], tolerance):
+            if long(name, chosen):
                 yield from descend(k + 1, chosen, {**values, **word.counters})
         chosen.pop(name, None)
 
@@ -148,73 +154,82 @@ class _Bounds:
 
     def __init__(self, problem: AxisProblem, tolerance: float, objective: Objective) -> None:
         self._problem, self._tolerance, self._objective = problem, tolerance, objective
-        patterns = problem.pattern
-        self._inputs: list[tuple[str, ...]] = []
-        self._rows: list[tuple[str, ...]] = []
-        for _, rows in problem.groups:
-            standing = {symbol for name in rows for symbol in patterns[name].placeholders}
-            givers = [name for name, pattern in problem.patterns if standing & set(pattern.substituted)]
-            self._rows.append(tuple(dict.fromkeys(rows)))
-            self._inputs.append(tuple(dict.fromkeys([*rows, *givers])))
+        self._rows = [tuple(dict.fromkeys(rows)) for _, rows in problem.groups]
+        self._inputs = inputs_of(problem)
         self._known: dict[tuple[int, ...], float] = {}
 
     def of(self, words: Mapping[str, Word]) -> float:
         """Sum over the groups."""
-        total = 0.0
+        return sum(self._group(g, words) for g in range(len(self._inputs)))
+
+    def after(self, before: tuple[float, ...], words: Mapping[str, Word], name: str) -> tuple[float, ...]:
+        """Per group, from what it was before a pattern was given its word."""
+        costs = list(before)
         for g, names in enumerate(self._inputs):
-            key = (g, *(id(words.get(name)) for name in names))
-            bound = self._known.get(key)
-            if bound is None:
-                rows = [name for name in self._rows[g] if name in words]
-                most = len(self._rows[g]) if len(rows) < len(self._rows[g]) else None
-                letters = rows_of(self._problem, words, rows)
-                bound = lower_bound(letters, self._problem.canvas, self._tolerance, self._objective, most)
-                self._known[key] = bound
-            total += bound
-            if total == inf:
-                break
-        return total
+            if name in names:
+                costs[g] = self._group(g, words)
+        return tuple(costs)
+
+    def _group(self, g: int, words: Mapping[str, Word]) -> float:
+        key = (g, *[id(words.get(name)) for name in self._inputs[g]])
+        bound = self._known.get(key)
+        if bound is None:
+            rows = [name for name in self._rows[g] if name in words]
+            most = len(self._rows[g]) if len(rows) < len(self._rows[g]) else None
+            letters = rows_of(self._problem, words, rows)
+            bound = lower_bound(letters, self._problem.canvas, self._tolerance, self._objective, most)
+            self._known[key] = bound
+        return bound
 
 
-def _above(problem: AxisProblem) -> dict[str, list[list[str]]]:
-    """Per pattern, per group that uses it: the patterns whose topmost row is above its own topmost row."""
-    above: dict[str, list[list[str]]] = {name: [] for name, _ in problem.patterns}
+def inputs_of(problem: AxisProblem) -> list[tuple[str, ...]]:
+    """Per group: the patterns on whose words its rows depend, its own and those that give its symbols a size."""
+    patterns = problem.pattern
+    out: list[tuple[str, ...]] = []
     for _, rows in problem.groups:
-        order = list(dict.fromkeys(rows))
-        for i, name in enumerate(order):
-            above[name].append(order[:i])
-    return above
+        standing = {symbol for name in rows for symbol in patterns[name].placeholders}
+        givers = [name for name, pattern in problem.patterns if standing & set(pattern.substituted)]
+        out.append(tuple(dict.fromkeys([*rows, *givers])))
+    return out
 
 
-def _long_enough(
-    problem: AxisProblem,
-    name: str,
-    chosen: Mapping[str, Word],
-    above: Sequence[Sequence[str]],
-    tolerance: float,
-) -> bool:
-    word = chosen[name]
-    if any(letter.size is None for letter in word.letters):
+class _LongEnough:
+    """Eq. 7: whether a word is long enough next to those above it; unsized letters take whatever is left."""
+
+    def __init__(self, problem: AxisProblem, tolerance: float) -> None:
+        self._least, self._groups = problem.canvas - tolerance - EPS, len(problem.groups)
+        # Per pattern, per group that uses it: the patterns whose topmost row is above its own topmost row.
+        self._above: dict[str, list[list[str]]] = {name: [] for name, _ in problem.patterns}
+        for _, rows in problem.groups:
+            order = list(dict.fromkeys(rows))
+            for i, name in enumerate(order):
+                self._above[name].append(order[:i])
+        self._sizes: dict[int, tuple[float, float, Word]] = {}
+
+    def __call__(self, name: str, chosen: Mapping[str, Word]) -> bool:
+        size = self._measured(chosen[name])[0]
+        if size >= self._least:
+            return True
+        for patterns in self._above[name]:
+            if any(p not in chosen for p in patterns):
+                continue  # not chosen yet: another group may use the patterns in another order
+            if size < self._least - sum([self._measured(chosen[p])[1] for p in patterns]):
+                return False
         return True
-    for patterns in above:
-        if any(p not in chosen for p in patterns):
-            continue  # not chosen yet: another group may use the patterns in another order
-        room = sum(a.size or 0.0 for p in patterns for a in chosen[p].letters if a.opaque)
-        if word.size < problem.canvas - tolerance - room - EPS:
-            return False
-    return True
 
+    def all(self, chosen: Mapping[str, Word]) -> bool:
+        """Once more, for patterns that were chosen before some that stand above them in another group."""
+        return self._groups == 1 or all(self(name, chosen) for name in chosen)
 
-def _all_long_enough(
-    problem: AxisProblem,
-    chosen: Mapping[str, Word],
-    above: Mapping[str, Sequence[Sequence[str]]],
-    tolerance: float,
-) -> bool:
-    """Eq. 7 once more, for patterns that were chosen before some that stand above them in another group."""
-    return len(problem.groups) == 1 or all(
-        _long_enough(problem, name, chosen, above[name], tolerance) for name in chosen
-    )
+    def _measured(self, word: Word) -> tuple[float, float, Word]:
+        """The size of the word, infinite where a letter is unsized, and of its opaque letters."""
+        found = self._sizes.get(id(word))
+        if found is None:
+            open_ended = any(letter.size is None for letter in word.letters)
+            opaque = sum([letter.size or 0.0 for letter in word.letters if letter.opaque])
+            # kept with its measures, so that no other can have its identity
+            found = self._sizes[id(word)] = (inf if open_ended else word.size, opaque, word)
+        return found
 
 
 def rows_of(
@@ -260,11 +275,15 @@ def lower_bound(
     """
     if not rows:
         return 0.0
-    distinct = list(dict.fromkeys(tuple(row) for row in rows))
+    distinct: list[tuple[float, Sequence[Letter]]] = []
+    for row in rows:
+        size = sum([a.size or 0.0 for a in row])
+        # cheaper than hashing all their letters
+        if not any(size == known and row == other for known, other in distinct):
+            distinct.append((size, row))
     totals: list[tuple[float, float]] = []
     longest = 0.0
-    for word in distinct:
-        size = sum(a.size or 0.0 for a in word)
+    for size, word in distinct:
         longest = max(longest, size)
         open_ended = any(a.size is None for a in word)
         soft = not objective.plain and any(not a.opaque and not a.transparent for a in word)

@@ -148,6 +148,10 @@ class Clock:
                 self.full = True
                 raise Stopped
 
+    def close(self) -> None:
+        """The call is over: what is still read of its words and networks, for a trace, may take as long as it likes."""
+        self.limit, self._should_stop, self._parent, self._look = None, None, None, inf
+
     def closing(self) -> Callable[[], None]:
         """A check for what is done once the search is over: it has a moment more, whatever ended the search."""
         spent = self.asked or self.limit is None or self.seconds > self.limit

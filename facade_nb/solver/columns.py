@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from math import inf
 from typing import Any
 
@@ -25,7 +26,7 @@ from .letters import Letter
 from .objective import Objective
 from .pairs import PairTable, choose_reference
 
-__all__ = ["EPS", "Band", "Group", "Option", "Position", "lone_unsized", "make_group"]
+__all__ = ["EPS", "Band", "Group", "Option", "Position", "lone_unsized", "make_group", "unsizable"]
 
 EPS = 1e-9
 """Costs and sizes closer than this are equal."""
@@ -127,6 +128,7 @@ class Band:
         self.soft_rest = [0.0] * (len(self.letters) + 1)
         self._unsized: dict[int, tuple[tuple[str, int], ...]] = {}
         self._options: dict[Position, tuple[Option, ...]] = {}
+        self._single: dict[tuple[Position, int], Option] = {}
 
     def back(self, thinnest: float) -> None:
         """Fill `soft_rest`: least Σ (column − element) over the runs with non-opaque letters still to come.
@@ -174,8 +176,21 @@ class Band:
         if found is None:
             if self.check is not None:
                 self.check()
-            found = self._options[position] = tuple(self._make(position))
+            single = self._single
+            found = self._options[position] = tuple(
+                [single.get((position, k), option) for k, option in enumerate(self._make(position))]
+            )
         return found
+
+    def option(self, position: Position, index: int) -> Option:
+        """One of them, the same as in `options`, without making all the others that are longer."""
+        found = self._options.get(position)
+        if found is not None:
+            return found[index]
+        one = self._single.get((position, index))
+        if one is None:
+            one = self._single[position, index] = next(islice(self._make(position), index, None))
+        return one
 
     def _make(self, position: Position) -> Iterator[Option]:
         i, mid, gap, held = position >> 3, position & 4, position & 2, position & 1
@@ -393,6 +408,35 @@ def make_group(
             free,
         ),
     )
+
+
+def unsizable(group: Group, column: Sequence[Option]) -> bool:
+    """Whether no sizes of the symbols can make such a column, for one element of it holds more than another.
+
+    Every symbol has one size, more than nothing, and so has every piece. A row without non-opaque letters fills its
+    column; if the letters that it has at most are all among those that another row has as a whole, and either has more
+    than that, they cannot be equally wide. The objective allows it; sizing does not.
+    """
+    for a, filling in enumerate(column):
+        if filling.empty or filling.soft:
+            continue
+        most = [group.bands[a].letters[i].symbol for i in filling.letters]
+        cut = filling.transparent and not (filling.begins and filling.ends)
+        for b, other in enumerate(column):
+            if a == b or other.empty:
+                continue
+            parts = other.transparent and not (other.begins and other.ends)
+            whole = list(other.letters)
+            if other.transparent and not other.begins:
+                whole = whole[1:]
+            if other.transparent and not other.ends:
+                whole = whole[:-1]
+            if len(most) > len(whole) or not (cut or parts or len(most) < len(whole)):
+                continue
+            least = [group.bands[b].letters[i].symbol for i in whole]
+            if all(most.count(symbol) <= least.count(symbol) for symbol in most):
+                return True
+    return False
 
 
 def lone_unsized(*words: Iterable[tuple[Letter, ...]]) -> frozenset[str]:

@@ -14,7 +14,7 @@ from itertools import count
 from math import inf
 
 from .columns import EPS, Band, Group
-from .network import Network
+from .network import Network, ceiling
 from .pairs import PairTable
 from .paths import Path
 from .pricing import Priced, price
@@ -72,7 +72,7 @@ class Dives:
     least
         Lower bound of J: alignments not much dearer are looked for first.
     accept
-        Says whether a structure will do.
+        Says whether a structure will do. If there is one, it is taken to refuse what cannot be sized.
 
     Attributes
     ----------
@@ -91,11 +91,12 @@ class Dives:
     ) -> None:
         tall = any(group.tall for group in groups)
         self.network = Network(groups, check, most=_MOST if tall else inf)
+        self.network.sizable = accept is not None
         self.check, self._accept = check, accept
         self.best: Priced | None = None
         self.done = self.network.later[0] == inf
         self._canvas = max(group.canvas for group in groups)
-        self._ceiling = self.network.ceiling()
+        self._ceiling = ceiling(groups)
         self._serial = count()
         self._limit = max(least, self.network.later[0])
         self._waiting: list[list[tuple[float, int, float, Path]]] = []
@@ -121,6 +122,12 @@ class Dives:
         if found:
             self._begin()
         return found
+
+    def offer(self, priced: Priced) -> None:
+        """An alignment that is known already: only cheaper ones are looked for."""
+        self.best = priced
+        self._limit = priced.cost - 2 * EPS
+        self._begin()
 
     def _go_deeper(self, waiting: list[tuple[float, int, float, Path]]) -> bool:
         """Take up the first path that waits at a depth; whether it ends in a better alignment."""

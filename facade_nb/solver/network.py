@@ -20,18 +20,21 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from math import inf
 
-from .columns import EPS, Group, Option
+from .columns import EPS, Group, Option, unsizable
 from .making import edges
 from .paths import Edge, Path, Trailed, gathered
 from .shortfall import ahead, shortfall
 from .skeleton import Skeleton
 from .stepping import steps
 
-__all__ = ["Network"]
+__all__ = ["Network", "ceiling"]
 
 
 class Network:
-    """The network of one group, or of several that share unsized symbols, with lower bounds for what is to come."""
+    """The network of one group, or of several that share unsized symbols, with lower bounds for what is to come.
+
+    With `sizable`, columns are left out that no sizes of symbols can make.
+    """
 
     def __init__(
         self, groups: Sequence[Group], check: Callable[[], None] | None = None, most: float = inf
@@ -40,6 +43,7 @@ class Network:
         self.check = check
         self.most = most
         self.gather = True
+        self.sizable = False
         self.tall = any(group.tall for group in groups)
         self.skeletons: list[Skeleton | None] = [None] * len(groups)
         self.later = [0.0] * (len(groups) + 1)
@@ -59,18 +63,6 @@ class Network:
         for g in range(len(self.groups) - 1, -1, -1):
             self.later[g] = self.later[g + 1] + floors[g]
         return self.later[0] <= limit + EPS
-
-    def ceiling(self) -> float:
-        """No alignment within the tolerances costs more, so that a larger budget changes nothing."""
-        total = 0.0
-        for group in self.groups:
-            objective = group.objective
-            width = group.canvas + group.tolerance
-            columns = sum(len(band.letters) + 1 for band in group.bands)
-            letters = sum(letter.size or 0.0 for band in group.bands for letter in band.letters)
-            total += columns * group.tolerance + objective.empty * width + objective.fit * group.tolerance
-            total += objective.loose * (letters + width)
-        return total
 
     def root(self) -> Path:
         """The path without columns."""
@@ -111,6 +103,8 @@ class Network:
         else:
             found = edges(group, path.state, path.owed, made - laid, limit - laid, self.check, self.most)
         for edge in found:
+            if self.sizable and unsizable(group, edge.column):
+                continue
             cost = path.cost + edge.cost
             width = path.width + edge.width
             firm = path.firm and edge.firm
@@ -206,3 +200,16 @@ class Network:
         return (
             group.objective.fit * over if over > 0 else -(group.objective.fit if firm else group.under) * over
         )
+
+
+def ceiling(groups: Sequence[Group]) -> float:
+    """No alignment within the tolerances costs more, so that a larger budget changes nothing."""
+    total = 0.0
+    for group in groups:
+        objective = group.objective
+        width = group.canvas + group.tolerance
+        columns = sum(len(band.letters) + 1 for band in group.bands)
+        letters = sum(letter.size or 0.0 for band in group.bands for letter in band.letters)
+        total += columns * group.tolerance + objective.empty * width + objective.fit * group.tolerance
+        total += objective.loose * (letters + width)
+    return total

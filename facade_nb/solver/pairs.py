@@ -137,12 +137,16 @@ def _moves(band: Band, by_loose: float) -> list[list[_Move]]:
 
 
 def choose_reference(bands: Sequence[Band]) -> int | None:
-    """The band with the most letters: of those without transparent ones, if there are any, and opaque ones first."""
+    """The longest band: of those without transparent letters, if there are any, and opaque ones first.
+
+    Next to the longest one the pairs see what all the others lack. Where every band has transparent letters: the one
+    with the most others.
+    """
     rigid = [
         b for b, band in enumerate(bands) if band.letters and not any(a.transparent for a in band.letters)
     ]
     if rigid:
-        return max(rigid, key=lambda b: (not bands[b].soft, len(bands[b].letters)))
+        return max(rigid, key=lambda b: (not bands[b].soft, bands[b].rest_min[0], len(bands[b].letters)))
     return max(
         range(len(bands)),
         key=lambda b: sum(not letter.transparent for letter in bands[b].letters),

@@ -18,7 +18,7 @@ from itertools import count
 from math import inf
 
 from .columns import EPS, Group
-from .network import Network
+from .network import Network, ceiling
 from .paths import Path
 from .pricing import Priced, price
 from .seen import Seen
@@ -28,6 +28,9 @@ __all__ = ["BestFirst", "Found", "Stopped", "search"]
 
 _STEP = 0.002
 """How much dearer than a path the first of its columns may be, as a fraction of the canvas, where they are many."""
+
+_GRID = 1e10
+"""Bounds are rounded to a part of a metre that is less than what tells costs apart."""
 
 
 class Stopped(Exception):
@@ -109,7 +112,7 @@ class BestFirst:
         self.keep, self.nodes, self.check, self.accept = keep, nodes, check, accept
         self.found = Found(bound=self.network.later[0])
         self.done = self.found.bound == inf
-        self._ceiling = self.network.ceiling()
+        self._ceiling = ceiling(groups)
         self._serial = count()
         self._seen = Seen(self.network, keep)
         self._queue: list[tuple[float, int, int, Path | Priced]] = []
@@ -119,6 +122,9 @@ class BestFirst:
             self._push(self.found.bound, self.network.root())
 
     def _push(self, bound: float, item: Path | Priced) -> None:
+        # Equal costs come in one order, whatever the last digits are that an addition has left.
+        if bound < inf:
+            bound = round(bound * _GRID) / _GRID
         heappush(self._queue, (bound, -item.columns, next(self._serial), item))
 
     def advance(self, limit: float) -> None:
@@ -261,7 +267,9 @@ def search(
         Says whether a structure will do; those that will not are passed over. As it may look at anything,
         no path is dropped for another then.
     """
-    run = BestFirst(groups, keep=keep, nodes=nodes, check=check, accept=accept)
+    from .compiled import best_first
+
+    run = best_first(groups, keep=keep, nodes=nodes, check=check, accept=accept)
     step = 0.01 * max(group.canvas for group in groups)
     while not run.done and run.found.bound <= cap + EPS:
         run.advance(min(cap, run.found.bound + step))

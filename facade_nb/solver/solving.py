@@ -110,6 +110,8 @@ def solve(
             log.finish(error=error)
             error.trace = log.trace()
         raise
+    finally:
+        clock.close()
     if log is None:
         return layout
     log.finish(layout)

@@ -14,24 +14,35 @@ from ..design.edit import (
     add_layer,
     remove_layer,
     rename_pattern,
+    take,
     with_layer,
     with_pattern,
     with_symbol,
 )
 from ..design.text import spell
+from .bundled import Message
 from .fields import find_layer
 from .model import FacadeModel
 from .wire import describe_faults, layers_from_top
 
-__all__ = ["COMMANDS", "Message", "Reply"]
+__all__ = ["COMMANDS", "Reply"]
 
-Message = dict[str, Any]
 Reply = dict[str, Any] | None
 """What is sent back besides the changed state: a file to save, or the faults of a document."""
 
 
 def _set(model: FacadeModel, message: Message) -> Reply:
     model.enter(tuple(message["path"]), message["value"])
+    return None
+
+
+def _take(model: FacadeModel, message: Message) -> Reply:
+    """Make a change that was suggested, if it still is."""
+    suggested = model.blame.suggestions if model.blame is not None else ()
+    for suggestion in suggested:
+        if suggestion.text == message["text"]:
+            model.edit(take(model.design, suggestion))
+            break
     return None
 
 
@@ -162,6 +173,7 @@ def _file_name(name: str) -> str:
 
 COMMANDS: dict[str, Callable[[FacadeModel, Message], Reply]] = {
     "set": _set,
+    "take": _take,
     "discard": _discard,
     "undo": _undo,
     "redo": _redo,

@@ -51,6 +51,9 @@ def describe_status(model: FacadeModel) -> Json:
             "symbols": list(blame.symbols) if blame else [],
             "counters": list(blame.counters) if blame else [],
         },
+        "suggestions": [one.text for one in blame.suggestions if one.path != ("tolerances",)]
+        if blame
+        else [],
         "canUndo": model.can_undo,
         "canRedo": model.can_redo,
         "milliseconds": _rounded(1000 * model.seconds),

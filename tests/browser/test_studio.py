@@ -77,6 +77,19 @@ def test_a_wider_canvas_has_more_bays(studio: Notebook) -> None:
     studio.expect_python("model.design.canvas.width", 9.5)
 
 
+def test_a_change_that_helps_is_one_click_away(studio: Notebook) -> None:
+    field = studio.field("Preferred size of A in metres")
+    field.fill("9")
+    fix = studio.page.locator(".fnb-suggestions .fnb-fix").first
+    expect(fix).to_be_visible()
+    sentence = studio.page.locator(".fnb-status-text")
+    expect(sentence).to_contain_text((fix.text_content() or "").removeprefix("Fix: "))
+    fix.click()
+    expect(studio.page.locator(".fnb-suggestions")).to_be_hidden()
+    status(studio, "Solved in")
+    studio.expect_python("model.message", "")
+
+
 @pytest.mark.parametrize(("side", "dx", "dy"), [("width", 120, 0), ("height", 0, -60)])
 def test_dragging_an_edge_resizes_the_canvas(studio: Notebook, side: str, dx: int, dy: int) -> None:
     page = studio.page

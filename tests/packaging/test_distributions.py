@@ -15,8 +15,11 @@ DATA = {
     "front end": ("facade_nb/widgets/static/", ".js"),
     "styles": ("facade_nb/widgets/static/", ".css"),
     "gallery": ("facade_nb/gallery/", ".json"),
+    "compiled search": ("facade_nb/solver/core/", ".wasm"),
+    "licence of what is compiled in": ("facade_nb/solver/core/", ".txt"),
 }
 NOT_FOR_USERS = ("facade_nb/widgets/src/", "facade_nb/widgets/test/")
+SOURCES = (".hpp", ".cpp")
 
 
 def files_below(folder: Path) -> set[str]:
@@ -27,7 +30,7 @@ def package_files(export: Path) -> set[str]:
     return {
         name
         for name in files_below(export)
-        if name.startswith("facade_nb/") and not name.startswith(NOT_FOR_USERS)
+        if name.startswith("facade_nb/") and not name.startswith(NOT_FOR_USERS) and not name.endswith(SOURCES)
     }
 
 

@@ -197,13 +197,13 @@ class TestReuse:
 
     def test_groups_that_an_edit_leaves_alone(self, monkeypatch: pytest.MonkeyPatch) -> None:
         """The search that gave a group's answer is not done again, though another group has changed."""
-        real, seen = axis.BestFirst, set[tuple[str, ...]]()
+        real, seen = axis.best_first, set[tuple[str, ...]]()
 
         def spy(groups: Any, **options: Any) -> Any:
             seen.add(tuple("".join(map(str, band.letters)) for group in groups for band in group.bands))
             return real(groups, **options)
 
-        monkeypatch.setattr(axis, "BestFirst", spy)
+        monkeypatch.setattr(axis, "best_first", spy)
         solve(self.ONE)
         assert ("A" * 6, "B" * 10) in seen
         seen.clear()

@@ -21,6 +21,7 @@ import pytest
 from facade_nb import Design, DesignError, Layout, NoLayout, gallery, solve
 from facade_nb.cli import main
 from facade_nb.solver import Objective, Trace
+from facade_nb.solver.clock import Clock
 from facade_nb.solver.events import (
     ActiveSetStep,
     AxisSolved,
@@ -49,6 +50,7 @@ from facade_nb.solver.events import (
     WaysMet,
     WordJudged,
 )
+from facade_nb.solver.search import Stopped
 from facade_nb.solver.tracing import Recorder, Walk, recorder
 from tests.oracle.designs import design, make_design
 
@@ -124,6 +126,20 @@ class TestReplay:
         moved = Trace.from_dict(document).replay()
         assert moved.x.groups["default"].columns[-1] == pytest.approx(3.0)
         assert len(moved.shapes) == len(shapes) - 1
+
+
+def test_a_trace_can_be_read_long_after() -> None:
+    """What was to stop the solve does not stop who reads of it: events are made when they are read."""
+    over = False
+    layout = solve(gallery.load("apartment-house"), trace=True, should_stop=lambda: over)
+    over = True
+    assert layout.trace is not None
+    assert again(layout.trace).replay() == layout
+    clock = Clock(0.0, lambda: True)
+    with pytest.raises(Stopped):
+        clock.check()
+    clock.close()
+    clock.check()  # bands ask it when their elements are looked at for the first time
 
 
 def check_replay(one: Design, objective: Objective, limit: float | None, search: str = "best") -> bool:

@@ -9,6 +9,8 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from ipywidgets import Widget
+
 from facade_nb import Design, Layout, solve
 from facade_nb.widgets import FacadeModel, PatternEditor, Studio
 from facade_nb.widgets.channel import Channel
@@ -61,6 +63,28 @@ def test_a_fault_is_sent_without_the_picture() -> None:
     (draft,) = update["drafts"]
     assert draft["faults"][0]["column"] == 2
     assert update["status"]["stale"]
+
+
+def test_what_would_help_is_offered_and_done() -> None:
+    line = Line()
+    line.set("symbols/A/size", 9)
+    status = line.updates[-1]["status"]
+    assert status["message"] and status["suggestions"]
+    (text, *_) = status["suggestions"]
+    assert text in status["message"]
+    line.ask("take", text=text)
+    assert line.updates[-1]["status"]["suggestions"] == []
+    assert line.updates[-1]["status"]["message"] == ""
+    assert line.model.layout is not None and not line.model.stale
+    line.ask("undo")
+    assert line.updates[-1]["status"]["message"]
+
+
+def test_what_is_no_longer_suggested_changes_nothing() -> None:
+    line = Line()
+    before = line.model.design
+    line.ask("take", text="a width of 1 km")
+    assert line.model.design == before
 
 
 def test_a_slow_solve_does_not_keep_the_fields_waiting() -> None:
@@ -272,16 +296,16 @@ def test_the_description_is_plain_json_without_nan() -> None:
 
 def test_a_channel_that_nobody_looks_at_is_small_and_wakes_for_the_next_view() -> None:
     line = Line()
-    awake = line.channel.get_state()
+    awake = line.channel.front_end.module
     for client, here in (("one", True), ("two", True), ("one", False)):
         line.channel._handle_custom_msg({"op": "view", "client": client, "here": here}, [])
-    assert line.channel.module != ""
+    assert line.channel.svg != ""
     line.channel._handle_custom_msg({"op": "view", "client": "two", "here": False}, [])
     assert len(json.dumps(line.channel.get_state())) < 10_000
     line.model.enter(("canvas", "width"), 7.0)
     assert line.channel.svg == ""
     line.channel._handle_custom_msg({"op": "wake"}, [])
-    assert line.channel.module == awake["module"]
+    assert line.channel.front_end.module == awake != ""
     assert line.channel.design["canvas"]["width"] == 7.0
     assert line.channel.svg.startswith("<svg")
 
@@ -292,3 +316,20 @@ def test_a_closed_channel_no_longer_follows() -> None:
     line.updates.clear()
     line.model.enter(("canvas", "width"), 7.0)
     assert line.updates == []
+
+
+def test_all_channels_share_one_bundle_which_goes_with_the_last_view() -> None:
+    Widget.close_all()
+    one, two = Line(), Line()
+    code = one.channel.front_end
+    assert two.channel.front_end is code
+    for line in (one, two):
+        line.channel._handle_custom_msg({"op": "view", "client": "a", "here": True}, [])
+    one.channel._handle_custom_msg({"op": "view", "client": "a", "here": False}, [])
+    assert code.module
+    two.channel._handle_custom_msg({"op": "view", "client": "a", "here": False}, [])
+    assert code.module == code.css == ""
+    one.channel.wake()
+    assert code.module
+    one.channel.close()
+    assert code.module == ""

@@ -12,8 +12,11 @@ from ...design.files import write_atomically
 from ..camera import Camera
 from .antialias import smoothed
 from .atlas import Tiles
+from .daytime import Daytime
 from .grammar import Grammar
+from .lit import Lit
 from .painters import choose_painter
+from .shot import Painter
 from .view import Sight
 
 __all__ = ["MAX_PIXELS", "png", "render_texture", "rules_seen", "texture_pixels"]
@@ -34,6 +37,7 @@ def render_texture(
     tiles: Tiles | None = None,
     backend: str | None = None,
     antialias: str = "adaptive",
+    hour: float | None = None,
 ) -> bytes:
     """Render a façade by its grammar as a PNG picture.
 
@@ -55,6 +59,8 @@ def render_texture(
         ``osmesa``, ``egl`` or ``cpu``; None: the best that works here.
     antialias
         ``none``, ``adaptive`` or ``supersample`` (see `antialias`).
+    hour
+        Of the day, 0 to 24, in whose light the façade stands (see `daytime`); None: colours as the grammar gives them.
 
     Returns
     -------
@@ -68,7 +74,8 @@ def render_texture(
     BackendError
         If the backend asked for does not work here; its text says what would help.
     ValueError
-        For a size or a number of pixels that is not positive, an unknown backend or kind of antialiasing.
+        For a size or a number of pixels that is not positive, an unknown backend or kind of antialiasing,
+        or an hour beyond 0 to 24.
     """
     data = png(
         texture_pixels(
@@ -81,6 +88,7 @@ def render_texture(
             tiles=tiles,
             backend=backend,
             antialias=antialias,
+            hour=hour,
         )
     )
     if path is not None:
@@ -99,11 +107,15 @@ def texture_pixels(
     tiles: Tiles | None = None,
     backend: str | None = None,
     antialias: str = "adaptive",
+    hour: float | None = None,
 ) -> NDArray[np.uint8]:
     """As `render_texture`, but the pixels: (h, w, 4) uint8, row 0 at the top, colour not multiplied by alpha."""
     sight = _sight(size, pixels, camera)
     question = grammar.question(size, seed, start, tiles)
-    color = smoothed(choose_painter(backend), question, sight, antialias)
+    painter: Painter = choose_painter(backend)
+    if hour is not None:
+        painter = Lit(painter, Daytime.at(hour))
+    color = smoothed(painter, question, sight, antialias)
     return _bytes(color).reshape(sight.pixels[1], sight.pixels[0], 4)
 
 

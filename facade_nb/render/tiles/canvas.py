@@ -53,18 +53,25 @@ def randoms(seed: int, *shape: int) -> Floats:
 
 
 @lru_cache(maxsize=256)
-def _weights(size: int, cells: int, wrap: bool) -> Floats:
-    """Cubic B-spline weights (size, lattice) of lattice points at pixel centres."""
+def _weights(size: int, cells: int, wrap: bool) -> tuple[tuple[NDArray[np.intp], Floats], ...]:
+    """Cubic B-spline: the four lattice points next to each pixel's centre, and their weights."""
     at = (np.arange(size) + 0.5) / size * cells
-    cell = np.floor(at).astype(int)
+    cell = np.floor(at).astype(np.intp)
     t = at - cell
     parts = ((1 - t) ** 3, 3 * t**3 - 6 * t**2 + 4, -3 * t**3 + 3 * t**2 + 3 * t + 1, t**3)
-    count = cells if wrap else cells + 3
-    weights = np.zeros((size, count), np.float32)
-    rows = np.arange(size)
-    for i, part in enumerate(parts):
-        np.add.at(weights, (rows, (cell + i - 1) % cells if wrap else cell + i), part / 6)
-    return weights
+    return tuple(
+        ((cell + i - 1) % cells if wrap else cell + i, (part / 6).astype(np.float32))
+        for i, part in enumerate(parts)
+    )
+
+
+def _spread(lattice: Floats, weights: tuple[tuple[NDArray[np.intp], Floats], ...]) -> Floats:
+    """Values between the rows of a lattice."""
+    lattice = np.ascontiguousarray(lattice)
+    spread = np.zeros((len(weights[0][0]), lattice.shape[1]), np.float32)
+    for at, weight in weights:
+        spread += lattice[at] * weight[:, None]
+    return spread
 
 
 def noise(size: int, cells: tuple[int, int], seed: int, octaves: int = 1, wrap: bool = True) -> Floats:
@@ -79,9 +86,10 @@ def noise(size: int, cells: tuple[int, int], seed: int, octaves: int = 1, wrap: 
         across, up = cells[0] << octave, cells[1] << octave
         if octave and max(across, up) > size:
             break
-        wx, wy = _weights(size, across, wrap), _weights(size, up, wrap)
-        lattice = randoms(seed * 7919 + octave * 131 + 17, wy.shape[1], wx.shape[1]) - 0.5
-        total += 0.5**octave * (wy @ lattice @ wx.T)
+        wider = 0 if wrap else 3
+        lattice = randoms(seed * 7919 + octave * 131 + 17, up + wider, across + wider) - np.float32(0.5)
+        rows = _spread(lattice, _weights(size, up, wrap))
+        total += np.float32(0.5**octave) * _spread(rows.T, _weights(size, across, wrap)).T
         power += 0.25**octave
     return total * np.float32(7.2 / np.sqrt(power))
 

@@ -130,6 +130,7 @@ def _recipes() -> list[Recipe]:
             "dressed limestone without joints", 34, plain_),
         Recipe("concrete", wall, 2.5, 2.5, "xy", lambda c, s: plain.concrete(c, s, "#b9b6af"),
             "fair-faced concrete", 35),
+        Recipe("granite", wall, 2, 2, "xy", lambda c, s: plain.granite(c, s, "#9fa09e"), "grey granite slabs", 94),
         Recipe("wood", wall, 2, 2, "xy", lambda c, s: plain.boards(c, s, oak, 14),
             "upright larch boards", 36),
         Recipe("wood-grey", wall, 2, 2, "xy", lambda c, s: plain.boards(c, s, ("#9b9890", "#8f8c84", "#a6a299"), 14),
@@ -142,7 +143,7 @@ def _recipes() -> list[Recipe]:
         Recipe("copper", wall, 2.4, 2.4, "xy", lambda c, s: plain.seams(c, s,
             "#82a896", 5), "copper with its patina", 40),
         Recipe("tiles", wall, 2, 2, "xy",
-            lambda c, s: masonry.tiles(c, s, ("#a25f44", "#96573f", "#ae6d4f", "#8b503b"), 6, 8),
+            lambda c, s: masonry.tiles(c, s, ("#9a614c", "#8f5a47", "#a46e57", "#855241"), 6, 8),
             "clay pantiles", 41),
         Recipe("slate", wall, 2, 2, "xy",
             lambda c, s: masonry.slates(c, s, ("#585f69", "#626a73", "#50575f", "#5c5f6a"), 10, 7),
@@ -219,6 +220,8 @@ def _recipes() -> list[Recipe]:
             "moulded surround, open inside", 77),
         Recipe("pediment", ornament_, 1.6, 0.7, "", ornament.pediment,
             "triangular pediment", 78),
+        Recipe("column", ornament_, 0.4, 3, "", ornament.column, "round column", 92),
+        Recipe("pilaster", ornament_, 0.5, 3, "", ornament.pilaster, "flat pillar", 93),
         Recipe("balustrade", ornament_, 1.2, 0.9, "x", ornament.balusters,
             "stone balusters", 79),
         Recipe("railing", ornament_, 1, 1, "x", ornament.railing,
@@ -293,14 +296,18 @@ def _recipes() -> list[Recipe]:
         Recipe("lamp-ceiling", thing, 1, 1, "", furniture.ceiling_lamp,
             "round lamp seen from below", 131, (), shade=0),
         *(
-            Recipe(f"mask-{shape}", hole, 1.2, 1.8, "", _hole(shape),
+            Recipe(f"mask-{shape}", hole, 1.2, 2.1 if shape == "arch" else 1.8, "", _hole(shape),
                 what, 1, (), mask=True, shade=0)
             for shape, what in (
                 ("rect", "rectangle"), ("arch", "round head"), ("segment", "segmental head"),
                 ("pointed", "pointed head"),
-                ("round", "bull's eye"),
+                ("round", "bull's eye"), ("gable", "triangle, for the gable of a roof"),
             )
         ),
+        Recipe("fade-up", hole, 1, 1, "", lambda c, _: masks.fade(c, "up"),
+            "from black below to white above", 1, (), shade=0),
+        Recipe("fade-right", hole, 1, 1, "", lambda c, _: masks.fade(c, "right"),
+            "from black at the left to white at the right", 1, (), shade=0),
     ]  # fmt: skip
 
 

@@ -34,8 +34,9 @@ def panelled(
     """A front door of frames and panels below a fanlight, in a stone surround with a step."""
     w, h = canvas.width, canvas.tall
     step, edge = 0.13, 0.09 * w
+    canvas.lay(canvas.full(), stone, gloss=0.08)
     inner = (edge, step, w - edge, h - 0.11 * h)
-    surround(canvas, (0.01, 0.0, w - 0.01, inner[3] + edge), inner, stone, height=0.035, steps=3)
+    surround(canvas, (0.0, 0.0, w, inner[3] + edge), inner, stone, height=0.035, steps=3)
     canvas.slab(0.0, inner[3] + edge, w, h - 0.05, stone, 0.05, edge=0.012, fall=0.015, gloss=0.08)
     canvas.slab(0.0, h - 0.07, w, h, stone, 0.1, edge=0.015, fall=0.02, gloss=0.08)
     timber = _grained(canvas, wood, seed, grain)
@@ -159,7 +160,6 @@ def gate(canvas: Canvas, seed: int, *, wood: str = "#5d5140", stone: str = "#cfc
     timber = _grained(canvas, wood, seed, 1.0)
     body = canvas.cover(inner + 0.01)
     canvas.lay(body, timber, height=-0.17, gloss=0.25)
-    inside = (inner < -0.075).astype(np.float32)
     for k in range(2):
         left = band + 0.02 + k * (w / 2 - band)
         right = left + w / 2 - band - 0.04
@@ -170,7 +170,6 @@ def gate(canvas: Canvas, seed: int, *, wood: str = "#5d5140", stone: str = "#cfc
                 -0.17 - 0.02 * np.clip(inward / 0.015, 0, 1) + 0.02 * np.clip((inward - 0.02) / 0.045, 0, 1)
             )
             canvas.lay(canvas.cover(inset), timber, height=height.astype(np.float32), gloss=0.25)
-    del inside
     canvas.lay(canvas.box(w / 2 - 0.03, 0.02, w / 2 + 0.03, h) * body, timber, height=-0.145, gloss=0.25)
     for side in (-1, 1):
         ring = np.abs(canvas.disc_distance(w / 2 + side * 0.2, 1.27, 0.05)) - 0.009

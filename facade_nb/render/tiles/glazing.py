@@ -20,15 +20,15 @@ def reflection(
     """What glass mirrors: its colour (h, w, 3), and how much of it (h, w). `shift` moves it up, pane by pane."""
     v = np.broadcast_to(canvas.y / canvas.tall - shift, (canvas.size, canvas.size))
     ridge = 0.34 + _roofs(canvas, seed)
-    sky_share = smooth(-0.02, 0.02, v - ridge)
+    sky_share = smooth(-0.045, 0.045, v - ridge)
     if dusk:
         low, high, street = paint("#e2b48f"), paint("#6d7f9e"), paint("#3b3a41")
     else:
-        low, high, street = paint("#dde5e8"), paint("#93b2c8"), paint("#93938f")
+        low, high, street = paint("#dde5e8"), paint("#93b2c8"), paint("#a3a39e")
     rise = np.clip((v - 0.3) / 0.8, 0, 1)[..., None] ** 0.8
     sky = low + (high - low) * rise + 0.012 * canvas.noise((0.6, 0.3), seed + 2, 3)[..., None]
     colour = street + (sky - street) * sky_share[..., None]
-    amount = 0.16 + sky_share * (0.24 + 0.2 * np.clip(v, 0, 1))
+    amount = 0.12 + sky_share * (0.13 + 0.27 * np.clip(v - 0.2, 0, 1))
     return np.clip(colour, 0, 1).astype(np.float32), amount.astype(np.float32)
 
 
@@ -38,7 +38,7 @@ def _roofs(canvas: Canvas, seed: int) -> Floats:
     place = canvas.x / house + float(randoms(seed, 1)[0])
     number = np.floor(place).astype(int)
     values = randoms(seed + 1, 64)
-    eaves, pitch = 0.05 * values[number % 64], 0.05 + 0.05 * values[(number + 17) % 64]
+    eaves, pitch = 0.06 * values[number % 64], 0.03 + 0.03 * values[(number + 17) % 64]
     across = np.abs(2 * (place - number) - 1)
     gable = np.where(values[(number + 29) % 64] > 0.45, 1 - across, 0.65 * np.clip(1.6 * (1 - across), 0, 1))
     return (eaves + pitch * gable).astype(np.float32)
@@ -113,7 +113,7 @@ def glaze(
         whole = np.maximum(whole, box)
     if cover is not None:
         whole = cover
-    room = Canvas(canvas.size, canvas.width, canvas.tall, colour="#2a2f31")
+    room = Canvas(canvas.size, canvas.width, canvas.tall, colour="#363c3f")
     up = np.clip((canvas.y - bottom) / (top - bottom), 0, 1)
     room.shade((0.82 + 0.3 * up) * np.ones_like(whole))
     opening = room.box(left, bottom, right, top)
@@ -127,7 +127,7 @@ def glaze(
             x = left + (k + 0.5) * (right - left) / 14
             base = bottom + 0.12 * (top - bottom)
             box = room.box(x - 0.05 - 0.05 * wide, base, x + 0.05 + 0.05 * wide, base + 0.12 + 0.3 * high)
-            room.lay(box, paint("#3d352c") + (paint("#b59c74") - paint("#3d352c")) * tone, alpha=0.8)
+            room.lay(box, paint("#3d352c") + (paint("#b59c74") - paint("#3d352c")) * tone, alpha=0.45)
         room.lay(room.box(left, bottom, right, bottom + 0.12 * (top - bottom)), "#3a3027")
     elif behind == "sheer":
         drapes(room, seed + 3, (left, bottom, right, top), 0.36, "#c9c6bb", 0.8)

@@ -41,11 +41,11 @@ def mipmaps(picture: Floats, kind: str = "color") -> tuple[Floats, ...]:
         Level 0.
     kind
         ``color`` and ``specular``: colours weigh as much as they are opaque, and alpha is the mean. ``normal``: means
-        are made as long as normals again. ``mask``: as much of each level as of the first has red of at least a half.
+        are made as long as normals again. ``mask``: as much of each level as of the first is at least a half.
     """
     levels = [picture]
     exact = picture
-    share = coverage(picture)
+    share, grey = coverage(picture), _grey(picture)
     while max(exact.shape[:2]) > 1:
         weighted = np.concatenate([exact[..., :3] * exact[..., 3:], exact], axis=-1)
         mean = _halved(weighted)
@@ -56,18 +56,27 @@ def mipmaps(picture: Floats, kind: str = "color") -> tuple[Floats, ...]:
             vector /= np.maximum(np.linalg.norm(vector, axis=-1, keepdims=True), 1e-6)
             colour = 0.5 + 0.5 * vector
         exact = np.concatenate([colour, alpha], axis=-1).astype(np.float32)
-        levels.append(rounded(_covered(exact, share) if kind == "mask" else exact))
+        levels.append(rounded(_covered(exact, share, grey) if kind == "mask" else exact))
     return tuple(levels)
 
 
 def coverage(picture: Floats) -> float:
-    """Share of the pixels whose red is at least a half: those that a mask cuts."""
-    return float(np.mean(picture[..., 0] >= 0.5))
+    """Share of the pixels where the tile, taken as a mask, is at least a half."""
+    return float(np.mean(_mask(picture, _grey(picture)) >= 0.5))
 
 
-def _covered(picture: Floats, share: float) -> Floats:
-    """Move red up or down until that share of the pixels is at least a half."""
-    values = np.sort(picture[..., 0].ravel())[::-1]
+def _grey(picture: Floats) -> bool:
+    """Whether the tile is opaque throughout: its mask is then its brightness, otherwise its alpha."""
+    return bool(picture[..., 3].min() >= 1)
+
+
+def _mask(picture: Floats, grey: bool) -> Floats:
+    return picture[..., :3].mean(axis=-1) if grey else picture[..., 3]
+
+
+def _covered(picture: Floats, share: float, grey: bool) -> Floats:
+    """Move brightness, or alpha, up or down until that share of the pixels is at least a half."""
+    values = np.sort(_mask(picture, grey).ravel())[::-1]
     count = round(share * len(values))
     if 0 < count < len(values):
         middle = (values[count - 1] + values[count]) / 2
@@ -75,7 +84,12 @@ def _covered(picture: Floats, share: float) -> Floats:
     else:
         limit = 0.5
     result = picture.copy()
-    result[..., :3] = np.clip(picture[..., :3] + (0.5 - limit), 0, 1)
+    part = slice(0, 3) if grey else slice(3, 4)
+    value = picture[..., part]
+    below, above = value * (0.5 / max(limit, 1e-6)), 0.5 + (value - limit) * (0.5 / max(1 - limit, 1e-6))
+    result[..., part] = np.clip(
+        np.where(value < limit, below, above), 0, 1
+    )  # black stays black, and white white
     return result
 
 

@@ -134,7 +134,6 @@ def field_panel(
     colour: Colour,
     height: float,
     *,
-    frame: float = 0.0,
     raised: bool = True,
     gloss: float = 0.3,
 ) -> None:

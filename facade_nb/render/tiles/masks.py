@@ -6,18 +6,26 @@ import numpy as np
 
 from .canvas import Canvas, Floats
 
-__all__ = ["mask"]
+__all__ = ["fade", "mask"]
+
+
+def fade(canvas: Canvas, axis: str) -> None:
+    """Draw a slow change from black to white: ``up``, or to the ``right``; it fades light in rooms."""
+    share = canvas.y / canvas.tall if axis == "up" else canvas.x / canvas.width
+    grey = np.broadcast_to(1 - (1 - share) ** 1.8, (canvas.size, canvas.size)).astype(np.float32)
+    canvas.lay(canvas.full(), np.repeat(grey[..., None], 3, axis=-1))
 
 
 def mask(canvas: Canvas, shape: str) -> None:
-    """Draw a mask: ``rect``, ``arch`` (round head), ``segment`` (flat arc), ``pointed`` (Gothic) or ``round``."""
+    """Draw a mask: ``rect``, ``arch``, ``segment`` (a flat arc), ``pointed`` (Gothic), ``round`` or ``gable``."""
     w, h = canvas.width, canvas.tall
     edge, foot = 0.14 * w, 0.1 * h
     distance: Floats
     if shape == "rect":
         distance = canvas.box_distance(edge, foot, w - edge, h - foot)
     elif shape == "arch":
-        distance = canvas.arch_distance(edge, foot, w - edge, h - foot - (w / 2 - edge))
+        edge = 0.055 * w  # within the stones of `frame-arch`
+        distance = canvas.arch_distance(edge, 0.03 * h, w - edge, 0.98 * h - w / 2 + 0.012)
     elif shape == "segment":
         distance = canvas.arch_distance(edge, foot, w - edge, h - foot - 0.13 * w, 0.13 * w)
     elif shape == "pointed":
@@ -29,6 +37,8 @@ def mask(canvas: Canvas, shape: str) -> None:
         )
         body = np.maximum(np.abs(canvas.x - w / 2) - half, foot - canvas.y)
         distance = np.where(canvas.y > spring, sides, body).astype(np.float32)
+    elif shape == "gable":
+        distance = canvas.polygon_distance([(0.0, 0.0), (w, 0.0), (w / 2, h)])
     else:
         distance = canvas.disc_distance(w / 2, h / 2, min(w, h) / 2 - 0.1 * w)
     canvas.lay(canvas.full(), "#000000")

@@ -10,8 +10,10 @@ from .canvas import Canvas, Floats, paint
 
 __all__ = [
     "balusters",
+    "column",
     "cornice",
     "pediment",
+    "pilaster",
     "plinth",
     "quoins",
     "railing",
@@ -149,6 +151,43 @@ def balusters(canvas: Canvas, seed: int, *, count: int = 5, stone: str = "#d8d0b
     canvas.slab(0 - 1, high, canvas.width + 1, h, stone, 0.08, edge=0.02, fall=0.025, gloss=0.08)
     canvas.slab(0 - 1, high + 0.045, canvas.width + 1, h, stone, 0.1, edge=0.012, fall=0.015, gloss=0.08)
     canvas.shade(1 + 0.012 * canvas.noise(0.015, seed, 2))
+
+
+_COLUMN = ((0.0, 0.5), (0.035, 0.5), (0.037, 0.44), (0.05, 0.47), (0.065, 0.44), (0.07, 0.4),
+           (0.35, 0.405), (0.9, 0.335),
+           (0.905, 0.36), (0.915, 0.335), (0.93, 0.34), (0.96, 0.44), (0.962, 0.5), (1.0, 0.5))  # fmt: skip
+"""Outline of a column: share of its height, and half its width in widths."""
+
+
+def column(canvas: Canvas, seed: int, *, stone: str = "#d6cebd") -> None:
+    """A round column with base, swelling shaft and capital; transparent beside it."""
+    half = np.interp(canvas.y[:, 0] / canvas.tall, [p[0] for p in _COLUMN], [p[1] for p in _COLUMN])
+    radius = (half * canvas.width)[:, None].astype(np.float32)
+    off = canvas.x - canvas.width / 2
+    square = (canvas.y < 0.036 * canvas.tall) | (canvas.y > 0.961 * canvas.tall)
+    round_ = np.where(square, 0.8, np.sqrt(np.clip(1 - (off / np.maximum(radius, 1e-4)) ** 2, 0, 1)))
+    side = np.where(square, 0.0, off / np.maximum(radius, 1e-4))
+    grain = 1 + 0.012 * canvas.noise(0.012, seed, 2)
+    shade = (0.62 + 0.38 * round_ - 0.10 * side) * grain
+    body = np.clip(0.5 - (np.abs(off) - radius) / canvas.dx, 0, 1).astype(np.float32)
+    canvas.height[:] = -0.05
+    colour = np.clip(paint(stone) * shade[..., None], 0, 1)
+    canvas.lay(body, colour, height=(0.35 * canvas.width * round_ - 0.02).astype(np.float32), gloss=0.08)
+    for y in (0.036, 0.961):
+        line = canvas.box(0, y * canvas.tall - 0.006, canvas.width, y * canvas.tall + 0.006)
+        canvas.lay(line * body, np.clip(colour * 0.75, 0, 1))
+
+
+def pilaster(canvas: Canvas, seed: int, *, stone: str = "#d6cebd") -> None:
+    """A flat pillar with a sunk field, base and capital."""
+    w, h = canvas.width, canvas.tall
+    canvas.lay(canvas.full(), stone, gloss=0.08)
+    canvas.slab(0.06 * w, 0.06 * h, 0.94 * w, 0.92 * h, stone, 0.05, edge=0.008, fall=0.01)
+    canvas.slab(0.2 * w, 0.1 * h, 0.8 * w, 0.88 * h, stone, 0.035, edge=0.012, fall=-0.01)
+    for low, high, inset, out in ((0, 0.035, 0, 0.09), (0.035, 0.06, 0.03, 0.07), (0.9, 0.92, 0.03, 0.07),
+                                  (0.92, 0.96, 0.02, 0.08), (0.96, 1, 0, 0.1)):  # fmt: skip
+        canvas.slab(inset * w, low * h, (1 - inset) * w, high * h, stone, out, edge=0.008, fall=0.012)
+    canvas.shade(1 + 0.012 * canvas.noise(0.012, seed, 2))
 
 
 def railing(canvas: Canvas, seed: int, *, count: int = 8, iron: str = "#33363a", ornate: bool = True) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from .canvas import Canvas, paint, randoms, smooth
 
-__all__ = ["boards", "concrete", "plaster", "seams"]
+__all__ = ["boards", "concrete", "granite", "plaster", "seams"]
 
 
 def plaster(canvas: Canvas, seed: int, colour: str, *, rough: float = 1.0) -> None:
@@ -19,7 +19,7 @@ def plaster(canvas: Canvas, seed: int, colour: str, *, rough: float = 1.0) -> No
     tint = 1 + 0.010 * cloud + rough * (0.010 * trowel + 0.008 * grain)
     base = paint(colour) * tint[..., None]
     base[..., 2] *= 1 - 0.006 * cloud  # clouds are a little warmer where they are lighter
-    height = rough * (0.00045 * grain + 0.0016 * trowel)
+    height = rough * (0.00022 * grain + 0.0011 * trowel)
     canvas.lay(canvas.full(), np.clip(base, 0, 1), height=height.astype(np.float32), gloss=0.04)
 
 
@@ -44,6 +44,20 @@ def concrete(canvas: Canvas, seed: int, colour: str, *, columns: int = 2, rows: 
     canvas.lay(line, paint(colour) * 0.72, height=-0.006, alpha=0.8)
     ties = np.hypot(np.abs(u - w / 2) - w / 4, np.abs(v - h / 2) - h / 4)
     canvas.lay(canvas.cover(ties - 0.017), paint(colour) * 0.62, height=-0.02)
+
+
+def granite(canvas: Canvas, seed: int, colour: str) -> None:
+    """Granite slabs, two high and two wide, with their crystals."""
+    w, h = canvas.width / 2, canvas.tall / 2
+    crystals = canvas.noise(0.012, seed, 1)
+    dark = smooth(0.9, 1.5, canvas.noise(0.014, seed + 1, 1))
+    sheet = (np.floor(canvas.x / w) + 2 * np.floor(canvas.y / h)).astype(int)
+    tint = randoms(seed + 2, 4)[np.clip(sheet, 0, 3)] - 0.5
+    shade = 1 + 0.05 * tint + 0.05 * crystals - 0.16 * dark + 0.012 * canvas.noise(0.5, seed + 3, 3)
+    canvas.lay(canvas.full(), np.clip(paint(colour) * shade[..., None], 0, 1), gloss=0.35)
+    u, v = canvas.x % w, canvas.y % h
+    joint = np.minimum(np.minimum(u, w - u), np.minimum(v, h - v))
+    canvas.lay(canvas.cover(joint - 0.004), np.clip(paint(colour) * 0.6, 0, 1), height=-0.006)
 
 
 def boards(

@@ -26,7 +26,7 @@ def normals(canvas: Canvas) -> Floats:
     up = (padded[:-2, 1:-1] - padded[2:, 1:-1]) / np.float32(2 * canvas.dy)
     # A step of a millimetre over one pixel and one of a decimetre are both edges: neither may turn black or white.
     slope = np.hypot(across, up)
-    tame = 1 / np.sqrt(1 + (slope / 1.6) ** 2)
+    tame = 1 / np.sqrt(1 + (slope / 0.85) ** 2)
     result = np.stack([-across * tame, -up * tame, np.ones_like(across)], axis=-1)
     return result / np.linalg.norm(result, axis=-1, keepdims=True)
 

@@ -175,11 +175,10 @@ def with_door(canvas: Canvas, seed: int, colour: str) -> None:
     """A painted wall with a white door in it."""
     painted(canvas, seed, colour, rail=False)
     left = 0.58 * canvas.width
-    for k, (grow, high) in enumerate(((0.11, 0.03), (0.05, 0.02))):
+    for grow, high in ((0.11, 0.03), (0.05, 0.02)):
         canvas.slab(
             left - grow, 0, left + 0.85 + grow, 2.08 + grow, "#efebe1", high, edge=0.01, fall=0.012, gloss=0.2
         )
-        del k
     canvas.slab(left, 0, left + 0.85, 2.08, "#e9e4d8", -0.02, gloss=0.2)
     for low, high in ((0.14, 0.85), (1.0, 1.95)):
         field_panel(canvas, (left + 0.12, low, left + 0.73, high), "#e9e4d8", -0.02)

@@ -30,8 +30,8 @@ class TileSet:
     Colours are sRGB as stored, and composited as stored, without going through linear light: what the paper's 8-bit
     textures do. Values are multiples of 1/255, so a texture of 8 bits holds them exactly. A tile ``brick`` may have
     companions ``brick.normal`` (a unit normal n as (n + 1) / 2; x right, y up, z out of the wall) and
-    ``brick.specular`` (strength of highlights). A tile whose name begins with ``mask`` is a mask: `SkipMask` looks at
-    its red.
+    ``brick.specular`` (strength of highlights). A tile whose name begins with ``mask`` is made to be
+    a mask: its mipmaps keep its coverage.
 
     Parameters
     ----------

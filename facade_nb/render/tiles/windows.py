@@ -1,4 +1,7 @@
-"""Windows of several periods. Each is drawn twice: glazed, and as a frame whose panes are open to the room behind."""
+"""Windows of several periods. Each is drawn twice: glazed, and as a frame whose panes are open to the room behind.
+
+They fill their rectangle, so that no room shows beside them; around an arch goes `mask-arch`.
+"""
 
 from __future__ import annotations
 
@@ -47,11 +50,12 @@ def casement(
     """Two leaves below a transom and two above it, in a moulded surround: a town house of about 1890."""
     w, h = canvas.width, canvas.tall
     edge, foot = 0.1 * w, 0.075 * h
+    canvas.lay(canvas.full(), stone, gloss=0.08)
     inner = (edge, foot, w - edge, h - (0.13 if crown else 0.08) * h)
-    surround(canvas, (0.02 * w, foot, w - 0.02 * w, inner[3] + 0.08 * w), inner, stone, height=0.035, steps=3)
+    top = inner[3] + 0.08 * w if crown else h
+    surround(canvas, (0.0, foot, w, top), inner, stone, height=0.035, steps=3)
     if crown:
-        top = inner[3] + 0.08 * w
-        canvas.slab(0.03 * w, top, 0.97 * w, h - 0.035 * h, stone, 0.05, edge=0.012, fall=0.02, gloss=0.08)
+        canvas.slab(0.0, top, w, h - 0.035 * h, stone, 0.05, edge=0.012, fall=0.02, gloss=0.08)
         canvas.slab(0.0, h - 0.035 * h, w, h, stone, 0.085, edge=0.01, fall=0.015, gloss=0.08)
     reveal(canvas, inner, "#b9b1a1", 0.1)
     box = boxed(canvas, (inner[0] + 0.012, inner[1], inner[2] - 0.012, inner[3] - 0.012), wood, -0.075, 0.028)
@@ -69,7 +73,7 @@ def casement(
         middle - 0.03, box[1], middle + 0.03, bar_y - 0.03, wood, -0.05, edge=0.01, fall=0.01, gloss=0.35
     )
     _close(canvas, panes, seed, behind, -0.1, within=box)
-    sill(canvas, 0.0, w, foot, stone, thick=foot * 0.95, out=0.08)
+    sill(canvas, 0.0, w, foot, stone, thick=foot, out=0.08)
 
 
 def sash(
@@ -86,7 +90,7 @@ def sash(
     w, h = canvas.width, canvas.tall
     foot = 0.07 * h
     inner = (0.06 * w, foot, 0.94 * w, h - 0.135 * h)
-    reveal(canvas, (0.0, foot, w, h), "#d0c9ba", 0.0)
+    reveal(canvas, (0.0, 0.0, w, h), "#d0c9ba", 0.0)
     _voussoirs(canvas, (0.0, inner[3], w, h), stone, seed)
     reveal(canvas, inner, "#cfc8b9", 0.11)
     box = boxed(
@@ -105,14 +109,14 @@ def sash(
         rail=0.036,
     )
     _close(canvas, panes, seed, behind, -0.125, within=box)
-    sill(canvas, 0.0, w, foot, stone, thick=foot * 0.9, out=0.06)
+    sill(canvas, 0.0, w, foot, stone, thick=foot, out=0.06)
 
 
 def _voussoirs(canvas: Canvas, pane: Pane, stone: str, seed: int) -> None:
     """A flat arch of rubbed stones whose joints point to one centre, with a keystone."""
     left, bottom, right, top = pane
     count = 9
-    w, h = right - left, top - bottom
+    w = right - left
     apex = bottom - 2.2 * w
     slope = (canvas.x - (left + right) / 2) / (canvas.y - apex) * (top - apex)
     unit = w * 1.02 / count
@@ -132,7 +136,6 @@ def _voussoirs(canvas: Canvas, pane: Pane, stone: str, seed: int) -> None:
         height=(np.where(key, 0.03, 0.008) - rounded).astype(np.float32),
         gloss=0.08,
     )
-    del h
 
 
 def modern(
@@ -165,7 +168,7 @@ def arched(
     foot, band = 0.06 * h, 0.1 * w
     outer_r = w / 2 - 0.012
     spring = h - outer_r - 0.02 * h
-    outer = canvas.arch_distance(0.012, foot, w - 0.012, spring)
+    outer = canvas.arch_distance(0.012, 0.0, w - 0.012, spring)  # on behind the sill
     inner = canvas.arch_distance(band, foot, w - band, spring)
     angle = np.arctan2(canvas.y - spring, canvas.x - w / 2)
     stones = 11
@@ -224,7 +227,7 @@ def arched(
         cover,
         within=(left, base, right, h - 0.1),
     )
-    sill(canvas, 0.0, w, foot, stone, thick=foot * 0.95, out=0.07)
+    sill(canvas, 0.0, w, foot, stone, thick=foot, out=0.07)
 
 
 def gothic(canvas: Canvas, seed: int, behind: str | None) -> None:

@@ -3,6 +3,7 @@
 // One message is under way at a time. Of several values for one field, only the newest waits. So a slow kernel is not
 // flooded, and a fast one sees every keystroke.
 
+import { announce } from "./presence.ts";
 import type { Path, Reply, State, WidgetModel } from "./types.ts";
 
 export type Operation = { op: string; [argument: string]: unknown };
@@ -27,9 +28,7 @@ export class Store {
     private readonly signal: AbortSignal,
   ) {
     this.listen("change:ack", () => this.answered());
-    if (!this.live) return;
-    channel.send({ op: "view", client: this.client, here: true });
-    signal.addEventListener("abort", () => channel.send({ op: "view", client: this.client, here: false }));
+    announce(channel, this.client, signal);
   }
 
   get<K extends Key>(key: K): State[K] {

@@ -61,6 +61,7 @@ export function fakeState(): State {
       stale: false,
       message: "",
       blame: { patterns: [], symbols: [], counters: [] },
+      suggestions: [],
       canUndo: false,
       canRedo: false,
       milliseconds: 3,

@@ -11,8 +11,9 @@ export const statusLine: MakePart = ({ store, signal }) => {
   const text = h("span", { class: "fnb-status-text" });
   const facts = h("span", { class: "fnb-facts" });
   const warnings = h("details", { class: "fnb-warnings", hidden: true });
+  const changes = h("div", { class: "fnb-suggestions", role: "group", "aria-label": "Changes that would work" });
   const line = h("div", { class: "fnb-status-line" }, dot, text, facts);
-  const el = h("div", { class: "fnb-status", role: "status", "aria-live": "polite" }, line, warnings);
+  const el = h("div", { class: "fnb-status", role: "status", "aria-live": "polite" }, line, changes, warnings);
 
   let timer = 0;
   const show = () => {
@@ -20,6 +21,7 @@ export const statusLine: MakePart = ({ store, signal }) => {
     mark(el, "data-state", state);
     setText(text, sentence);
     setText(facts, describeFacts(store));
+    showSuggestions(changes, store);
     showWarnings(warnings, store);
     clearTimeout(timer);
     if (store.waiting && store.waiting < PATIENCE) timer = window.setTimeout(show, PATIENCE + 50 - store.waiting);
@@ -67,6 +69,23 @@ function describeFacts(store: Store): string {
   ]
     .filter(Boolean)
     .join("  ·  ");
+}
+
+/** A button for each change that the solver has found to work, which makes it. */
+function showSuggestions(el: HTMLElement, store: Store): void {
+  const { suggestions, busy } = store.get("status");
+  const texts = store.live ? (suggestions ?? []) : [];
+  const key = texts.join("\n");
+  el.hidden = texts.length === 0 || busy;
+  if (el.dataset.key === key) return;
+  el.dataset.key = key;
+  el.replaceChildren(
+    ...texts.map((text) => {
+      const take = h("button", { type: "button", class: "fnb-fix" }, `Fix: ${text}`);
+      take.addEventListener("click", () => store.ask({ op: "take", text }));
+      return take;
+    }),
+  );
 }
 
 function showWarnings(el: HTMLDetailsElement, store: Store): void {

@@ -1,0 +1,422 @@
+"""The best-first search and the dives in WebAssembly: the same steps as `search` and `dive`, some thirty times faster.
+
+`core/` is a transcription of `network`, `making`, `stepping`, `paths`, `pairs`, `shortfall`, `skeleton`, `seen`,
+`pricing`, `search` and `dive` into C++, built into `core/core.wasm` by `make core` and run by wasmtime. It takes the
+same decisions in the same order, and tests hold it to that: as many paths, the same structures. It finds what a
+structure costs, but not its sizes: each one that could be among the best is priced again in Python.
+
+A trace is made by the search in Python. Where there is no wasmtime (in a browser, say) that is used for everything.
+"""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from array import array
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from functools import cache
+from importlib.util import find_spec
+from math import inf
+from pathlib import Path as File
+from struct import unpack_from
+from typing import Any
+from weakref import WeakKeyDictionary, WeakSet, finalize, ref
+
+from .columns import EPS, Group, Option
+from .dive import Dives
+from .network import ceiling
+from .pricing import Priced, Structure, price
+from .search import BestFirst, Found, Stopped
+from .tracing import Walk
+
+__all__ = ["CompiledDives", "CompiledSearch", "available", "best_first", "dives", "start_afresh"]
+
+_MODULE = File(__file__).parent / "core" / "core.wasm"
+_LARGE = 64 * 2**20
+"""An instance whose memory has grown to so many bytes is let go of once nothing is left in it."""
+_MOST = 2**30
+"""No instance may grow beyond so many bytes; the clock stops a search long before."""
+_UNLIMITED = float(2**53)
+
+_BAD_FILE = 8
+_ENDED, _PAUSED, _LEFT, _PRICE = range(4)
+
+
+@cache
+def available() -> bool:
+    """Whether the compiled search can be used."""
+    return find_spec("wasmtime") is not None and _MODULE.is_file()
+
+
+@cache
+def _module() -> tuple[Any, Any]:
+    """The engine and the module: made into machine code once, which wasmtime keeps in the user's cache if it can."""
+    import wasmtime
+
+    config = wasmtime.Config()
+    with suppress(
+        wasmtime.WasmtimeError
+    ):  # no place for a cache: then it takes a fifth of a second in each process
+        config.cache = True
+    engine = wasmtime.Engine(config)
+    return engine, wasmtime.Module.from_file(engine, str(_MODULE))
+
+
+class _Core:
+    """One instance of the module, used by one thread."""
+
+    def __init__(self) -> None:
+        import wasmtime
+
+        engine, module = _module()
+        self._store: Any = wasmtime.Store(engine)
+        self._store.set_limits(memory_size=_MOST)
+        linker = wasmtime.Linker(engine)
+        me = ref(self)  # wasmtime keeps what it may call until the store is gone
+
+        def check() -> int:
+            core = me()
+            return 1 if core is None else core._asked()
+
+        linker.define_func("host", "check", wasmtime.FuncType([], [wasmtime.ValType.i32()]), check)
+        for wanted in module.imports:  # the C++ library could write a message; it has nowhere to write to
+            if wanted.module != "host":
+                linker.define_func(wanted.module, str(wanted.name), wanted.type, lambda *_: _BAD_FILE)
+        exports: Any = linker.instantiate(self._store, module).exports(self._store)
+        self._functions: dict[str, Any] = {
+            str(own.name): exports[str(own.name)] for own in module.exports if str(own.name) != "memory"
+        }
+        self._memory: Any = exports["memory"]
+        self._check: Callable[[], None] | None = None
+        self._raised: BaseException | None = None
+        self._symbols: dict[str, int] = {}
+        self._groups: WeakKeyDictionary[Group, int] = WeakKeyDictionary()
+        self._alive: set[tuple[str, int]] = set()
+        self._dead: list[tuple[str, int]] = []
+        self.busy = self.broken = False
+        self._room = self._at = 0
+        self.call("_initialize")
+        _cores.add(self)
+
+    def close(self) -> None:
+        """Let go of everything, while wasmtime can still do so."""
+        self._store.close()
+
+    @property
+    def size(self) -> int:
+        """Its memory, in bytes."""
+        return int(self._memory.data_len(self._store))
+
+    @property
+    def large(self) -> bool:
+        """It takes much memory, and nothing is left in it."""
+        self._bury()
+        return not self._alive and self.size > _LARGE
+
+    def call(self, name: str, *arguments: float) -> Any:
+        """Call what returns soon."""
+        return self._functions[name](self._store, *arguments)
+
+    def ask(self, check: Callable[[], None] | None, name: str, *arguments: float) -> int:
+        """Call what takes long; what `check` raises meanwhile is raised once the call has come back."""
+        import wasmtime
+
+        self._check, self.busy = check, True
+        try:
+            status = int(self.call(name, *arguments))
+        except wasmtime.Trap:
+            if self.size < 0.9 * _MOST:
+                raise
+            self.broken = True  # out of memory before anybody looked
+            raise Stopped from None
+        finally:
+            self._check, self.busy = None, False
+        raised, self._raised = self._raised, None
+        if raised is not None:
+            raise raised
+        return status
+
+    def _asked(self) -> int:
+        if self._check is None:
+            return 0
+        try:
+            self._check()
+        except BaseException as stop:
+            self._raised = stop
+            return 1
+        return 0
+
+    def groups(self, groups: Sequence[Group]) -> int:
+        """Pass some groups as arguments of the next call; how many."""
+        numbers = array("d")
+        for group in groups:
+            number = self._groups.get(group)
+            if number is None:
+                self._put(_told(group, self._symbols))
+                number = self._groups[group] = int(self.call("group_new"))
+                self.owned(group, "group_free", number)
+            numbers.append(number)
+        self._put(numbers)
+        return len(numbers)
+
+    def owned(self, owner: object, free: str, number: int) -> None:
+        """Let go of something when its owner is no more."""
+        self._bury()
+        self._alive.add((free, number))
+        finalize(owner, self._dead.append, (free, number)).atexit = False
+
+    def _bury(self) -> None:
+        """Let go of what has no owner any more: not at once, as that may happen in any thread, at any time."""
+        while self._dead and not self.busy and not self.broken:
+            self._dead.sort(key=lambda own: own[0] == "group_free")  # searches refer to groups
+            free, number = self._dead.pop(0)
+            self._alive.discard((free, number))
+            self.call(free, number)
+
+    def doubles(self, at: int, count: int) -> tuple[float, ...]:
+        """Numbers in its memory."""
+        return unpack_from(f"<{count}d", self._memory.read(self._store, at, at + 8 * count))
+
+    def integers(self, at: int) -> tuple[int, ...]:
+        """Numbers in its memory, before which stands how many they are."""
+        (count,) = unpack_from("<i", self._memory.read(self._store, at, at + 4))
+        return unpack_from(f"<{count}i", self._memory.read(self._store, at + 4, at + 4 + 4 * count))
+
+    def _put(self, numbers: array[float]) -> None:
+        if len(numbers) > self._room:
+            self._room = 2 * len(numbers)
+            self._at = int(self.call("numbers_at", self._room))
+        self._memory.write(self._store, numbers.tobytes(), self._at)
+
+
+def _told(group: Group, symbols: dict[str, int]) -> array[float]:
+    """A group as numbers, in the order in which `Group::read` takes them."""
+    objective = group.objective
+    out = array(
+        "d",
+        (
+            len(group.bands), group.canvas, group.tolerance, group.share, group.under,
+            objective.empty, objective.loose, objective.fit, objective.plain,
+            group.waived, group.stiff, group.tied, group.tall,
+            -1 if group.reference is None else group.reference,
+        ),
+    )  # fmt: skip
+    for band, weight, guards in zip(group.bands, group.weights, group.guards, strict=True):
+        out.extend((weight, len(guards), *guards, band.cuts, len(band.letters)))
+        for letter in band.letters:
+            size = letter.size
+            out.extend(
+                (
+                    0.0 if size is None else size,
+                    symbols.setdefault(letter.symbol, len(symbols)),
+                    (size is not None)
+                    + 2 * letter.transparent
+                    + 4 * letter.opaque
+                    + 8 * letter.attached
+                    + 16 * letter.unoccludable
+                    + 32 * band.is_free(letter),
+                )
+            )
+        out.extend(band.soft_rest)
+    return out
+
+
+_local = threading.local()
+_cores: WeakSet[_Core] = WeakSet()
+
+
+@atexit.register
+def _close() -> None:
+    for core in list(_cores):
+        core.close()
+    if _module.cache_info().currsize:
+        engine, module = _module()
+        module.close()
+        engine.close()
+
+
+def _core() -> _Core:
+    """The instance of this thread."""
+    core: _Core | None = getattr(_local, "core", None)
+    if core is not None and core.busy:
+        return _Core()  # `should_stop` solves something itself
+    if core is None or core.broken or core.large:
+        core = _local.core = _Core()
+    return core
+
+
+def start_afresh() -> bool:
+    """Have the next searches of this thread begin with little memory, if those until now have taken much; whether so.
+
+    The memory is given back when the last of them is gone.
+    """
+    core: _Core | None = getattr(_local, "core", None)
+    if core is None or (not core.broken and core.size <= _LARGE):
+        return False
+    _local.core = None
+    return True
+
+
+def _structure(groups: Sequence[Group], numbers: Sequence[int]) -> Structure:
+    """A structure from the numbers of the options that were taken."""
+    at = 0
+    out: list[tuple[tuple[Option, ...], ...]] = []
+    for group in groups:
+        count = numbers[at]
+        at += 1
+        state = list(group.start)
+        columns: list[tuple[Option, ...]] = []
+        for _ in range(count):
+            column: list[Option] = []
+            for b, band in enumerate(group.bands):
+                option = band.option(state[b], numbers[at])
+                state[b] = option.target
+                column.append(option)
+                at += 1
+            columns.append(tuple(column))
+        out.append(tuple(columns))
+    return tuple(out)
+
+
+class CompiledSearch:
+    """Does what `search.BestFirst` does, and has its attributes."""
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        *,
+        keep: int = 8,
+        nodes: int = 1_000_000,
+        check: Callable[[], None] | None = None,
+        accept: Callable[[Priced], bool] | None = None,
+        turn: float = inf,
+    ) -> None:
+        self.groups, self.keep, self.check, self.accept = tuple(groups), keep, check, accept
+        self.paused = False
+        core = self._core = _core()
+        self._search = int(
+            core.ask(
+                check,
+                "search_new",
+                core.groups(groups),
+                keep,
+                float(nodes),
+                float(min(turn, _UNLIMITED)),
+                accept is not None,
+            )
+        )
+        core.owned(self, "search_free", self._search)
+        bound, _, root = core.doubles(self._search, 3)
+        self.found = Found(bound=bound)
+        self.done = root == inf
+        self._ceiling = ceiling(groups)
+
+    def advance(self, limit: float) -> None:
+        """Go on until the optimum is known, or is known to cost more than `limit`, or it is the turn of others."""
+        found = self.found
+        if self.done or limit < found.bound - EPS:
+            return
+        paused, self.paused = self.paused, False
+        status = self._ask("search_advance", float(limit), paused)
+        while status != _ENDED:
+            if status == _LEFT:
+                numbers = self._core.integers(self._core.call("search_structure", self._search))
+                item = price(self.groups, _structure(self.groups, numbers))
+                if item is not None and (self.accept is None or self.accept(item)):
+                    found.offer(item, self.keep)
+                    limit = min(limit, item.cost)
+                status = self._ask("search_judged", *self._known(), float(limit))
+            elif status == _PAUSED:
+                self.paused = True
+                return
+            else:
+                found.cut = self.done = True
+                return
+        if found.ties:
+            self.done = True
+        elif limit >= self._ceiling:
+            self.done = True
+            found.bound = inf
+        else:
+            found.bound = max(found.bound, limit)
+
+    def _known(self) -> tuple[float, int, bool, bool]:
+        best = self.found.best
+        if best is None:
+            return inf, 0, False, False
+        return best.cost, best.columns, best.proper, len(self.found.ties) >= self.keep
+
+    def _ask(self, name: str, *arguments: float) -> int:
+        try:
+            return self._core.ask(self.check, name, self._search, *arguments)
+        finally:
+            bound, nodes, _ = self._core.doubles(self._search, 3)
+            self.found.nodes = int(nodes)
+            if not self.found.ties:
+                self.found.bound = max(self.found.bound, bound)
+
+
+class CompiledDives:
+    """Does what `dive.Dives` does, and has its attributes."""
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        least: float,
+        check: Callable[[], None] | None = None,
+        accept: Callable[[Priced], bool] | None = None,
+    ) -> None:
+        self.groups, self.check, self._accept = tuple(groups), check, accept
+        self.best: Priced | None = None
+        core = self._core = _core()
+        self._dives = int(core.ask(check, "dives_new", core.groups(groups), float(least), accept is not None))
+        core.owned(self, "dives_free", self._dives)
+        core.ask(check, "dives_begin", self._dives, ceiling(groups))
+
+    @property
+    def done(self) -> bool:
+        """There is no better one."""
+        return self._core.doubles(self._dives, 2)[1] != 0.0
+
+    def dive(self) -> bool:
+        """Go through the network once; whether a better alignment was found."""
+        core = self._core
+        if core.ask(self.check, "dives_dive", self._dives, self.best is not None) != _PRICE:
+            return False
+        numbers = core.integers(core.call("dives_structure", self._dives))
+        priced = price(self.groups, _structure(self.groups, numbers))
+        limit, _ = core.doubles(self._dives, 2)
+        if (
+            priced is None
+            or priced.cost > limit + EPS
+            or (self._accept is not None and not self._accept(priced))
+        ):
+            core.call("dives_missed", self._dives)
+            return False
+        self.offer(priced)
+        return True
+
+    def offer(self, priced: Priced) -> None:
+        """An alignment that is known already: only cheaper ones are looked for."""
+        self.best = priced
+        self._core.ask(self.check, "dives_found", self._dives, priced.cost)
+
+
+def best_first(
+    groups: Sequence[Group], *, log: Walk | None = None, **options: Any
+) -> BestFirst | CompiledSearch:
+    """The search to be used: the compiled one where there is one and nobody wants to know what it does."""
+    if log is None and available():
+        return CompiledSearch(groups, **options)
+    return BestFirst(groups, log=log, **options)
+
+
+def dives(
+    groups: Sequence[Group],
+    least: float,
+    check: Callable[[], None] | None = None,
+    accept: Callable[[Priced], bool] | None = None,
+) -> Dives | CompiledDives:
+    """The dives to be used."""
+    return (CompiledDives if available() else Dives)(groups, least, check, accept)

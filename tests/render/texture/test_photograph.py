@@ -1,0 +1,288 @@
+"""Photographs: which façade is met, what shades what, and what light does at which hour."""
+
+from __future__ import annotations
+
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facade_nb.cli import main
+from facade_nb.design.errors import DesignError
+from facade_nb.gallery import grammar
+from facade_nb.render.camera import Camera
+from facade_nb.render.developing import developed
+from facade_nb.render.texture import Grammar
+from facade_nb.render.texture.daytime import Daytime, light
+from facade_nb.render.texture.exhibits import EXHIBITS, exhibit, layout_exhibit
+from facade_nb.render.texture.facades import Facade, box, meet, sees
+from facade_nb.render.texture.osmesa import OSMesaContext
+from facade_nb.render.texture.painters import PAINTERS
+from facade_nb.render.texture.photograph import Photo, flat, photograph, save_picture
+from facade_nb.render.texture.picture import texture_pixels
+from facade_nb.render.texture.shaders import shader
+from facade_nb.render.texture.view import Sight
+from facade_nb.render.tiles import TileSet
+
+PLAIN = Grammar.parse(
+    "S -> Mat(Color, 0, 0.5, 0.5, 0.5, 1)  Red -> Mat(Color, 0, 1, 0, 0, 1)  Veil -> Mat(Color, 0, 0, 0, 1, 0.25)"
+)
+
+
+def test_rays_meet_the_nearest_facade_from_its_front() -> None:
+    """Against solving for each façade the three equations of ray and plane."""
+    generator = np.random.default_rng(7)
+    facades = [*box(PLAIN, 6, 5, 4, at=(-2, 0), turn=20, roof=2), *box(PLAIN, 3, 8, 3, at=(4, -3), turn=-35)]
+    eye = np.float32([1.0, 2.0, 14.0])
+    rays = (generator.uniform(-1, 1, (400, 3)) * (0.6, 0.5, 0) - (0, 0, 1)).astype(np.float32)
+    hits = meet(facades, eye, rays)
+    for ray, index, distance, place in zip(rays, hits.facade, hits.distance, hits.places, strict=True):
+        best, which, where = np.inf, -1, None
+        for k, facade in enumerate(facades):
+            axes = facade.axes.astype(float)
+            if ray @ axes[2] >= 0 or (eye - np.array(facade.origin)) @ axes[2] <= 0:
+                continue
+            u, v, t = np.linalg.solve(
+                np.stack([axes[0], axes[1], -ray.astype(float)], axis=1), eye - np.array(facade.origin)
+            )
+            if 0 <= u < facade.size[0] and 0 <= v < facade.size[1] and 0 < t < best:
+                best, which, where = t, k, (u, v)
+        assert index == which
+        if which >= 0:
+            assert distance == pytest.approx(best, rel=1e-4)
+            assert place == pytest.approx(where, abs=2e-3)
+    assert len(set(hits.facade)) > 4
+
+
+def test_a_house_stands_before_the_sun() -> None:
+    wall = [Facade(PLAIN, (4.0, 3.0), (0.0, 0.0, 0.0))]
+    sun = np.float32([0, 1, -1]) / np.sqrt(2)  # behind the wall, 45 degrees high
+    points = np.float32([[2, 0, 1.0], [2, 0, 2.9], [2, 0, 3.1], [5, 0, 1.0], [2, 0, -1.0]])
+    assert sees(wall, points, sun).tolist() == [False, False, True, True, True]
+    assert sees(wall, points, sun, np.zeros(5, np.int32)).all()
+
+
+def test_a_transparent_facade_shows_what_is_behind() -> None:
+    behind = Facade(PLAIN, (4.0, 4.0), (0.0, 0.0, -1.0), start="Red")
+    before = Facade(PLAIN, (4.0, 4.0), (0.0, 0.0, 0.0), start="Veil")
+    photo = Photo((16, 16), 12.0, Camera(azimuth=0, height=2, fill=1.0), (1.5, 1.5, 2.5, 2.5), samples=1)
+    alone = photograph([behind], photo)[8, 8].astype(float)
+    both = photograph([before, behind], photo)[8, 8].astype(float)
+    swapped = photograph([behind, before], photo)[8, 8].astype(float)
+    assert alone[0] > 150
+    assert 0.35 * alone[0] < both[0] < 0.9 * alone[0]  # a veil, and its shadow
+    assert both[2] > alone[2]
+    assert both == pytest.approx(swapped)
+
+
+@pytest.mark.parametrize("hour", [0, 3, 6, 9, 12, 15, 18, 21, 24])
+def test_the_light_of_an_hour_is_light(hour: float) -> None:
+    daytime = Daytime.at(hour)
+    assert np.linalg.norm(daytime.towards) == pytest.approx(1)
+    for colour in (
+        daytime.sun,
+        daytime.sky,
+        daytime.ground,
+        daytime.indoors,
+        daytime.zenith,
+        daytime.horizon,
+    ):
+        assert min(colour) >= 0
+    assert 0 <= daytime.lamps <= 1
+
+
+def test_the_day_goes_as_days_go() -> None:
+    morning, noon, evening, night = map(Daytime.at, (8.0, 13.0, 18.0, 23.5))
+    assert morning.towards[0] < -0.3 and evening.towards[0] > 0.3 and abs(noon.towards[0]) < 0.01
+    assert noon.towards[1] > morning.towards[1]
+    assert noon.lamps == 0 and night.lamps == 1
+    assert sum(night.sun) == 0 and sum(noon.sun) > 5
+    hours = np.linspace(0, 24, 481)
+    for name in ("sky", "indoors", "exposure", "lamps"):  # nothing jumps, also not over midnight
+        values = np.array([np.mean(getattr(Daytime.at(h), name)) for h in hours])
+        assert np.abs(np.diff(values)).max() < 0.1
+        assert values[0] == pytest.approx(values[-1], abs=1e-6)
+    with pytest.raises(ValueError, match="hour: expected 0 to 24; found 25"):
+        Daytime.at(25)
+
+
+def _lit(
+    hour: float, *, normal: tuple[float, ...] = (0, 0, 0, 0), specular: tuple[float, ...] = (0, 0, 0, 0)
+) -> np.ndarray:
+    one = np.ones(1, np.float32)
+    color = np.float32([[0.5, 0.5, 0.5, 1]])
+    ahead = np.float32([[0, 0, -1]])
+    return light(color, np.float32([normal]), np.float32([specular]), ahead, Daytime.at(hour), one, 3 * one)[
+        0
+    ]
+
+
+def test_a_room_has_no_sun_and_its_lamp_burns_at_night() -> None:
+    indoors = (0.5, 0.5, 0.5, 1)
+    assert _lit(12.0, normal=indoors).mean() < 0.4 * _lit(12.0).mean()
+    dark, lamp = _lit(23.0, normal=indoors), _lit(23.0, normal=indoors, specular=(1, 0.7, 0.4, 1))
+    assert lamp.mean() > 10 * dark.mean()
+    assert lamp[0] > lamp[1] > lamp[2]
+    assert _lit(13.0, normal=indoors, specular=(1, 0.7, 0.4, 1)) == pytest.approx(_lit(13.0, normal=indoors))
+
+
+def test_a_pane_is_no_lamp() -> None:
+    """Glass that mirrors a third, before a dark room: its own specular value must not light the room."""
+    pane = (0.5, 0.5, 1.0)
+    normal = (*(np.float32(pane) / 3 + np.float32([0.5, 0.5, 0.5]) * 2 / 3), 1)
+    assert _lit(23.0, normal=normal, specular=(1 / 3, 1 / 3, 1 / 3, 1 / 3)) == pytest.approx(
+        _lit(23.0, normal=normal), rel=1e-4
+    )
+
+
+def test_normals_turn_towards_the_sun() -> None:
+    left, right = (0.2, 0.5, 0.9, 1), (0.8, 0.5, 0.9, 1)
+    assert _lit(8.5, normal=left).mean() > 1.3 * _lit(8.5, normal=right).mean()
+    assert _lit(17.5, normal=right).mean() > 1.3 * _lit(17.5, normal=left).mean()
+
+
+def test_a_flat_picture_is_what_the_grammar_says(tmp_path: Path) -> None:
+    grammar = Grammar.parse(
+        "S -> SplitX(Rel, 1, A, Rel, 1, B)  A -> Mat(Color, 0, 1, 0, 0, 1)  B -> Mat(Color, 0, 0, 0, 1, 1)"
+    )
+    pixels = flat(grammar, (2, 1), (8, 4))
+    assert pixels.shape == (4, 8, 3)
+    assert (pixels[:, :4] == (255, 0, 0)).all() and (pixels[:, 4:] == (0, 0, 255)).all()
+    for name, head in (("a.png", b"\x89PNG"), ("a.jpg", b"\xff\xd8")):
+        save_picture(pixels, tmp_path / name)
+        assert (tmp_path / name).read_bytes().startswith(head)
+
+
+@pytest.mark.parametrize("backend", ["osmesa", "egl"])
+def test_every_backend_takes_the_same_photograph(backend: str) -> None:
+    if not PAINTERS[backend].available:
+        assert PAINTERS[backend].why_not
+        return
+    house = [Facade(Grammar.parse(grammar("figure-10"), TileSet.builtin(64)), (10.0, 9.0), seed=(4.6, 2.1))]
+    photo = Photo((120, 90), 19.5, samples=1)
+    here = photograph(house, photo).astype(int)
+    there = photograph(house, replace(photo, backend=backend)).astype(int)
+    assert (np.abs(here - there).max(axis=2) <= 1).mean() > 0.999
+
+
+def test_a_picture_at_an_hour_is_lit(tmp_path: Path) -> None:
+    """`hour` lights what `texture_pixels` gives without it; alpha stays, and so does what is not there."""
+    house = Grammar.parse(grammar("figure-8"), TileSet.builtin(64))
+    given = {"size": (4.0, 4.0), "pixels": (40, 40), "backend": "cpu"}
+    day, night = (texture_pixels(house, **given, hour=hour).astype(int) for hour in (10.5, 23.0))
+    wall, room = (slice(2, 8), slice(2, 38)), (slice(16, 26), slice(17, 19))
+    assert day[wall][..., :3].mean() > 2.5 * night[wall][..., :3].mean()
+    assert night[room][..., :3].mean() > 1.5 * night[wall][..., :3].mean()  # the lamp is lit
+    plain = texture_pixels(house, **given, antialias="none", hour=10.5)
+    points = np.array([[(i + 0.5) / 10, 4 - (j + 0.5) / 10] for j in range(40) for i in range(40)])
+    surface = house.evaluate(points, (4, 4))
+    ahead, ones = np.tile(np.float32([0, 0, -1]), (1600, 1)), np.ones(1600, np.float32)
+    lit = light(*surface[:3], ahead, Daytime.at(10.5), ones, points[:, 1].astype(np.float32))
+    expected = developed(lit, Daytime.at(10.5).exposure).reshape(40, 40, 3) * 255
+    assert np.abs(plain[..., :3] - expected).max() <= 1
+    half = Grammar.parse(
+        "S -> SplitX(Rel, 1, Grey, Rel, 1, Out)  Grey -> Mat(Color, 0, 0.5, 0.5, 0.5, 1)  Out -> Skip(0)"
+    )
+    picture = texture_pixels(half, size=(2, 1), pixels=(8, 4), backend="cpu", hour=12)
+    assert (picture[:, :4, 3] == 255).all() and (picture[:, 4:, 3] == 0).all()
+    file = tmp_path / "g.txt"
+    file.write_text(grammar("figure-8"))
+    words = f"render {file} --size 4x4 --pixels 40x40 --backend cpu --hour 23 --out {tmp_path / 'n.png'}"
+    assert main(words.split()) == 0
+    with pytest.raises(SystemExit):
+        main(f"{words} --hour 25".split())
+
+
+@pytest.mark.parametrize("profile", ["core", "es"])
+def test_the_light_pass_compiles_as_desktop_gl_and_webgl2(profile: str) -> None:
+    done = subprocess.run(
+        ["glslangValidator", "--stdin", "-S", "frag"],
+        input=shader("lit.frag", profile),
+        text=True,
+        capture_output=True,
+    )
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize("hour", [6.0, 9.5, 13.0, 19.8, 21.0, 23.9])
+@pytest.mark.parametrize("eye", [None, (3.0, 1.7, 5.0)])
+def test_the_light_pass_is_what_numpy_does(hour: float, eye: tuple[float, float, float] | None) -> None:
+    """`lit.frag` on OSMesa, over random surfaces, against `light`, `backdrop` and `developed`."""
+    import moderngl
+
+    size, pixels = (6.0, 5.0), (48, 40)
+    sight = Sight.flat(size, pixels) if eye is None else Sight.from_eye(eye, (2.0, 2.5), size, pixels)
+    generator = np.random.default_rng(int(hour * 10))
+    channels = [generator.uniform(0, 1, (pixels[0] * pixels[1], 4)).astype(np.float32) for _ in range(3)]
+    for values in channels:
+        values[:, :3] *= values[:, 3:]
+        values[::7] = 0
+    daytime = Daytime.at(hour)
+    looks = sight.looks()
+    rays = (
+        np.broadcast_to(np.float32([0, 0, -1]), (len(looks.points), 3)) if looks.rays is None else looks.rays
+    )
+    heights = looks.points[:, 1]
+    wanted = light(*channels, rays, daytime, np.ones(len(rays), np.float32), heights)
+    wanted = wanted + (1 - channels[0][:, 3:]) * daytime.backdrop(rays)
+    wanted = developed(wanted, daytime.exposure)
+
+    with moderngl.create_context(require=330, context=OSMesaContext()) as context:
+        program = context.program(vertex_shader=shader("whole.vert"), fragment_shader=shader("lit.frag"))
+        for unit, (name, values) in enumerate(
+            zip(("seen_color", "seen_normal", "seen_specular"), channels, strict=True)
+        ):
+            image = np.ascontiguousarray(values.reshape(pixels[1], pixels[0], 4)[::-1])
+            texture = context.texture(pixels, 4, image.tobytes(), dtype="f4")
+            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+            texture.use(unit)
+            program[name].value = unit
+        left, bottom, right, top = sight.window
+        given = {
+            "window": (left, bottom, (right - left) / pixels[0], (top - bottom) / pixels[1]),
+            "eye": (*(sight.eye or (0.0, 0.0, 0.0)), float(sight.eye is not None)),
+            "across": sight.right,
+            "forward": sight.ahead,
+            **daytime.uniforms(),
+        }
+        for name, value in given.items():
+            if name in program:
+                program[name].value = value
+        image = context.texture(pixels, 4, dtype="f4")
+        target = context.framebuffer([image])
+        target.use()
+        target.viewport = (0, 0, *pixels)
+        context.vertex_array(program, []).render(context.TRIANGLES, vertices=3)
+        found = (
+            np.frombuffer(image.read(), np.float32)
+            .reshape(pixels[1], pixels[0], 4)[::-1]
+            .reshape(-1, 4)[:, :3]
+        )
+    before = (rays[:, 2] < -1e-3) & (np.abs(heights) < 60)
+    assert before.mean() > 0.9
+    assert np.abs(found - wanted)[before].max() < 2e-3
+
+
+@pytest.mark.parametrize("name", EXHIBITS)
+def test_every_exhibit_is_drawn(name: str) -> None:
+    picture = exhibit(name, samples=1, scale=0.12)
+    assert picture.std() > 15
+    assert (picture == exhibit(name, samples=1, scale=0.12)).all()
+
+
+def test_a_layout_is_exhibited_by_its_grammar() -> None:
+    picture = layout_exhibit("residential-house", samples=1, scale=0.1)
+    assert picture.std() > 15
+    half = picture.shape[1] // 2
+    assert picture[:, :half].mean() > 1.4 * picture[:, half:].mean()  # day and night
+
+
+def test_faults_are_told() -> None:
+    with pytest.raises(DesignError, match=r"found 'figure-2'; did you mean 'figure-12'\?"):
+        exhibit("figure-2")
+    with pytest.raises(ValueError, match="expected at least one façade"):
+        photograph([])
+    with pytest.raises(ValueError, match=r"expected at least one pixel and sample; found \(0, 4\), 2"):
+        photograph([Facade(PLAIN, (1.0, 1.0))], Photo(pixels=(0, 4)))

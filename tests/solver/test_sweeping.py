@@ -1,0 +1,150 @@
+"""Sweeps: what they find is an alignment, and a good one; nothing is proven by them."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from facade_nb import solve
+from facade_nb.solver import Letter, Objective, align, axis, solving
+from facade_nb.solver.columns import Group, make_group
+from facade_nb.solver.compiled import CompiledDives
+from facade_nb.solver.dive import Dives
+from facade_nb.solver.pricing import Priced
+from facade_nb.solver.search import Stopped, search
+from facade_nb.solver.sweeping import can_sweep, sweeps
+from tests.bench import bench_anytime
+from tests.solver.ida_cases import case_group, group_of, random_case
+from tests.solver.test_tall import stack
+
+
+def rigid(seed: int) -> tuple[list[tuple[Letter, ...]], float]:
+    """Two to four short rows with every qualifier, and a canvas that some of them fill."""
+    draw = random.Random(seed)
+    letters = [
+        Letter(
+            symbol,
+            draw.choice([0.5, 1.0, 1.5, 2.0]),
+            opaque=draw.random() < 0.75,
+            attached=draw.random() < 0.15,
+            unoccludable=draw.random() < 0.15,
+        )
+        for symbol in "ABCD"
+    ]
+    rows = [tuple(draw.choice(letters) for _ in range(draw.randint(1, 5))) for _ in range(draw.randint(2, 4))]
+    return rows, max(sum(a.size or 0.0 for a in row) for row in rows)
+
+
+def group(rows: list[tuple[Letter, ...]], canvas: float) -> Group:
+    return make_group(rows, canvas, 0.5 * canvas, Objective())
+
+
+class TestWhatIsFound:
+    @pytest.mark.parametrize("seed", range(150))
+    def test_is_an_alignment_and_no_better_than_the_best(self, seed: int) -> None:
+        own = group(*rigid(seed))
+        if not can_sweep([own]):
+            assert len(own.bands) == 1
+            return
+        best = search([own]).best
+        costs = []
+        for priced in sweeps(own):
+            assert best is not None and priced.cost >= best.cost - 1e-9
+            costs.append(priced.cost)
+            self.check_columns(own, priced)
+        assert costs == sorted(costs, reverse=True)
+
+    @staticmethod
+    def check_columns(own: Group, priced: Priced) -> None:
+        """Every band's letters come once each, in order, in columns that keep C1, C3 and C4 as the options say."""
+        (columns,) = priced.structure
+        for b, band in enumerate(own.bands):
+            assert [i for column in columns for i in column[b].letters] == list(range(len(band.letters)))
+            position = 0
+            for column in columns:
+                assert column[b] in band.options(position)  # C4
+                position = column[b].target
+        for column in columns:
+            needy = any(option.empty or option.soft for option in column)
+            assert own.waived or not needy or any(option.opaque for option in column)  # C1
+            for b, option in enumerate(column):
+                assert not (option.guarded and any(column[o].soft for o in own.guards[b]))  # C3
+
+    def test_mostly_the_best(self) -> None:
+        """On 60 stacks of sizes that do not agree: all but always the optimum, never far from it."""
+        exact, worst = 0, 1.0
+        for seed in range(60):
+            rows, canvas = stack(3, 9, seed, jitter=0.05)
+            own = group(rows, canvas)
+            best = search([own]).best
+            found = list(sweeps(own))
+            assert best is not None and found
+            ratio = found[-1].cost / best.cost if best.cost > 0 else 1.0
+            exact += ratio <= 1.0 + 1e-9
+            worst = max(worst, ratio)
+        assert exact >= 57 and worst < 1.02, (exact, worst)
+
+    def test_rows_that_agree(self) -> None:
+        rows, canvas = stack(40, 9, 1)
+        expected = align(rows, canvas, 0.5 * canvas, Objective(), search="best")
+        assert expected is not None
+        assert list(sweeps(group(rows, canvas)))[-1].cost == pytest.approx(expected.cost, abs=1e-9)
+
+
+class TestWhere:
+    def test_not_with_wildcards_nor_one_word_nor_the_papers_objective(self) -> None:
+        assert can_sweep([group_of(["A:2 B:1", "A:3"], objective=Objective())])
+        assert not can_sweep([group_of(["A:2 B:1", "A:3"], objective=Objective.paper())])
+        assert not can_sweep([group_of(["A:2 B:1", "e A:3"], objective=Objective())])
+        assert not can_sweep([group_of(["A:2 B:1", "A:2 B:1"], objective=Objective())])
+        two = [group_of(["A:2 B:1", "A:3"], objective=Objective()) for _ in range(2)]
+        assert not can_sweep(two)
+
+    @pytest.mark.parametrize("seed", range(60))
+    def test_never_in_the_way_of_random_groups(self, seed: int) -> None:
+        own = case_group(random_case(seed))
+        if can_sweep([own]):
+            assert all(priced.cost >= 0 for priced in sweeps(own))
+
+    def test_stops_when_asked(self) -> None:
+        calls = 0
+
+        def check() -> None:
+            nonlocal calls
+            calls += 1
+            if calls == 5:
+                raise Stopped(asked=True)
+
+        rows, canvas = stack(12, 9, 3, jitter=0.05)
+        with pytest.raises(Stopped):
+            list(sweeps(group(rows, canvas), check))
+        assert calls == 5
+
+
+class TestAnytime:
+    def test_there_is_a_layout_where_exhaustive_search_cannot_go(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        """Stopped after so many checks, not seconds: long before the search has come to any alignment."""
+        design = bench_anytime.stack(16, 1)
+        monkeypatch.setattr(axis, "_SLOW", 0.0)
+        solving.forget()
+        calls = iter(range(10**9))
+        layout = solve(design, time_limit=None, should_stop=lambda: next(calls) > 3_000)
+        assert not layout.x.proven and layout.x.gap > 0.5
+        assert layout.x.cost < 3.5  # the best known is 3.3347
+
+    @pytest.mark.parametrize("kind", [Dives, CompiledDives])
+    def test_dives_look_only_for_what_is_better(self, kind: type[Dives] | type[CompiledDives]) -> None:
+        rows, canvas = stack(7, 6, 5, jitter=0.03)
+        own = group(rows, canvas)
+        best = search([group(rows, canvas)]).best
+        assert best is not None
+        dives = kind([own], 0.0)
+        dives.offer(best)
+        for _ in range(200):
+            if dives.done:
+                break
+            assert not dives.dive()
+        assert dives.best is best
