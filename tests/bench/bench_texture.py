@@ -86,10 +86,7 @@ def _frames(questions: dict[str, Question], present: dict[str, Painter]) -> None
         if one != "cpu":
             for view in SIGHTS:
                 half = spent["Full", view, one] / 2
-                print(
-                    f"{one} on Full, {view}: {half:.0f} ms, half of its CPU time; "
-                    f"goal under {GOAL_FULL:g} on two free cores"
-                )
+                print(f"{one} on Full, {view}: {half:.0f} ms, half of its CPU time; goal under {GOAL_FULL:g}")
 
 
 def _agreement(questions: dict[str, Question], present: dict[str, Painter]) -> None:
