@@ -11,6 +11,8 @@ export interface Rows<T> {
    * or to its top: what is in sight depends on the moment, not on where one came from.
    */
   set(items: readonly T[], now?: number): void;
+  /** Bring an item into sight, within the list: the reader has picked it. */
+  reveal(index: number): void;
 }
 
 /**
@@ -91,6 +93,12 @@ export function rows<T>(
       el.style.height = `${room}px`;
       el.setAttribute("aria-rowcount", String(items.length));
       if (moved) scroll(now < 0 ? 0 : Math.max(0, (now + 0.5) * height - room / 2));
+      draw();
+    },
+    reveal(index) {
+      const [top, room] = [index * height, Math.min(items.length, most) * height];
+      if (index < 0 || (top >= el.scrollTop && top + height <= el.scrollTop + room)) return;
+      scroll(Math.max(0, top + height / 2 - room / 2));
       draw();
     },
   };

@@ -127,6 +127,16 @@ describe("the words", () => {
     expect(row?.title).toBe("11.8 m is longer than canvas + μ = 11 m.");
   });
 
+  it("come into sight when a candidate with them is chosen", async () => {
+    one = await show(words, "apartment-house");
+    const list = section("Mx").querySelector(".fnb-rows") as HTMLElement;
+    expect(list.scrollTop).toBe(0);
+    one.links.pick([target.word("x", "Mx", `f A ${"B D ".repeat(20)}B A f'`)]);
+    one.view.light?.();
+    expect(section("Mx").querySelector(".fnb-word[data-chosen] .fnb-word-text")?.textContent).toBe("fA(BD)20BAf′");
+    expect(list.scrollTop).toBeGreaterThan(0);
+  });
+
   it("light up with the candidate that takes them", async () => {
     one = await show(words, "residential-house");
     one.links.hover([target.word("x", "Bx", "A B A B A B A")]);

@@ -92,6 +92,7 @@ class WordsView implements View {
   private axis: Axis | null = null;
   private judged = new Map<string, Judged>();
   private judgedBy = "";
+  private picked = "";
   private tuplesBy: string | null = null;
 
   constructor(private readonly context: ViewContext) {
@@ -165,6 +166,16 @@ class WordsView implements View {
       );
     }
     this.showTuples(axis, position, round, stamp);
+  }
+
+  light(): void {
+    const { links } = this.context;
+    const picked = [...links.picked];
+    if (picked.join() !== this.picked) {
+      this.picked = picked.join();
+      for (const section of this.sections.values()) section.reveal(links.picked);
+    }
+    links.apply(this.el);
   }
 
   /** The verdicts: the solver's own at its tolerance, else by the same rule. */
@@ -293,6 +304,13 @@ class Section {
       ),
       this.table,
     );
+  }
+
+  /** Bring the word that was picked into sight, also by picking a candidate with it. */
+  reveal(picked: ReadonlySet<string>): void {
+    const words = this.shown?.words ?? [];
+    const { axis, info } = this;
+    this.list.reveal(words.findIndex(({ event }) => picked.has(target.word(axis, info.name, event.word))));
   }
 
   /** Whether it shows that already; from now on it does. */
