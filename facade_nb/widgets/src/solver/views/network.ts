@@ -8,24 +8,13 @@ import { target } from "../links.ts";
 import { columnText, leavingList, litLetters } from "../network/lists.ts";
 import { ASPECT, boundsOf, curveOf, type Look, MARGIN, paint, pointOf } from "../network/paint.ts";
 import { Plane, type Point } from "../network/plane.ts";
-import {
-  type Arc,
-  type Base,
-  baseOf,
-  edgeKey,
-  leaving,
-  nodeKey,
-  type Scene,
-  sceneOf,
-  stepArc,
-} from "../network/scene.ts";
+import { type Choice, choicesOf, keyOf, nameOf, question } from "../network/question.ts";
+import { type Arc, type Base, baseOf, leaving, nodeKey, type Scene, sceneOf } from "../network/scene.ts";
 import { type NetworkData, Story, type Subject, sizeOf, TAKEN, type Told } from "../network/story.ts";
 import { warp } from "../network/warp.ts";
 import { Quiz, type Truth } from "../quiz.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
-import { EPS, type Objective } from "../weighing.ts";
-
-const CHOICES = 8;
+import type { Objective } from "../weighing.ts";
 
 export const network: ViewKind = {
   title: "Network",
@@ -33,12 +22,6 @@ export const network: ViewKind = {
   needs: ["network"],
   make: (context) => new NetworkView(context),
 };
-
-interface Choice {
-  arc: Arc;
-  right: boolean;
-  why: string;
-}
 
 class NetworkView implements View {
   readonly el: HTMLElement;
@@ -167,7 +150,7 @@ class NetworkView implements View {
     const choices = { pair, cuts: this.cuts.checked || !base.lattice, forbidden: this.forbidden.checked, picked };
     const scene = sceneOf(this.story, subject, base, this.told, position, choices, this.quiz.hides);
     if (this.quiz.on)
-      scene.arcs.push(...this.questions(subject, position).map(({ arc }) => ({ ...arc, kind: "choice" as const })));
+      scene.arcs.push(...this.choices(position).map(({ arc }) => ({ ...arc, kind: "choice" as const })));
     const fresh = this.scene?.subject !== subject || this.scene.pair.join() !== pair.join();
     this.scene = scene;
     this.hovered = null;
@@ -247,8 +230,10 @@ class NetworkView implements View {
     this.legend.replaceChildren(
       ...legend.map(([kind, text]) => h("span", {}, h("i", { class: `fnb-net-key fnb-net-key-${kind}` }), text)),
     );
-    if (this.quiz.on) this.beside.replaceChildren(this.question(subject, position));
-    else {
+    if (this.quiz.on) {
+      const searching = this.story.next(subject, position, TAKEN) !== undefined;
+      this.beside.replaceChildren(question(subject, this.choices(position), searching, this.quiz));
+    } else {
       const focus = scene.focus ?? subject.bands.map(() => 0);
       const arcs = leaving(this.story, subject, base, told, focus);
       const onPath = new Set(steps.map((arc) => arc.key));
@@ -326,108 +311,18 @@ class NetworkView implements View {
 
   // The question
 
-  /** What can be chosen: edges that wait for their turn; once the search is over, those that leave the path's first fork. */
-  private questions(subject: Subject, position: number): Choice[] {
-    const { data } = this.story;
-    const next = this.story.next(subject, position, TAKEN);
-    const path = next === undefined ? -1 : (data.steps.path[next] ?? -1);
-    if (next !== undefined && path >= 0) {
-      const [until, least] = [data.steps.at[next] ?? 0, data.steps.bound[next] ?? 0];
-      const told = this.story.told(subject, until - 1);
-      const gone = new Set(told.taken.map((step) => data.steps.path[step]));
-      const open = told.weighed.filter(
-        (step) => !gone.has(data.steps.path[step] ?? -1) && this.story.reasonOf(step) !== "dropped",
-      );
-      const choices = open
-        .sort((x, y) => (data.steps.bound[x] ?? 0) - (data.steps.bound[y] ?? 0) || x - y)
-        .slice(0, CHOICES)
-        .sort((x, y) => x - y)
-        .map((step): Choice => {
-          const bound = data.steps.bound[step] ?? 0;
-          const right = bound <= least + EPS;
-          const why = right
-            ? `No alignment that goes on so costs less than J = ${formatNumber(bound)} m: the least of all.`
-            : `J ≥ ${formatNumber(bound)} m this way; another edge promises ${formatNumber(least)} m.`;
-          return { arc: { ...stepArc(this.story, subject, step, "choice"), text: "" }, right, why };
-        });
-      if (choices.some(({ right }) => right) && choices.length > 1) return choices;
-    }
-    const base = this.base(subject, true);
-    const columns = subject.path?.columns ?? [];
-    let from = subject.bands.map(() => 0);
-    for (const column of columns) {
-      const arcs = leaving(this.story, subject, base, this.story.told(subject, 1e9), from).filter(
-        (arc) => !arc.constraint,
-      );
-      const key = edgeKey(subject, from, column.letters);
-      const own = arcs.find((arc) => arc.key === key && arc.to.join() === column.after.join());
-      if (own && arcs.length > 1) {
-        const others = arcs.filter((arc) => arc !== own).slice(0, CHOICES - 1);
-        return [own, ...others]
-          .sort((x, y) => x.to.join().localeCompare(y.to.join(), "en", { numeric: true }))
-          .map((arc) => ({
-            arc,
-            right: arc === own,
-            why:
-              arc === own
-                ? `The path goes here: ω = ${formatNumber(arc.omega)} m, Ω = ${formatNumber(subject.path?.error)} m in all.`
-                : arc.text || `ω = ${formatNumber(arc.omega)} m; going on from here costs more in all.`,
-          }));
-      }
-      from = column.after;
-    }
-    return [];
+  private choices(position = this.context.player.position): Choice[] {
+    const subject = this.scene?.subject;
+    return subject ? choicesOf(this.story, subject, () => this.base(subject, true), position) : [];
   }
 
-  private keyOf = ({ arc }: Choice): string => `${arc.key}>${arc.to.join(",")}`;
-
   private truths(): ReadonlyMap<string, Truth> {
-    const subject = this.scene?.subject;
-    if (!subject) return new Map();
-    const choices = this.questions(subject, this.context.player.position);
-    return new Map(choices.map((own) => [this.keyOf(own), { right: own.right, why: own.why }]));
+    return new Map(this.choices().map((own) => [keyOf(own), { right: own.right, why: own.why }]));
   }
 
   /** The choices' letters, by which the drawing names them. */
   private marks(): Map<string, string> {
-    const subject = this.scene?.subject;
-    if (!subject) return new Map();
-    const choices = this.questions(subject, this.context.player.position);
-    return new Map(choices.map((own, n) => [this.keyOf(own), String.fromCharCode(97 + n)]));
-  }
-
-  private question(subject: Subject, position: number): HTMLElement {
-    const choices = this.questions(subject, position);
-    if (!choices.length)
-      return h(
-        "p",
-        { class: "fnb-muted" },
-        "There is only one way on from here: step back, or choose another network.",
-      );
-    const searching = this.story.next(subject, position, TAKEN) !== undefined;
-    const list = choices.map((own, n) => {
-      const key = this.keyOf(own);
-      const { state, why } = this.quiz.verdict(key);
-      const radio = h("input", {
-        type: "radio",
-        name: "fnb-net-choice",
-        "aria-label": `edge ${String.fromCharCode(97 + n)}`,
-      });
-      radio.checked = this.quiz.has(key);
-      radio.disabled = this.quiz.done;
-      radio.addEventListener("change", () => this.quiz.choose(key));
-      return h(
-        "li",
-        { class: "fnb-net-edge", "data-verdict": state, "data-choice": String.fromCharCode(97 + n) },
-        h("label", {}, radio, h("b", {}, String.fromCharCode(97 + n)), columnText(subject, own.arc.column, own.arc.to)),
-        h("span", { class: "fnb-net-omega" }, own.arc.omega === null ? "" : `ω ${formatNumber(own.arc.omega, 2)}`),
-        h("span", { class: "fnb-net-why" }, why),
-      );
-    });
-    const text = searching
-      ? "These edges wait for their turn. The search takes up the one by which an alignment can be cheapest."
-      : "Which of these does the shortest path take?";
-    return h("div", { class: "fnb-net-leaving" }, h("p", { class: "fnb-muted" }, text), h("ul", {}, ...list));
+    return new Map(this.choices().map((own, n) => [keyOf(own), nameOf(n)]));
   }
 
   // The pointer and the keys
@@ -459,8 +354,8 @@ class NetworkView implements View {
     this.plane.canvas.focus({ preventScroll: true });
     const arc = this.nodeAt(at) ? null : this.arcAt(at);
     if (this.quiz.on && arc) {
-      const own = this.questions(scene.subject, this.context.player.position).find((one) => one.arc.key === arc.key);
-      if (own) this.quiz.choose(this.keyOf(own));
+      const own = this.choices().find((one) => keyOf(one) === `${arc.key}>${arc.to.join(",")}`);
+      if (own) this.quiz.choose(keyOf(own));
       return;
     }
     const node = this.nodeAt(at);
