@@ -1,7 +1,8 @@
 // What a view shows is named by targets, and everything that shows a target lights up when it is hovered anywhere.
 //
 // An element says what it is in `data-link` (it says so to others when it is hovered, and lights up when one of these
-// is), and what it is about in `data-about` (it lights up for these too). Both are lists of keys, blanks between.
+// is), and what it is about in `data-about` (it lights up for these too). Both are lists of keys, blanks between. With
+// `data-pick` a click on anything within it picks it as a whole.
 
 import { mark } from "../dom.ts";
 import type { Axis } from "./timeline.ts";
@@ -109,7 +110,8 @@ export class Links {
     root.addEventListener(
       "click",
       (event) => {
-        const element = of(event);
+        const within = event.target instanceof Element ? event.target.closest("[data-pick]") : null;
+        const element = within ?? of(event);
         const control = event.target instanceof Element && event.target.closest("button, input, select, a, summary");
         if (!element || control || event.defaultPrevented) return;
         this.toggle(tokens(element, "data-link"));

@@ -321,6 +321,7 @@ class CandidatesView implements View {
       {
         role: "row",
         class: "fnb-candidate",
+        "data-pick": true,
         tabindex: 0,
         "data-fate": hides ? null : own.fate,
         "data-now": own.at === this.now,
