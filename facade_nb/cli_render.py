@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["add_render", "joined", "render_command"]
 
 _BACKENDS = ("cpu", "osmesa", "egl")
+_ANTIALIAS = ("none", "adaptive", "supersample")
 _MOST_PIXELS = 1 << 26
 _LISTS = ("--seed", "--eye", "--target")
 
@@ -40,7 +41,10 @@ def add_render(commands: Any) -> None:
     parser.add_argument("--pixels", type=_pixels, default=(800, 600), metavar="WxH", help="default: 800x600")
     parser.add_argument("--seed", type=_pair, default=(0.0, 0.0), metavar="X,Y", help="default: 0,0")
     parser.add_argument("--start", metavar="RULE", help="default: S, else the first rule")
-    parser.add_argument("--backend", choices=_BACKENDS, help="default: the first that works here")
+    parser.add_argument("--backend", choices=_BACKENDS, help="default: the best that works here")
+    parser.add_argument(
+        "--antialias", choices=_ANTIALIAS, default="adaptive", help="of the picture; default: adaptive"
+    )
     parser.add_argument("--tiles", metavar="DIR", help="a folder of images to use beside the tiles that ship")
     parser.add_argument(
         "--eye", type=_triple, metavar="X,Y,Z", help="look from here, metres from the lower left corner"
@@ -91,7 +95,7 @@ def render_command(options: argparse.Namespace) -> int:
     }
     files: list[tuple[str, str | bytes]] = []
     if options.out:
-        files.append((options.out, render_texture(grammar, **given)))
+        files.append((options.out, render_texture(grammar, **given, antialias=options.antialias)))
     if options.rules:
         import numpy as np
 

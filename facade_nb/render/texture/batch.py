@@ -31,6 +31,8 @@ class Batch:
         (n,) or (1,) the scope, metres.
     ray
         Three of (n,) or (1,): direction of the viewing ray; x and y along the scope, z out of it.
+    footprint
+        (n,) or (1,) metres that a pixel covers there, across the ray; 0 where nobody asks.
     seeds
         The seed stack: corners in whole steps of the noise texture, the last one on top.
     shift
@@ -49,6 +51,7 @@ class Batch:
     right: Floats
     top: Floats
     ray: tuple[Floats, Floats, Floats]
+    footprint: Floats
     seeds: tuple[tuple[Steps, Steps], ...] = ()
     shift: int = 1
     faces: tuple[int, ...] = ()
@@ -72,6 +75,7 @@ class Batch:
             of(self.right),
             of(self.top),
             (of(self.ray[0]), of(self.ray[1]), of(self.ray[2])),
+            of(self.footprint),
             tuple((of(x), of(y)) for x, y in self.seeds),
             self.shift,
             self.faces,

@@ -101,6 +101,7 @@ def evaluate(
     points: Floats,
     rays: Floats | None = None,
     footprint: Floats | None = None,
+    spread: float = 0.0,
     steps: list[Step] | None = None,
     margin: Floats | None = None,
 ) -> Surface:
@@ -114,15 +115,17 @@ def evaluate(
         (n, 3); None: straight on.
     footprint
         (n,) metres that a pixel covers, from which the sizes of tiles follow; None: the largest, everywhere.
+    spread
+        How much larger that becomes along a ray, for each of the ray's lengths behind the façade.
     steps
         Gathers the derivation, of a single point.
     margin
-        (n,) is filled with how near each point came to a boundary, in footprints.
+        (n,) is filled with how near each point came to a boundary, in footprints as seen along the ray.
     """
     count = len(points)
     color, normal, specular = (np.zeros((count, 4), np.float32) for _ in range(3))
     surface = Surface(color, normal, specular, np.full(count, -1, np.int32))
-    run = _Run(question, surface, footprint, steps, margin)
+    run = _Run(question, surface, footprint is not None, spread, steps, margin)
     if margin is not None:
         margin[:] = _FAR
     zero, (width, height) = np.zeros(1, np.float32), (np.full(1, v, np.float32) for v in question.size)
@@ -131,7 +134,8 @@ def evaluate(
         index = np.arange(first, min(first + _CHUNK, count))
         x, y = np.ascontiguousarray(points[index].T)
         ray = ahead if rays is None else _ray(*np.ascontiguousarray(rays[index].T))
-        run.run(question.start, Batch(index, x, y, zero, zero, width, height, ray))
+        pixel = zero if footprint is None else footprint[index]
+        run.run(question.start, Batch(index, x, y, zero, zero, width, height, ray, pixel))
     return surface
 
 
@@ -147,12 +151,13 @@ class _Run:
         self,
         question: Question,
         surface: Surface,
-        footprint: Floats | None,
+        sized: bool,
+        spread: float,
         steps: list[Step] | None,
         margin: Floats | None,
     ) -> None:
-        self.question, self.surface, self.steps = question, surface, steps
-        self.footprint, self.margin = footprint, margin
+        self.question, self.surface, self.steps, self.margin = question, surface, steps, margin
+        self.sized, self.spread = sized, np.float32(spread)
         self.passing = np.zeros(len(surface.rule), np.int32)  # layers that a point still has to pass over
         self.taken = np.zeros(len(surface.rule), np.int32)  # operators on the way of each point
         self.sums = (surface.color, surface.normal, surface.specular)
@@ -198,8 +203,10 @@ class _Run:
 
     def _near(self, batch: Batch, at: Floats, extent: Floats) -> None:
         """Note how near points are to the ends of their part: `at` metres from the lower one, of `extent` metres."""
-        if self.margin is not None and self.footprint is not None:
-            here = np.minimum(at, extent - at) / np.maximum(self.footprint[batch.index], np.float32(1e-9))
+        if self.margin is not None:
+            x, y, z = batch.ray
+            pixel = np.maximum(batch.footprint, np.float32(1e-9)) * np.sqrt(x * x + y * y + z * z)
+            here = np.minimum(at, extent - at) * np.abs(z) / pixel
             self.margin[batch.index] = np.minimum(self.margin[batch.index], here)
 
     # Arrangement ------------------------------------------------------------------------------------------
@@ -390,6 +397,7 @@ class _Run:
                     right=some.left + wide,
                     top=some.bottom + tall,
                     ray=ray,
+                    footprint=some.footprint + self.spread * _pick(far, chosen),
                     shift=batch.shift + k + 1,
                     faces=(*batch.faces, k + 1),
                 )
@@ -460,12 +468,12 @@ class _Run:
         )
 
     def _level(self, tile: int, batch: Batch, across: Any, up: Any) -> int | NDArray[np.int32]:
-        """Which size of a tile fits a pixel: the one whose texels are about as large, where the tile shrinks least."""
-        if self.footprint is None:
+        """Which size of a tile fits a pixel: the last whose texels are not larger, where the tile shrinks least."""
+        if not self.sized:
             return 0
         _, _, width, height = self.question.atlas.table[tile - 1, 0].astype(np.float32)
-        texels = np.minimum(across * width, up * height) * self.footprint[batch.index]
-        return np.floor(np.log2(np.maximum(texels, 1)) + np.float32(0.5)).astype(np.int32)
+        texels = np.minimum(across * width, up * height) * batch.footprint
+        return np.floor(np.log2(np.maximum(texels, 1))).astype(np.int32)
 
     # Steps ------------------------------------------------------------------------------------------------
 

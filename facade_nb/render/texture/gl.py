@@ -76,10 +76,12 @@ class GlPainter:
         """Every pixel of a view at its centre; with `count`, how many texels each has read."""
         width, height = sight.pixels
         left, bottom, right, top = (np.float32(v) for v in sight.window)
+        step_x, step_y = (right - left) / np.float32(width), (top - bottom) / np.float32(height)
         given = {
-            "window": (left, bottom, (right - left) / np.float32(width), (top - bottom) / np.float32(height)),
+            "window": (left, bottom, step_x, step_y),
             "pixel_shift": (0.5, 0.5),
             "eye": (*(sight.eye or (0.0, 0.0, 0.0)), float(sight.eye is not None)),
+            "spread": 0.0 if sight.eye is None else min(float(step_x), float(step_y)),
             "across": sight.right,
             "forward": sight.ahead,
         }
@@ -99,7 +101,7 @@ class GlPainter:
         rays[:number, :3] = (0, 0, -1) if looks.rays is None else looks.rays[inside]
         given = {"points": points.tobytes(), "rays": rays.tobytes()}
         defines = (*(("MIPS", "EDGES") if mips else ()), *(("COUNT_FETCHES",) if count else ()))
-        with self._drawn(question, "points.frag", defines, size, {}, given) as images:
+        with self._drawn(question, "points.frag", defines, size, {"spread": looks.spread}, given) as images:
             shot = _shot(question, [image.read() for image in images], size, count, flip=False)
         return spread(shot.first(number), looks.inside)
 

@@ -36,7 +36,7 @@ class _Cpu:
                 footprint[inside],
             )
         margin = np.zeros(len(points), np.float32) if mips else None
-        surface = evaluate(question, points, rays, footprint if mips else None, margin=margin)
+        surface = evaluate(question, points, rays, footprint if mips else None, looks.spread, margin=margin)
         return spread(Shot(surface, np.zeros(len(points), np.float32) if margin is None else margin), inside)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...design.files import write_atomically
 from ..camera import Camera
+from .antialias import smoothed
 from .atlas import Tiles
 from .grammar import Grammar
 from .painters import choose_painter
@@ -32,6 +33,7 @@ def render_texture(
     camera: Camera | Sight | None = None,
     tiles: Tiles | None = None,
     backend: str | None = None,
+    antialias: str = "adaptive",
 ) -> bytes:
     """Render a façade by its grammar as a PNG picture.
 
@@ -50,7 +52,9 @@ def render_texture(
     camera
         Where to stand: a `Camera` has the whole façade in the picture. None: straight on, the façade filling it.
     backend
-        ``osmesa``, ``egl`` or ``cpu``; None: the first that works here.
+        ``osmesa``, ``egl`` or ``cpu``; None: the best that works here.
+    antialias
+        ``none``, ``adaptive`` or ``supersample`` (see `antialias`).
 
     Returns
     -------
@@ -64,7 +68,7 @@ def render_texture(
     BackendError
         If the backend asked for does not work here; its text says what would help.
     ValueError
-        For a size or a number of pixels that is not positive, or an unknown backend.
+        For a size or a number of pixels that is not positive, an unknown backend or kind of antialiasing.
     """
     data = png(
         texture_pixels(
@@ -76,6 +80,7 @@ def render_texture(
             camera=camera,
             tiles=tiles,
             backend=backend,
+            antialias=antialias,
         )
     )
     if path is not None:
@@ -93,11 +98,12 @@ def texture_pixels(
     camera: Camera | Sight | None = None,
     tiles: Tiles | None = None,
     backend: str | None = None,
+    antialias: str = "adaptive",
 ) -> NDArray[np.uint8]:
     """As `render_texture`, but the pixels: (h, w, 4) uint8, row 0 at the top, colour not multiplied by alpha."""
     sight = _sight(size, pixels, camera)
     question = grammar.question(size, seed, start, tiles)
-    color = choose_painter(backend).paint(question, sight).surface.color
+    color = smoothed(choose_painter(backend), question, sight, antialias)
     return _bytes(color).reshape(sight.pixels[1], sight.pixels[0], 4)
 
 

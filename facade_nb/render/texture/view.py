@@ -25,7 +25,9 @@ class Looks:
     rays
         (n, 3) float32 from the eye to the points; None: straight on.
     footprint
-        (n,) float32, how many metres of the façade a pixel covers; across the line of sight.
+        (n,) float32, how many metres a pixel covers there, across the line of sight.
+    spread
+        How much more it covers behind the façade, for each of the ray's lengths; 0 straight on.
     inside
         (n,) bool, whether the façade is there.
     """
@@ -33,6 +35,7 @@ class Looks:
     points: Floats
     rays: Floats | None
     footprint: Floats
+    spread: float
     inside: NDArray[np.bool_]
 
 
@@ -119,6 +122,7 @@ class Sight:
         if self.eye is None:
             points, rays = np.stack([u, v], axis=1), None
             footprint = np.full(len(number), min(step_x, step_y), np.float32)
+            spread = 0.0
             ahead = np.ones(len(number), bool)
         else:
             eye, across, forward = (np.array(a, np.float32) for a in (self.eye, self.right, self.ahead))
@@ -128,6 +132,7 @@ class Sight:
             reach = np.where(ahead, eye[2] / np.maximum(-rays[:, 2], np.float32(1e-6)), 0).astype(np.float32)
             points = eye[:2] + rays[:, :2] * reach[:, None]
             footprint = reach * min(step_x, step_y)
+            spread = float(min(step_x, step_y))
         wide, tall = self.size
         inside = ahead & (points >= 0).all(axis=1) & (points[:, 0] <= wide) & (points[:, 1] <= tall)
-        return Looks(points.astype(np.float32), rays, footprint.astype(np.float32), inside)
+        return Looks(points.astype(np.float32), rays, footprint.astype(np.float32), spread, inside)

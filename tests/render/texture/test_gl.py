@@ -48,6 +48,7 @@ def looks(number: int, ray: tuple[float, float, float], count: int = POINTS) -> 
         points,
         np.tile(np.array(ray, np.float32), (count, 1)),
         np.zeros(count, np.float32),
+        0.0,
         np.ones(count, bool),
     )
 

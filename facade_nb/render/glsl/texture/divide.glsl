@@ -34,7 +34,7 @@ void divide(inout State now, vec4 head, int code) {
       if (at < end) break;
     }
   }
-  if (count > 1) near(at - start, end - start);
+  if (count > 1) near(now, at - start, end - start);
   vec2 found = vec2(span.x + start, span.x + end);
   if (along_y) now.scope.yw = found;
   else now.scope.xz = found;

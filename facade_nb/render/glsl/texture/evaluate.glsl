@@ -23,6 +23,7 @@ Surface evaluate(Question question) {
   now.scope = vec4(0.0, 0.0, question.size);
   now.at = question.at;
   now.ray = vec3(question.ray.xy, -abs(question.ray.z));
+  now.footprint = question.footprint;
   now.shift = 1;
   now.faces = 0;
   now.seeds = 0;

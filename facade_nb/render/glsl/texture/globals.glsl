@@ -12,7 +12,7 @@ Surface surface;
 Frame frames[MAX_FRAMES];
 int frame_count;
 uvec2 seed_stack[MAX_SEEDS];
-float margin;                        // how near the pixel came to a boundary, in footprints
+float margin;                        // how near the pixel came to a boundary, in pixels
 #ifdef COUNT_FETCHES
 int fetches;
 #endif

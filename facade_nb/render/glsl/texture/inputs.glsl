@@ -8,7 +8,8 @@ struct Question {
   vec3 ray;         // from the eye, in the façade's axes: x to the right, y up, z out of it
   uvec2 seed;       // whole steps of 1/64 m
   vec2 rest;        // what is left of the seed, 0 to below 1 step
-  float footprint;  // metres that the pixel covers
+  float footprint;  // metres that the pixel covers, across the ray
+  float spread;     // how much more it covers behind the façade, for each of the ray's lengths
 };
 
 struct Surface {

@@ -48,8 +48,9 @@ void intrusion(inout State now, vec4 head) {
       now.ray = vec3(ray.x, -ray.z, -ray.y);
     }
   }
-  near(at.x, extent.x);
-  near(at.y, extent.y);
+  now.footprint += asked.spread * far;
+  near(now, at.x, extent.x);
+  near(now, at.y, extent.y);
   now.rule = ivec2(records.zw);
   now.at = corner_ + at;
   now.scope = vec4(corner_, corner_ + extent);

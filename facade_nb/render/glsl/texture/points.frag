@@ -3,6 +3,7 @@
 
 uniform highp sampler2D points;  // x, y, footprint
 uniform highp sampler2D rays;
+uniform float spread;       // of Question
 uniform vec2 facade_size;
 uniform ivec2 start_rule;
 uniform uvec2 seed_whole;
@@ -12,5 +13,5 @@ void main() {
   ivec2 place = ivec2(gl_FragCoord.xy);
   vec4 point = texelFetch(points, place, 0);
   vec3 ray = texelFetch(rays, place, 0).xyz;
-  put(evaluate(Question(start_rule, facade_size, point.xy, ray, seed_whole, seed_rest, point.z)));
+  put(evaluate(Question(start_rule, facade_size, point.xy, ray, seed_whole, seed_rest, point.z, spread)));
 }

@@ -6,6 +6,7 @@ uniform vec2 pixel_shift;   // place in the pixel
 uniform vec4 eye;           // and 1; or 0 for none: straight on
 uniform vec3 across;
 uniform vec3 forward;
+uniform float spread;       // of Question
 uniform vec2 facade_size;
 uniform ivec2 start_rule;
 uniform uvec2 seed_whole;
@@ -28,7 +29,7 @@ void main() {
   margin = 1e9;
   if (seen && place.x >= 0.0 && place.y >= 0.0 && place.x <= facade_size.x && place.y <= facade_size.y) {
     found = evaluate(
-      Question(start_rule, facade_size, place, ray, seed_whole, seed_rest, footprint)
+      Question(start_rule, facade_size, place, ray, seed_whole, seed_rest, footprint, spread)
     );
   }
   put(found);

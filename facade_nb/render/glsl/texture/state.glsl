@@ -5,6 +5,7 @@ struct State {
   vec4 scope;   // left, bottom, right, top, metres
   vec2 at;      // where the pixel is, metres
   vec3 ray;     // direction of the viewing ray: x and y along the scope, z out of it
+  float footprint;  // metres that the pixel covers there, across the ray
   int shift;    // how often the seed is added to the scope's corner
   int faces;    // faces of intrusions, three bits each, the innermost lowest
   int seeds;    // how many corners are on the seed stack

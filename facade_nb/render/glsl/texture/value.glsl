@@ -15,5 +15,5 @@ vec4 value(State now, int source, vec4 numbers) {
     repeats = abs(shown) / extent;
   }
   int tile = abs(source);
-  return texel(tile, uv, wrap, level(tile, repeats));
+  return texel(tile, uv, wrap, level(now, tile, repeats));
 }

@@ -1,0 +1,89 @@
+"""Antialiasing that takes care of split boundaries, which the texture paper leaves open (its section 6).
+
+Inside a part of a split, a pixel needs one sample: tiles are read in the size that fits it. Only where a boundary
+crosses the pixel is one sample wrong. An evaluator knows where: on its way it passes every boundary next to the pixel,
+as an end of the part that it goes into, and keeps the least distance. A part thinner than a pixel is noticed as well,
+since it begins where its neighbour ends. So the pixels near a boundary, and they alone, are sampled again, at
+16 places of which no two share a column or a row: boundaries are level or upright, and so are seen in 16 grades.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...design.errors import nearest
+from .evaluating import Question
+from .shot import Painter
+from .view import Looks, Sight
+
+__all__ = ["ANTIALIAS", "smoothed"]
+
+ANTIALIAS = ("none", "adaptive", "supersample")
+"""One sample at the centre, tiles in full size; more samples near boundaries; 16 samples everywhere."""
+
+_PLACES = tuple(((i + 0.5) / 16, (int(f"{i:04b}"[::-1], 2) + 0.5) / 16) for i in range(16))  # Hammersley's
+_SHARE = 0.25
+"""Of a pixel's width: how large a sample is."""
+
+_REACH = np.float32(0.75)
+"""How near a boundary has to be, in pixels: half a diagonal, and a little."""
+
+
+def smoothed(
+    painter: Painter, question: Question, sight: Sight, how: str = "adaptive"
+) -> NDArray[np.float32]:
+    """Colours (n, 4) of a view's pixels, multiplied by alpha.
+
+    Raises
+    ------
+    ValueError
+        If `how` is not one of `ANTIALIAS`.
+    """
+    if how not in ANTIALIAS:
+        known = ", ".join(ANTIALIAS)
+        raise ValueError(f"antialias: expected one of {known}; found {how!r}{nearest(how, ANTIALIAS)}")
+    if how == "none":
+        return painter.paint(question, sight).surface.color
+    if how == "supersample":
+        return _mean(painter, question, sight, None)
+    shot = painter.paint(question, sight, mips=True)
+    color = shot.surface.color.copy()
+    chosen = np.flatnonzero((shot.margin < _REACH) | _outline(sight))
+    if len(chosen):
+        color[chosen] = _mean(painter, question, sight, chosen)
+    return color
+
+
+def _outline(sight: Sight) -> NDArray[np.bool_]:
+    """Pixels next to the façade's outline (n,): one is on it where another beside it is not."""
+    width, height = sight.pixels
+    if sight.eye is None and sight.window == (0.0, 0.0, *sight.size):
+        return np.zeros(width * height, bool)
+    inside = sight.looks().inside.reshape(height, width)
+    edge = np.zeros_like(inside)
+    for axis in (0, 1):
+        change = np.diff(inside, axis=axis)
+        ahead, behind = [slice(None), slice(None)], [slice(None), slice(None)]
+        ahead[axis], behind[axis] = slice(1, None), slice(None, -1)
+        edge[tuple(ahead)] |= change
+        edge[tuple(behind)] |= change
+    return edge.ravel()
+
+
+def _mean(
+    painter: Painter, question: Question, sight: Sight, chosen: NDArray[np.intp] | None
+) -> NDArray[np.float32]:
+    """Means of 16 samples in each pixel; each reads tiles in the size that fits a sixteenth of it."""
+    total: NDArray[np.float32] | None = None
+    for place in _PLACES:
+        color = painter.paint_at(question, _finer(sight.looks(chosen, place)), mips=True).surface.color
+        total = color if total is None else total + color
+    assert total is not None
+    return total * np.float32(1 / len(_PLACES))
+
+
+def _finer(looks: Looks) -> Looks:
+    return replace(looks, footprint=looks.footprint * np.float32(_SHARE), spread=looks.spread * _SHARE)

@@ -1,0 +1,102 @@
+"""Antialiasing of split boundaries, against 256 samples a pixel."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from facade_nb.render import Grammar
+from facade_nb.render.texture.antialias import ANTIALIAS, smoothed
+from facade_nb.render.texture.evaluating import Question
+from facade_nb.render.texture.painters import PAINTERS
+from facade_nb.render.texture.view import Sight
+
+from .stand_in import stand_in
+
+Floats = NDArray[np.float32]
+CPU = PAINTERS["cpu"]
+COLOURS = "R -> Mat(Color, 0, 1, 0, 0, 1)\nG -> Mat(Color, 0, 0, 1, 0, 1)\nB -> Mat(Color, 0, 0, 0, 1, 1)\n"
+
+SCENES = {
+    "splits": "S -> RepeatX(0.37, T)\nT -> RepeatY(0.41, U)\nU -> SplitX(Rel, 1, R, Rel, 2, V)\n"
+    "V -> SplitY(Abs, 0.13, G, Rel, 1, B)",
+    "thin bars": "S -> RepeatX(0.5, T)\nT -> SplitX(Rel, 1, R, Abs, 0.013, G, Rel, 1, R)",
+    "layers": "S -> Layer(B, U)\nU -> RepeatX(0.7, T)\nT -> SplitX(Abs, 0.2, V, Rel, 1, R)\nV -> Skip(0)",
+    "a mask": "S -> RepeatX(1.3, T)\nT -> Layer(G, R, V)\nV -> SkipMask(Fit:disc, 0, 1)",
+    "rooms": "S -> RepeatX(1.5, T)\nT -> RepeatY(1.5, U)\nU -> Intrusion(1, R, V, R, G, B)\n"
+    "V -> SplitX(Rel, 1, G, Rel, 1, B)",
+}  # fmt: skip
+SIGHTS = {
+    "flat": Sight.flat((5, 4), (75, 60)),
+    "camera": Sight.from_eye((1, 1.5, 2.5), (2.5, 2), (5, 4), (75, 60), 90),
+}
+
+
+def question(text: str) -> Question:
+    return Grammar.parse(f"{text}\n{COLOURS}", stand_in()).question((5, 4))
+
+
+def truth(asked: Question, sight: Sight) -> Floats:
+    """The mean of 16 × 16 samples in each pixel."""
+    shifts = (np.arange(16) + 0.5) / 16
+    colors = [CPU.paint_at(asked, sight.looks(None, (x, y))).surface.color for x in shifts for y in shifts]
+    mean: Floats = np.mean(colors, axis=0, dtype=np.float32)
+    return mean
+
+
+def error(found: Floats, wanted: Floats) -> float:
+    return float(np.sqrt(np.mean((found - wanted) ** 2)))
+
+
+@pytest.mark.parametrize("backend", ["cpu", "osmesa"])
+@pytest.mark.parametrize("sight", list(SIGHTS))
+@pytest.mark.parametrize("scene", list(SCENES))
+def test_boundaries_are_as_smooth_as_with_16_samples(scene: str, sight: str, backend: str) -> None:
+    asked, view, painter = question(SCENES[scene]), SIGHTS[sight], PAINTERS[backend]
+    wanted = truth(asked, view)
+    errors = {how: error(smoothed(painter, asked, view, how), wanted) for how in ANTIALIAS}
+    assert errors["none"] > 0.02
+    assert errors["adaptive"] < errors["none"] / 2
+    assert errors["adaptive"] < errors["supersample"] * 1.25 + 0.002
+
+
+def test_only_pixels_near_a_boundary_are_sampled_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A wall with one boundary, at x = 2.51 m: one column of pixels, and those at the wall's ends."""
+    from facade_nb.render.texture import antialias
+
+    asked, sight, numbers = question("S -> SplitX(Abs, 2.51, R, Rel, 1, G)"), SIGHTS["flat"], []
+    real = antialias._mean
+
+    def spy(painter: object, question: object, sight: object, chosen: NDArray[np.intp]) -> Floats:
+        numbers.append(chosen)
+        return real(painter, question, sight, chosen)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(antialias, "_mean", spy)
+    color = smoothed(CPU, asked, sight).reshape(60, 75, 4)
+    assert set((numbers[0] % 75).tolist()) == {0, 37, 74}
+    share = (2.51 - 37 / 15) * 15
+    assert color[:, 37, 0] == pytest.approx(share, abs=1 / 32)
+    assert (color[:, :37, 0] == 1).all() and (color[:, 38:, 1] == 1).all()
+
+
+def test_the_outline_of_the_facade_is_smooth() -> None:
+    asked = question("S -> Layer(R)")
+    alpha = smoothed(CPU, asked, Sight.from_eye((1, 1.5, 2.5), (-0.5, 2), (5, 4), (75, 60), 90))[:, 3]
+    assert ((alpha > 0.1) & (alpha < 0.9)).sum() > 20
+
+
+def test_tiles_far_away_do_not_alias() -> None:
+    """A wall of tiles much smaller than a pixel: one sample gives noise, a smaller size of the tile its mean."""
+    asked, sight = question("S -> Mat(Color, Rep:wall1, 0, 0, 30, 30)"), SIGHTS["flat"]
+    wanted = truth(asked, sight)
+    assert error(smoothed(CPU, asked, sight), wanted) < 0.2 * error(
+        smoothed(CPU, asked, sight, "none"), wanted
+    )
+
+
+def test_an_unknown_kind() -> None:
+    with pytest.raises(
+        ValueError, match="expected one of none, adaptive, supersample; found 'adaptiv'; did you mean"
+    ):
+        smoothed(CPU, question("S -> Layer(R)"), SIGHTS["flat"], "adaptiv")
