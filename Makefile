@@ -9,7 +9,7 @@ VENV := .venv/bin
 # .venv/bin first: a Node that set-up brought lies there.
 export PATH := $(CURDIR)/$(VENV):$(PATH)
 
-.PHONY: help lab test check bench front watch format floors lock clean setup-lab setup-test
+.PHONY: help lab test check bench front notebooks watch format floors lock clean setup-lab setup-test
 .DEFAULT_GOAL := help
 
 help:  ## list the targets
@@ -29,6 +29,9 @@ bench: setup-test  ## print what is measured
 
 front: setup-test  ## build the front end into facade_nb/widgets/static
 	@node scripts/front.mjs
+
+notebooks: setup-test  ## run the notebooks again that hold widgets: their saved state has the front end
+	@$(VENV)/python scripts/notebooks.py
 
 watch: setup-test  ## build the front end again after every change
 	@node scripts/front.mjs --watch

@@ -12,19 +12,39 @@ from .parts import (
     Toolbar,
 )
 from .studio import MassingView, Studio
+from .visible import (
+    AnalysisView,
+    CandidatesView,
+    FacadeView,
+    PlayerView,
+    QualifiersView,
+    SolverView,
+    TraceModel,
+    TraceView,
+    WordsView,
+)
 
 __all__ = [
+    "AnalysisView",
+    "CandidatesView",
     "CanvasEditor",
     "CounterEditor",
     "Draft",
     "ElevationView",
     "FacadeModel",
+    "FacadeView",
     "LayerEditor",
     "MassingView",
     "Part",
     "PatternEditor",
+    "PlayerView",
+    "QualifiersView",
     "Selection",
+    "SolverView",
     "Studio",
     "SymbolEditor",
     "Toolbar",
+    "TraceModel",
+    "TraceView",
+    "WordsView",
 ]

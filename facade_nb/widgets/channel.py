@@ -4,23 +4,21 @@ from __future__ import annotations
 
 import asyncio
 import traceback
-from functools import cache
-from importlib.resources import files
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from ipywidgets import Widget
 from traitlets import Dict, List, Unicode
 
 from .. import gallery
 from ..design import DesignError
 from ..render import GEOMETRIES, MATERIALS, elevation_svg
 from ..solver import Layout
-from .commands import COMMANDS, Message
+from .bundled import Bundled, Message
+from .commands import COMMANDS
 from .model import FacadeModel
 from .wire import describe_design, describe_drafts, describe_faults, describe_selection, describe_status
 
-__all__ = ["Channel", "bundle"]
+__all__ = ["Channel"]
 
 _MOMENT = 0.025
 """Seconds that the event loop stands still at most for a layout that is almost there."""
@@ -32,21 +30,11 @@ The front end has one message under way, so this is also how long a solve is lef
 """
 
 
-@cache
-def bundle(name: str) -> str:
-    """The text of a file of the built front end."""
-    return files(__package__).joinpath("static", name).read_text(encoding="utf-8")
+class Channel(Bundled):
+    """One model's line to the browser. Get it by `Channel.of`: there is one per model."""
 
+    front = "studio"
 
-class Channel(Widget):
-    """One model's line to the browser. Get it by `Channel.of`: there is one per model.
-
-    It is a widget without a view, known to every front end, so it needs no code of its own there; the parts find it
-    by reference. The bundle travels in it once, however many parts are shown.
-    """
-
-    module = Unicode().tag(sync=True)
-    css = Unicode().tag(sync=True)
     gallery = List().tag(sync=True)
     catalogue = Dict().tag(sync=True)
     design = Dict().tag(sync=True)
@@ -56,7 +44,6 @@ class Channel(Widget):
     svg = Unicode().tag(sync=True)
     theme = Unicode("light").tag(sync=True)
     ack = Dict().tag(sync=True)
-    trouble = Unicode().tag(sync=True)
 
     def __init__(self, model: FacadeModel) -> None:
         self.model = model
@@ -65,16 +52,11 @@ class Channel(Widget):
         self._answered: dict[str, Any] = {}
         self._failure = ""
         self._later: asyncio.TimerHandle | None = None
-        self._asleep = False
-        self._views: set[str] = set()
         super().__init__(
-            module=bundle("studio.js"),
-            css=bundle("studio.css"),
             gallery=list(gallery.names()),
             catalogue={"geometries": list(GEOMETRIES), "materials": list(MATERIALS)},
         )
         self.publish()
-        self.on_msg(self._receive)
         model.observe(self._on_version, "version")
 
     @classmethod
@@ -85,25 +67,19 @@ class Channel(Widget):
             channel = _channels[model] = cls(model)
         return channel
 
-    def wake(self) -> None:
-        """Have all that a view needs in the traits, if it is not there already."""
-        self.module, self.css = bundle("studio.js"), bundle("studio.css")
-        if self._asleep:
-            self._asleep = False
-            self._drawn = None
-            self.publish()
+    def _refill(self) -> None:
+        self._drawn = None
+        self.publish()
 
-    def _sleep(self) -> None:
-        """Drop what is large while nobody looks, so that running a cell again and again does not pile it up."""
-        self._asleep = True
+    def _empty(self) -> None:
         self._forget_timer()
-        with self.hold_sync():
-            self.module = self.css = self.svg = ""
+        self.svg = ""
 
     def close(self) -> None:
         """Close the wire; the model lives on."""
-        self.model.unobserve(self._on_version, "version")
-        self._forget_timer()
+        if self.comm is not None:
+            self.model.unobserve(self._on_version, "version")
+            self._forget_timer()
         super().close()
 
     def publish(self) -> None:
@@ -153,24 +129,8 @@ class Channel(Widget):
             self._later.cancel()
             self._later = None
 
-    def _count_view(self, message: Message) -> None:
-        """Note that a view came or went."""
-        if message["here"]:
-            self._views.add(message["client"])
-            self.wake()
-            return
-        self._views.discard(message["client"])
-        if not self._views:
-            self._sleep()
-
-    def _receive(self, _: Widget, message: Message, __: list[Any]) -> None:
+    def _answer(self, message: Message) -> None:
         """Carry out what the front end asks for; whatever happens, it is answered."""
-        if message.get("op") == "wake":
-            self.wake()
-            return
-        if message.get("op") == "view":
-            self._count_view(message)
-            return
         tag = {"client": message.get("client", ""), "seq": message.get("seq", 0)}
         reply: dict[str, Any] | None = None
         self._answering = True

@@ -19,13 +19,13 @@ from ..design.edit import (
     with_symbol,
 )
 from ..design.text import spell
+from .bundled import Message
 from .fields import find_layer
 from .model import FacadeModel
 from .wire import describe_faults, layers_from_top
 
-__all__ = ["COMMANDS", "Message", "Reply"]
+__all__ = ["COMMANDS", "Reply"]
 
-Message = dict[str, Any]
 Reply = dict[str, Any] | None
 """What is sent back besides the changed state: a file to save, or the faults of a document."""
 

@@ -15,7 +15,7 @@ from traitlets import Any as AnyTrait
 from traitlets import Bool, Float, HasTraits, Instance, Int, Unicode
 
 from ..design import Design, DesignError, FacadeError, Fault, NoLayout
-from ..solver import Layout, solve
+from ..solver import Layout, Trace, solve
 from .fields import Path, apply
 from .history import History
 from .solving import LatestSolver, Outcome, Solve
@@ -77,6 +77,9 @@ class FacadeModel(HasTraits):
     message: str = Unicode("", help="Why the present design has no layout.")
     blame: NoLayout | None = Instance(NoLayout, allow_none=True, help="What is to blame for that.")
     drafts: Mapping[Path, Draft] = AnyTrait({}, help="Typed values that are not part of the design, by path.")
+    trace: Trace | None = Instance(
+        Trace, allow_none=True, help="What the last solve did, also one without a layout; see `follow`."
+    )
     busy: bool = Bool(False, help="Whether a solve is under way.")
     seconds: float = Float(0.0, help="How long the last solve took.")
     selection: Selection = Instance(Selection, ())
@@ -93,6 +96,7 @@ class FacadeModel(HasTraits):
         self._history = History(_Snapshot(self.design))
         self._revision = 0
         self._reason = ""
+        self._traced = False
         self._outcomes: deque[Outcome] = deque()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._solver = LatestSolver(self._post, solve)
@@ -201,6 +205,13 @@ class FacadeModel(HasTraits):
         self._arrive()
         return done
 
+    def follow(self) -> None:
+        """Have `trace` from now on: what shows the solver at work asks for it, all others are spared it."""
+        if not self._traced:
+            self._traced = True
+            self._solve()
+            self._changed()
+
     def close(self) -> None:
         """Stop solving; the model keeps what it has."""
         self._revision += 1
@@ -228,7 +239,7 @@ class FacadeModel(HasTraits):
             self._loop = asyncio.get_running_loop()
         except RuntimeError:
             self._loop = None
-        self._solver.submit(self._revision, self.design, self.time_limit)
+        self._solver.submit(self._revision, self.design, self.time_limit, self._traced)
         if self._loop is None:  # nobody will call back later
             self._solver.join()
             self._collect()
@@ -260,6 +271,9 @@ class FacadeModel(HasTraits):
         self.blame = outcome.error if isinstance(outcome.error, NoLayout) else None
         self.trouble = None if isinstance(outcome.error, FacadeError) else outcome.error
         self._reason = str(outcome.error) if outcome.error is not None else ""
+        told = outcome.layout or self.blame
+        if told is not None and told.trace is not None:
+            self.trace = told.trace
         if outcome.layout is not None:
             self.layout = outcome.layout
             self._reselect(outcome.layout)

@@ -14,7 +14,8 @@ from traitlets import Instance, Unicode
 from ..design import Design, DesignError
 from ..render import elevation_svg
 from ..solver import Layout
-from .channel import Channel, bundle
+from .bundled import bundle
+from .channel import Channel
 from .model import FacadeModel
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "PatternEditor",
     "SymbolEditor",
     "Toolbar",
+    "picture",
 ]
 
 _PICTURE_LIMIT = 120_000
@@ -72,12 +74,12 @@ class Part(AnyWidget):
         """
         self.channel.wake()
         made = super()._repr_mimebundle_(**options)
-        if made is not None and self._pictured and (picture := _picture(self.model.layout)):
-            made[0]["text/html"] = picture
+        if made is not None and self._pictured and (drawn := picture(self.model.layout)):
+            made[0]["text/html"] = drawn
         return made
 
 
-def _picture(layout: Layout | None) -> str:
+def picture(layout: Layout | None) -> str:
     """The elevation as an image in HTML; empty if there is none, or none of a reasonable size."""
     if layout is None:
         return ""

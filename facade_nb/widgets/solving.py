@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from ..design import Design, NoLayout
@@ -56,11 +56,13 @@ class LatestSolver:
         self._deliver = deliver
         self._solve = solve
         self._condition = threading.Condition()
-        self._next: tuple[int, Design, float | None] | None = None
+        self._next: tuple[int, Design, float | None, bool] | None = None
         self._latest = 0
         self._thread: threading.Thread | None = None
 
-    def submit(self, revision: int, design: Design, time_limit: float | None = None) -> None:
+    def submit(
+        self, revision: int, design: Design, time_limit: float | None = None, traced: bool = False
+    ) -> None:
         """Solve `design` next; whatever was waiting is forgotten, whatever is running is told to stop.
 
         Parameters
@@ -69,10 +71,12 @@ class LatestSolver:
             A number higher than that of any submission before.
         time_limit
             Seconds after which the best layout found so far is taken.
+        traced
+            Whether the solver is to tell what it does.
         """
         with self._condition:
             self._latest = revision
-            self._next = (revision, design, time_limit)
+            self._next = (revision, design, time_limit, traced)
             if self._thread is None:
                 self._thread = threading.Thread(target=self._work, name="facade_nb-solver", daemon=True)
                 self._thread.start()
@@ -95,16 +99,20 @@ class LatestSolver:
                     self._thread = None
                     self._condition.notify_all()
                     return
-                revision, design, time_limit = self._next
+                revision, design, time_limit, traced = self._next
                 self._next = None
-            self._deliver(self._run(revision, design, time_limit))
+            self._deliver(self._run(revision, design, time_limit, {"trace": True} if traced else {}))
 
-    def _run(self, revision: int, design: Design, time_limit: float | None) -> Outcome:
+    def _run(
+        self, revision: int, design: Design, time_limit: float | None, more: Mapping[str, bool]
+    ) -> Outcome:
         began = time.perf_counter()
         layout: Layout | None = None
         error: Exception | None = None
         try:
-            layout = self._solve(design, time_limit=time_limit, should_stop=lambda: self._latest != revision)
+            layout = self._solve(
+                design, time_limit=time_limit, should_stop=lambda: self._latest != revision, **more
+            )
         except NoLayout as none:
             error = none
         except Exception as unexpected:  # the edge of the thread: it must reach the user, not die here

@@ -22,8 +22,10 @@ def outputs(notebook: nbformat.NotebookNode) -> list[nbformat.NotebookNode]:
     return [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
 
 
-def has_picture(data: dict[str, str]) -> bool:
-    return any(kind.startswith("image/") for kind in data) or "<img " in data.get("text/html", "")
+def has_static_form(data: dict[str, str]) -> bool:
+    """A picture, or a table."""
+    html = data.get("text/html", "")
+    return any(kind.startswith("image/") for kind in data) or "<img " in html or "<table>" in html
 
 
 def test_there_are_notebooks() -> None:
@@ -56,9 +58,9 @@ def test_opens_with_what_it_is_for(path: Path) -> None:
 
 
 @every_notebook
-def test_is_saved_with_pictures_where_a_widget_would_be_blank(path: Path) -> None:
+def test_is_saved_with_static_forms_where_a_widget_would_be_blank(path: Path) -> None:
     saved = outputs(nbformat.read(path, as_version=4))
     assert saved, "saved without outputs"
     assert not [output for output in saved if output.output_type == "error"]
     widgets = [output.data for output in saved if WIDGET in output.get("data", {})]
-    assert not [data for data in widgets if not has_picture(data)]
+    assert not [data for data in widgets if not has_static_form(data)]

@@ -9,6 +9,8 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from ipywidgets import Widget
+
 from facade_nb import Design, Layout, solve
 from facade_nb.widgets import FacadeModel, PatternEditor, Studio
 from facade_nb.widgets.channel import Channel
@@ -272,16 +274,16 @@ def test_the_description_is_plain_json_without_nan() -> None:
 
 def test_a_channel_that_nobody_looks_at_is_small_and_wakes_for_the_next_view() -> None:
     line = Line()
-    awake = line.channel.get_state()
+    awake = line.channel.front_end.module
     for client, here in (("one", True), ("two", True), ("one", False)):
         line.channel._handle_custom_msg({"op": "view", "client": client, "here": here}, [])
-    assert line.channel.module != ""
+    assert line.channel.svg != ""
     line.channel._handle_custom_msg({"op": "view", "client": "two", "here": False}, [])
     assert len(json.dumps(line.channel.get_state())) < 10_000
     line.model.enter(("canvas", "width"), 7.0)
     assert line.channel.svg == ""
     line.channel._handle_custom_msg({"op": "wake"}, [])
-    assert line.channel.module == awake["module"]
+    assert line.channel.front_end.module == awake != ""
     assert line.channel.design["canvas"]["width"] == 7.0
     assert line.channel.svg.startswith("<svg")
 
@@ -292,3 +294,20 @@ def test_a_closed_channel_no_longer_follows() -> None:
     line.updates.clear()
     line.model.enter(("canvas", "width"), 7.0)
     assert line.updates == []
+
+
+def test_all_channels_share_one_bundle_which_goes_with_the_last_view() -> None:
+    Widget.close_all()
+    one, two = Line(), Line()
+    code = one.channel.front_end
+    assert two.channel.front_end is code
+    for line in (one, two):
+        line.channel._handle_custom_msg({"op": "view", "client": "a", "here": True}, [])
+    one.channel._handle_custom_msg({"op": "view", "client": "a", "here": False}, [])
+    assert code.module
+    two.channel._handle_custom_msg({"op": "view", "client": "a", "here": False}, [])
+    assert code.module == code.css == ""
+    one.channel.wake()
+    assert code.module
+    one.channel.close()
+    assert code.module == ""

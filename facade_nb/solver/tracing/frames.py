@@ -18,7 +18,9 @@ from ..events import (
     NetworkClosed,
     NetworkOpened,
     NodeTaken,
+    PairInconsistent,
     PathChosen,
+    PatternsCompared,
     StageBegun,
     StageEnded,
     SystemPosed,
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "active_set",
+    "analysis",
     "candidates",
     "edges",
     "equations",
@@ -54,6 +57,26 @@ def _frame(rows: Sequence[Mapping[str, Any]], columns: Sequence[str]) -> pd.Data
 
     more = dict.fromkeys(key for row in rows for key in row if key not in columns)
     return pd.DataFrame([dict(row) for row in rows], columns=[*columns, *more])
+
+
+def analysis(trace: Trace) -> pd.DataFrame:
+    """Pairs of patterns, or contents and their symbols; `left` and `right`: what the common ends leave of each."""
+    bad = {(e.axis, e.equation): e.text for e in trace.of_kind(PairInconsistent)}
+    rows: list[_Row] = []
+    for e in trace.of_kind(PatternsCompared):
+        row: _Row = {name: getattr(e, name) for name in _ANALYSIS if hasattr(e, name)}
+        for side in ("prefix", "left", "right", "suffix"):
+            row[side] = " ".join(str(term["text"]) for term in getattr(e, side)) or "ε"
+        row["equation"] = e.text
+        row["inconsistent"] = bad.get((e.axis, e.number), "")
+        rows.append(row)
+    return _frame(rows, _ANALYSIS)
+
+
+_ANALYSIS = (
+    "axis", "number", "patterns", "symbol", "prefix", "left", "right", "suffix", "equation", "system", "strength",
+    "inconsistent", "note",
+)  # fmt: skip
 
 
 def words(trace: Trace) -> pd.DataFrame:

@@ -183,6 +183,12 @@ class Trace:
 
         return judge(traced_group(self, axis, group), columns)
 
+    def analysis(self) -> pd.DataFrame:
+        """Pairs of patterns, and the equation of each."""
+        from .frames import analysis
+
+        return analysis(self)
+
     def words(self) -> pd.DataFrame:
         """Words, kept and dropped."""
         from .frames import words

@@ -1,7 +1,6 @@
 // The style sheet, once per page; and the page's theme, which the elevation is drawn for.
 
 import { mark } from "./dom.ts";
-import type { Store } from "./store.ts";
 
 const sheets = new Map<string, CSSStyleSheet>();
 
@@ -28,12 +27,12 @@ export function themeOf(element: Element): Theme {
   return "light";
 }
 
-/** Mark the root with the theme, now and when it changes, and have the elevation drawn for it. */
-export function watchTheme(root: HTMLElement, store: Store, signal: AbortSignal): void {
+/** Mark the root with the theme, now and when it changes, and say which it is. */
+export function watchTheme(root: HTMLElement, signal: AbortSignal, tell: (theme: Theme) => void): void {
   const look = () => {
     const theme = themeOf(root);
     mark(root, "data-theme", theme);
-    if (store.get("theme") !== theme) store.ask({ op: "theme", theme });
+    tell(theme);
   };
   const observer = new MutationObserver(look);
   observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });

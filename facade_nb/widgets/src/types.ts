@@ -164,9 +164,10 @@ export interface WidgetManager {
   create_view(model: WidgetModel): Promise<WidgetView>;
 }
 
-/** What a part is given: its own model, and the model's channel. */
+/** What a part is given: its own model, the model's channel, and the style sheet that goes with the code. */
 export interface Mount {
   el: HTMLElement;
   model: WidgetModel;
   channel: WidgetModel;
+  css: string;
 }

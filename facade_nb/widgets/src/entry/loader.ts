@@ -37,13 +37,14 @@ async function resolve(manager: WidgetModel["widget_manager"], reference: string
 export default {
   async render({ model, el }: { model: WidgetModel; el: HTMLElement }) {
     const channel = await resolve(model.widget_manager, model.get<string>("channel"));
-    if (!channel.get("module")) {
-      // Nobody has looked for a while, and the channel has put its large traits away.
-      const woken = new Promise<void>((done) => channel.on("change:module", done));
+    const code = await resolve(model.widget_manager, channel.get<string>("front_end"));
+    if (!code.get("module")) {
+      // Nobody has looked for a while, and the code has been put away.
+      const woken = new Promise<void>((done) => code.on("change:module", done));
       channel.send({ op: "wake" });
       await woken;
     }
-    const bundle = await load(channel.get<string>("module"));
-    return bundle.mount({ model, el, channel });
+    const bundle = await load(code.get<string>("module"));
+    return bundle.mount({ model, el, channel, css: code.get<string>("css") });
   },
 };

@@ -43,10 +43,10 @@ const PARTS: Record<string, Make> = {
   toolbar,
 };
 
-export function mount({ el, model, channel }: Mount): () => void {
+export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();
   const { signal } = end;
-  adoptStyle(channel.get<string>("css"));
+  adoptStyle(css);
   const store = new Store(channel, signal);
   const part = model.get<string>("part");
   const make = PARTS[part];
@@ -59,7 +59,9 @@ export function mount({ el, model, channel }: Mount): () => void {
   root.append(make({ store, signal, notify }, model), noticeArea);
   mark(root, "inert", !store.live);
   root.addEventListener("keydown", (event) => keys(event, store));
-  watchTheme(root, store, signal);
+  watchTheme(root, signal, (theme) => {
+    if (store.get("theme") !== theme) store.ask({ op: "theme", theme });
+  });
   el.append(root);
   return () => {
     end.abort();

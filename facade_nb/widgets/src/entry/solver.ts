@@ -1,0 +1,61 @@
+// The bundle of the views of the solver: it makes the view, or the page of views, that the widget names.
+
+import "../styles/base.css";
+import "../styles/fields.css";
+import "../styles/solver.css";
+import "../styles/playbar.css";
+import "../styles/analysis.css";
+import "../styles/candidates.css";
+import "../styles/page.css";
+import "../styles/player.css";
+import "../styles/qualifiers.css";
+import "../styles/solver-views.css";
+import { h, mark } from "../dom.ts";
+import { alone, apology } from "../solver/frame.ts";
+import { page } from "../solver/page.ts";
+import { qualifiers } from "../solver/qualifiers.ts";
+import { Session } from "../solver/session.ts";
+import { VIEWS } from "../solver/views/index.ts";
+import { adoptStyle, watchTheme } from "../theme.ts";
+import type { Mount } from "../types.ts";
+
+export function mount({ el, model, channel, css }: Mount): () => void {
+  const end = new AbortController();
+  adoptStyle(css);
+  const part = model.get<string>("part");
+  const kind = VIEWS[part];
+  if (!kind && part !== "solver" && part !== "qualifiers") throw new Error(`facade_nb: no view named ${part}`);
+  const root = h("div", { class: `fnb fnb-solver fnb-part-${part}` });
+  // The keys of a widget are its own: in command mode JupyterLab would read them as commands on cells.
+  mark(root, "data-lm-suppress-shortcuts", true);
+  watchTheme(root, end.signal, () => {});
+  el.append(root);
+  const leave = () => {
+    end.abort();
+    root.remove();
+  };
+  if (part === "qualifiers") {
+    root.append(qualifiers(channel, end.signal));
+    return leave;
+  }
+
+  const session = Session.of(channel);
+  let shown: AbortController | null = null;
+  const show = async () => {
+    shown?.abort();
+    const own = new AbortController();
+    shown = own;
+    try {
+      const loaded = await session.load();
+      const make = kind ? alone(kind, session, model, loaded, own.signal) : page(session, model, loaded, own.signal);
+      const made = await make;
+      if (!own.signal.aborted) root.replaceChildren(made);
+    } catch (error) {
+      if (!own.signal.aborted) root.replaceChildren(apology(error));
+    }
+  };
+  session.hold(() => void show(), end.signal);
+  void show();
+  end.signal.addEventListener("abort", () => shown?.abort());
+  return leave;
+}

@@ -1,0 +1,130 @@
+// The frame of every view: its head, the player above it, the question under it, errors; and the moment to show.
+
+import { h, mark, setText } from "../dom.ts";
+import { icon } from "../icons.ts";
+import type { WidgetModel } from "../types.ts";
+import { playbar } from "./playbar.ts";
+import type { Quiz } from "./quiz.ts";
+import type { Loaded, Session } from "./session.ts";
+import type { View, ViewKind } from "./view.ts";
+
+export interface Panel {
+  el: HTMLElement;
+  /** Show the present moment: a panel that was hidden has missed some. */
+  refresh(): void;
+}
+
+/** Make a view of a kind in its panel, and have it follow the player and the links until the signal ends. */
+export async function panel(
+  kind: ViewKind,
+  session: Session,
+  model: WidgetModel,
+  loaded: Loaded,
+  signal: AbortSignal,
+): Promise<Panel> {
+  const made = await Promise.all(kind.needs.map((name) => session.piece(name)));
+  const pieces = Object.fromEntries(kind.needs.map((name, n) => [name, made[n]]));
+  const { player, links } = loaded;
+  let view: View | null = null;
+  const light = () => {
+    if (view?.light) view.light();
+    else if (view) links.apply(view.el);
+  };
+  const refresh = () => {
+    view?.show(player.position);
+    light();
+  };
+  view = kind.make({ ...loaded, session, model, pieces, signal, refresh });
+
+  const controls = h("div", { class: "fnb-view-controls" }, ...(view.controls ?? []));
+  const body = h("div", { class: "fnb-view-body" }, view.el);
+  const el = h(
+    "section",
+    { class: "fnb-view", "aria-label": kind.title },
+    h(
+      "header",
+      { class: "fnb-view-head" },
+      h("h3", { class: "fnb-view-title" }, kind.title),
+      h("p", { class: "fnb-view-subtitle" }, kind.subtitle),
+      controls,
+    ),
+  );
+  if (view.quiz) {
+    const { toggle, bar } = question(view.quiz, model, refresh, signal);
+    controls.append(toggle);
+    el.append(bar);
+  }
+  el.append(body);
+
+  let due = 0;
+  const soon = () => {
+    // Several steps within a frame are drawn once.
+    due ||= requestAnimationFrame(() => {
+      due = 0;
+      if (!signal.aborted && !el.hidden) refresh();
+    });
+  };
+  player.watch(soon, signal);
+  links.watch(() => el.hidden || light(), signal);
+  links.listen(el, signal);
+  signal.addEventListener("abort", () => cancelAnimationFrame(due));
+  refresh();
+  return { el, refresh };
+}
+
+/** A widget that shows one view, with a player of its own above it if its traits say so. */
+export async function alone(
+  kind: ViewKind,
+  session: Session,
+  model: WidgetModel,
+  loaded: Loaded,
+  signal: AbortSignal,
+): Promise<HTMLElement> {
+  const el = h("div", { class: "fnb-solver-alone" });
+  if (model.get<boolean>("player")) el.append(playbar(session, loaded.player, signal));
+  el.append((await panel(kind, session, model, loaded, signal)).el);
+  return el;
+}
+
+function question(quiz: Quiz, model: WidgetModel, refresh: () => void, signal: AbortSignal) {
+  const press = (label: string, act: () => void) => {
+    const button = h("button", { type: "button", class: "fnb-fix" }, label);
+    button.addEventListener("click", act);
+    return button;
+  };
+  const toggle = h(
+    "button",
+    { type: "button", class: "fnb-button fnb-wide fnb-predict", title: "Hide the answer, and ask" },
+    icon("ask"),
+    h("span", {}, "Predict"),
+  );
+  toggle.addEventListener("click", () => quiz.ask(!quiz.on));
+  const prompt = h("span", { class: "fnb-quiz-prompt" });
+  const outcome = h("strong", { class: "fnb-quiz-outcome", role: "status" });
+  const check = press("Check", () => {
+    model.set({ answer: quiz.check() });
+    if (model.comm_live !== false) model.save_changes();
+  });
+  const again = press("Again", () => quiz.again());
+  const bar = h("div", { class: "fnb-quiz" }, prompt, outcome, check, again);
+  const show = () => {
+    mark(toggle, "aria-pressed", String(quiz.on));
+    bar.hidden = !quiz.on;
+    setText(prompt, quiz.prompt);
+    setText(outcome, quiz.done ? quiz.outcome() : "");
+    check.hidden = quiz.done;
+    again.hidden = !quiz.done;
+    refresh();
+  };
+  if (model.get<boolean>("predict")) quiz.ask(true);
+  quiz.watch(show, signal);
+  show();
+  return { toggle, bar };
+}
+
+/** What is shown where a view cannot be. */
+export function apology(error: unknown): HTMLElement {
+  const text = error instanceof Error ? error.message : String(error);
+  const last = text.trim().split("\n").at(-1) ?? "";
+  return h("details", { class: "fnb-trouble", role: "alert" }, h("summary", {}, last), h("pre", {}, text));
+}

@@ -1,0 +1,100 @@
+// Words as the paper writes them, and drawn to scale. A letter has the colour of its symbol in every view.
+
+import { h } from "../dom.ts";
+
+/** A letter of a word, as the trace tells it. */
+export interface LetterNote {
+  symbol: string;
+  size: number | null;
+  transparent: boolean;
+  opaque: boolean;
+  attached: boolean;
+  unoccludable: boolean;
+  mirrored: boolean;
+}
+
+const HUES = 10;
+
+/** The class that colours a symbol. */
+export function hueOf(symbols: Record<string, number>, symbol: string): string {
+  return `fnb-hue-${(symbols[symbol] ?? 0) % HUES}`;
+}
+
+/** A word in short: equal letters in a run, and groups from three on, are counted; mirrored ones have a dash. `AC⁵A`. */
+export function spelled(letters: readonly LetterNote[]): Node[] {
+  const keys = letters.map((a) => `${a.symbol}|${a.mirrored}|${a.transparent}`);
+  const nodes: Node[] = [];
+  for (let n = 0; n < letters.length; ) {
+    const [period, times] = repetition(keys, n);
+    if (period > 1) nodes.push(document.createTextNode("("));
+    for (const one of letters.slice(n, n + period))
+      nodes.push(h("span", { class: one.transparent ? "fnb-ghost" : "fnb-solid" }, nameOf(one)));
+    if (period > 1) nodes.push(document.createTextNode(")"));
+    if (times > 1) nodes.push(h("sup", {}, String(times)));
+    n += period * times;
+  }
+  return nodes.length ? nodes : [document.createTextNode("ε")];
+}
+
+/** The letters of a word's text as the trace writes it, `A B' <door>`: what is transparent it does not say. */
+export function parsed(word: string): LetterNote[] {
+  return (word.match(/<[^>]*>'?|[^\s<]+/g) ?? []).map((text) => ({
+    symbol: text.replace(/'$/, "").replace(/^<(.*)>$/, "$1"),
+    size: null,
+    transparent: false,
+    opaque: true,
+    attached: false,
+    unoccludable: false,
+    mirrored: text.endsWith("'"),
+  }));
+}
+
+function nameOf({ symbol, mirrored }: LetterNote): string {
+  return (/^\p{L}\d*$/u.test(symbol) ? symbol : `⟨${symbol}⟩`) + (mirrored ? "′" : "");
+}
+
+/** The repetition that begins at `n`: so many letters, so many times. Groups count from three times on. */
+function repetition(keys: readonly string[], n: number): [number, number] {
+  let best: [number, number] = [1, 1];
+  for (let period = 1; period <= 6 && n + period <= keys.length; period++) {
+    let times = 1;
+    const again = (from: number) => keys.slice(n, n + period).every((key, i) => keys[from + i] === key);
+    while (n + period * (times + 1) <= keys.length && again(n + period * times)) times++;
+    if (times >= (period === 1 ? 2 : 3) && period * times > best[0] * best[1]) best = [period, times];
+  }
+  return best;
+}
+
+export interface DrawnLetter {
+  letter: LetterNote;
+  /** Metres. */
+  start: number;
+  end: number;
+  /** It has no size of its own: it takes what is left. */
+  free: boolean;
+  attributes?: Record<string, string | null>;
+}
+
+/** Letters as boxes on a line of `span` metres; `wide` is about how many pixels that is. */
+export function boxes(
+  drawn: readonly DrawnLetter[],
+  span: number,
+  symbols: Record<string, number>,
+  wide: number,
+): HTMLElement[] {
+  return drawn.map(({ letter, start, end, free, attributes }) => {
+    const box = h("span", {
+      class: `fnb-box ${hueOf(symbols, letter.symbol)}`,
+      "data-ghost": letter.transparent,
+      "data-open": !letter.opaque && !letter.transparent,
+      "data-free": free,
+      ...attributes,
+    });
+    box.style.left = `${((100 * start) / span).toFixed(3)}%`;
+    box.style.width = `${((100 * (end - start)) / span).toFixed(3)}%`;
+    const room = (wide * (end - start)) / span;
+    if (room >= 8 * letter.symbol.length)
+      box.append(letter.mirrored ? h("i", { class: "fnb-mirrored" }, letter.symbol) : letter.symbol);
+    return box;
+  });
+}

@@ -1,0 +1,182 @@
+// The player as it is seen: buttons, the stages, a track to scrub on, and a sentence for the event.
+
+import { h, mark, setText } from "../dom.ts";
+import { type IconName, icon, setIcon } from "../icons.ts";
+import { fragmentOf } from "./moments.ts";
+import { type Player, SPEEDS } from "./player.ts";
+import type { Session } from "./session.ts";
+import type { Stage } from "./timeline.ts";
+
+/** Width of each stage on the track, in shares: some stages have a hundred times the events of others. */
+export function shares(stages: readonly Stage[]): number[] {
+  const weights = stages.map(({ first, last }) => 14 + Math.sqrt(last - first + 1));
+  const sum = weights.reduce((total, weight) => total + weight, 0);
+  return weights.map((weight) => weight / sum);
+}
+
+/** Between positions and places on the track, both ways; a place is between 0 and 1. */
+export class Scale {
+  private readonly starts: number[] = [];
+  private readonly widths: number[];
+
+  constructor(private readonly stages: readonly Stage[]) {
+    this.widths = shares(stages);
+    let at = 0;
+    for (const width of this.widths) {
+      this.starts.push(at);
+      at += width;
+    }
+  }
+
+  place(position: number): number {
+    const n = Math.max(
+      0,
+      this.stages.findLastIndex((stage) => stage.first <= position),
+    );
+    const { first = 0, last = 0 } = this.stages[n] ?? {};
+    return (this.starts[n] ?? 0) + ((this.widths[n] ?? 1) * (position - first + 0.5)) / (last - first + 1);
+  }
+
+  position(place: number): number {
+    const n = Math.max(
+      0,
+      this.starts.findLastIndex((start) => start <= place),
+    );
+    const { first = 0, last = 0 } = this.stages[n] ?? {};
+    const share = (place - (this.starts[n] ?? 0)) / (this.widths[n] ?? 1);
+    return Math.max(first, Math.min(last, Math.floor(first + share * (last - first + 1))));
+  }
+}
+
+function control(label: string, name: IconName, act: () => void): HTMLButtonElement {
+  const button = h("button", { type: "button", class: "fnb-button", "aria-label": label, title: label }, icon(name));
+  button.addEventListener("click", act);
+  return button;
+}
+
+export function playbar(session: Session, player: Player, signal: AbortSignal): HTMLElement {
+  const { timeline } = player;
+  const { stages, marks } = timeline.data;
+  const scale = new Scale(stages);
+
+  const play = control("Play", "play", () => (player.playing ? player.pause() : player.play()));
+  const back = control("Step back", "back", () => player.step(-1));
+  const forward = control("Step forward", "forward", () => player.step(1));
+  const stageBack = control("Previous stage", "stageBack", () => player.stage(-1));
+  const stageForward = control("Next stage", "stageForward", () => player.stage(1));
+  const speed = h("select", { class: "fnb-select fnb-speed", "aria-label": "Speed in events per second" });
+  for (const each of SPEEDS) speed.append(h("option", { value: each }, `${each}/s`));
+  speed.value = String(player.speed);
+  speed.addEventListener("change", () => player.setSpeed(Number(speed.value)));
+  const link = control("Copy a link to this moment", "link", () => {
+    const fragment = fragmentOf({ moment: timeline.momentOf(player.position), design: timeline.data.name });
+    void navigator.clipboard?.writeText(location.href.replace(/#.*$/, "") + fragment);
+    setText(count, "Link copied");
+  });
+  const count = h("span", { class: "fnb-play-count" });
+
+  const tabs = stages.map((stage, n) => {
+    const axis = stage.axis ? `${stage.axis} ` : "";
+    const label = `${stage.axis ? `${stage.axis}: ` : ""}${stage.title}`;
+    const tab = h("button", {
+      type: "button",
+      class: "fnb-play-stage",
+      title: label,
+      "aria-label": label,
+      "data-axis": stage.axis,
+    });
+    tab.append(h("i", {}, axis), stage.title);
+    tab.style.flexGrow = String(Math.round(1e4 * (shares(stages)[n] ?? 0)));
+    tab.addEventListener("click", () => player.go(stage.first));
+    return tab;
+  });
+  const cursor = h("div", { class: "fnb-play-cursor" });
+  const past = h("div", { class: "fnb-play-past" });
+  const track = h("div", {
+    class: "fnb-play-track",
+    role: "slider",
+    tabindex: 0,
+    "aria-label": "Position in the trace",
+    "aria-valuemin": 0,
+    "aria-valuemax": timeline.last,
+  });
+  track.append(past);
+  for (const one of marks) {
+    const tick = h("i", { class: "fnb-play-mark", "data-kind": one.kind, title: one.text });
+    tick.style.left = `${100 * scale.place(one.at)}%`;
+    track.append(tick);
+  }
+  track.append(cursor);
+
+  const scrub = (event: PointerEvent) => {
+    const box = track.getBoundingClientRect();
+    player.pause();
+    player.go(scale.position(Math.max(0, Math.min(0.999999, (event.clientX - box.left) / box.width))));
+  };
+  track.addEventListener("pointerdown", (event) => {
+    track.setPointerCapture(event.pointerId);
+    scrub(event);
+  });
+  track.addEventListener("pointermove", (event) => track.hasPointerCapture(event.pointerId) && scrub(event));
+  track.addEventListener("keydown", (event) => {
+    const steps: Record<string, () => void> = {
+      ArrowLeft: () => player.step(-1),
+      ArrowRight: () => player.step(1),
+      PageUp: () => player.stage(-1),
+      PageDown: () => player.stage(1),
+      Home: () => player.go(0),
+      End: () => player.go(timeline.last),
+      " ": () => (player.playing ? player.pause() : player.play()),
+    };
+    const act = steps[event.key];
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+
+  const caption = h("p", { class: "fnb-play-caption", "aria-live": "polite" });
+  let said: string[] = [];
+  const el = h(
+    "div",
+    { class: "fnb-playbar" },
+    h(
+      "div",
+      { class: "fnb-play-buttons", role: "group", "aria-label": "Player" },
+      stageBack,
+      back,
+      play,
+      forward,
+      stageForward,
+      speed,
+    ),
+    h("div", { class: "fnb-play-line" }, h("div", { class: "fnb-play-stages" }, ...tabs), track),
+    caption,
+    h("div", { class: "fnb-play-end" }, count, link),
+  );
+
+  const show = () => {
+    const { position } = player;
+    const here = timeline.stageAt(position);
+    setIcon(play, player.playing ? "pause" : "play");
+    mark(play, "aria-label", player.playing ? "Pause" : "Play");
+    mark(play, "title", player.playing ? "Pause" : "Play");
+    back.disabled = stageBack.disabled = position === 0;
+    forward.disabled = stageForward.disabled = player.atEnd;
+    const left = `${(100 * scale.place(position)).toFixed(3)}%`;
+    cursor.style.left = left;
+    past.style.width = left;
+    for (const [n, tab] of tabs.entries()) mark(tab, "aria-current", n === here ? "step" : null);
+    mark(track, "aria-valuenow", String(position));
+    mark(track, "aria-valuetext", said[position] ?? timeline.kindAt(position));
+    setText(count, `${position + 1} / ${timeline.count}`);
+    setText(caption, said[position] ?? "");
+    mark(caption, "title", said[position] ?? null);
+  };
+  show();
+  player.watch(show, signal);
+  void session.piece<{ text: string[] }>("captions").then(({ text }) => {
+    said = text;
+    if (!signal.aborted) show();
+  });
+  return el;
+}

@@ -1,0 +1,97 @@
+// A long list of rows of one height, of which only those in sight are in the page.
+
+import { h } from "../dom.ts";
+
+const AROUND = 8;
+
+export interface Rows<T> {
+  el: HTMLElement;
+  /**
+   * Show these items. Where they are others than before, or another one is spoken of now, the list scrolls to that one,
+   * or to its top: what is in sight depends on the moment, not on where one came from.
+   */
+  set(items: readonly T[], now?: number): void;
+}
+
+/**
+ * @param height of a row, in pixels
+ * @param most rows that are in sight at once
+ * @param key names an item, and all that its row depends on: while it is the same, the row stays
+ * @param make makes the row of an item
+ * @param drawn is called after rows were made
+ */
+export function rows<T>(
+  options: {
+    height: number;
+    most: number;
+    key: (item: T) => string;
+    make: (item: T) => HTMLElement;
+    drawn?: () => void;
+  },
+  signal: AbortSignal,
+): Rows<T> {
+  const { height, most, key, make } = options;
+  const above = h("div", { "aria-hidden": "true" });
+  const below = h("div", { "aria-hidden": "true" });
+  const body = h("div", { role: "rowgroup" });
+  const el = h("div", { class: "fnb-rows" }, above, body, below);
+  let items: readonly T[] = [];
+  let spoken = -1;
+  let window: [number, number] = [-1, -1];
+  let drawn = new Map<string, HTMLElement>();
+
+  const draw = () => {
+    const first = Math.max(0, Math.floor(el.scrollTop / height) - AROUND);
+    const last = Math.min(items.length, first + most + 2 * AROUND);
+    window = [first, last];
+    above.style.height = `${first * height}px`;
+    below.style.height = `${(items.length - last) * height}px`;
+    const next = new Map(items.slice(first, last).map((item) => [key(item), item]));
+    for (const [name, row] of drawn) if (!next.has(name)) row.remove();
+    let at = body.firstElementChild;
+    drawn = new Map(
+      [...next].map(([name, item]) => {
+        const row = drawn.get(name) ?? make(item);
+        if (row === at) at = row.nextElementSibling;
+        else body.insertBefore(row, at);
+        return [name, row];
+      }),
+    );
+    options.drawn?.();
+  };
+  el.addEventListener(
+    "scroll",
+    () => {
+      const first = Math.floor(el.scrollTop / height);
+      const inside = first >= window[0] && Math.min(items.length, first + most) <= window[1];
+      if (!inside) draw();
+    },
+    { signal },
+  );
+  // A list that is not in the page yet cannot be scrolled: it is when it has come to stand there.
+  let wanted: number | null = null;
+  const scroll = (top: number) => {
+    el.scrollTop = top;
+    wanted = el.isConnected ? null : top;
+  };
+  const arrived = new ResizeObserver(() => {
+    if (wanted === null || !el.clientHeight) return;
+    scroll(wanted);
+    draw();
+  });
+  arrived.observe(el);
+  signal.addEventListener("abort", () => arrived.disconnect());
+  return {
+    el,
+    set(next, now = -1) {
+      const moved = next.length !== items.length || now !== spoken;
+      items = next;
+      spoken = now;
+      const room = Math.min(items.length, most) * height;
+      el.style.height = `${room}px`;
+      el.setAttribute("aria-rowcount", String(items.length));
+      if (moved) scroll(now < 0 ? 0 : Math.max(0, (now + 0.5) * height - room / 2));
+      draw();
+    },
+  };
+}

@@ -1,0 +1,175 @@
+// What all views of one trace on a page share: its pieces, the player, the links. There is one session for a channel.
+
+import type { WidgetModel } from "../types.ts";
+import { Links } from "./links.ts";
+import { type Moment, momentIn, watchMoments } from "./moments.ts";
+import { type Bytes, byteLength, unpack } from "./packing.ts";
+import { Player } from "./player.ts";
+import { Timeline, type TimelineData } from "./timeline.ts";
+
+const SETTLED = 250; // milliseconds after which Python is told where the player stands
+
+const sessions = new WeakMap<WidgetModel, Session>();
+
+/** A trace that is loaded: another one comes where the model that is followed was solved again. */
+export interface Loaded {
+  timeline: Timeline;
+  player: Player;
+  links: Links;
+}
+
+export class Session {
+  readonly client = Math.random().toString(36).slice(2);
+  private readonly pieces = new Map<string, Promise<unknown>>();
+  private readonly views = new Set<() => void>();
+  private loading: Promise<Loaded> | null = null;
+  private loaded: AbortController | null = null;
+  private telling = 0;
+  /** The last position that came from Python or was told to it: -1 is the end. */
+  private known = -1;
+
+  private constructor(private readonly channel: WidgetModel) {}
+
+  static of(channel: WidgetModel): Session {
+    let session = sessions.get(channel);
+    if (!session) {
+      session = new Session(channel);
+      sessions.set(channel, session);
+    }
+    return session;
+  }
+
+  /** False in a saved notebook without a kernel: what was loaded can be played all the same. */
+  get live(): boolean {
+    return this.channel.comm_live !== false;
+  }
+
+  get trouble(): string {
+    return this.channel.get<string>("trouble");
+  }
+
+  /** Hold the session for a view, until the signal ends; `reload` is called when another trace has come. */
+  hold(reload: () => void, signal: AbortSignal): void {
+    if (this.views.size === 0) this.begin();
+    this.views.add(reload);
+    signal.addEventListener("abort", () => {
+      this.views.delete(reload);
+      if (this.views.size === 0) this.end();
+    });
+  }
+
+  /** Timeline, player and links of the present trace. */
+  load(): Promise<Loaded> {
+    this.loading ??= this.make();
+    return this.loading;
+  }
+
+  /** A piece of the trace, asked for where it is not there. */
+  piece<T>(name: string): Promise<T> {
+    let found = this.pieces.get(name);
+    if (!found) {
+      found = this.fetch(name).then((bytes) => unpack<T>(bytes));
+      this.pieces.set(name, found);
+    }
+    return found as Promise<T>;
+  }
+
+  private readonly onSerial = (): void => {
+    this.forget();
+    for (const reload of [...this.views]) reload();
+  };
+  private readonly onPosition = (): void => {
+    const position = this.channel.get<number>("position");
+    if (position === this.known) return;
+    this.known = position;
+    void this.loading?.then(({ player, timeline }) => player.go(position < 0 ? timeline.last : position));
+  };
+  private readonly onPicked = (): void => {
+    void this.loading?.then(({ links }) => links.pick(this.channel.get<string[]>("picked")));
+  };
+
+  private begin(): void {
+    this.channel.on("change:serial", this.onSerial);
+    this.channel.on("change:position", this.onPosition);
+    this.channel.on("change:picked", this.onPicked);
+    if (this.live) this.channel.send({ op: "view", client: this.client, here: true });
+  }
+
+  private end(): void {
+    this.channel.off("change:serial", this.onSerial);
+    this.channel.off("change:position", this.onPosition);
+    this.channel.off("change:picked", this.onPicked);
+    this.forget();
+    if (this.live) this.channel.send({ op: "view", client: this.client, here: false });
+  }
+
+  private forget(): void {
+    clearTimeout(this.telling);
+    void this.loading?.then(({ player }) => player.pause());
+    this.loaded?.abort();
+    this.loaded = this.loading = null;
+    this.pieces.clear();
+  }
+
+  private async make(): Promise<Loaded> {
+    const end = new AbortController();
+    this.loaded = end;
+    const timeline = new Timeline(await this.piece<TimelineData>("timeline"));
+    this.known = this.channel.get<number>("position");
+    const player = new Player(timeline, this.known);
+    const links = new Links(this.channel.get<string[]>("picked"));
+    const go = ({ moment, design }: Moment): boolean => {
+      const position = !design || design === timeline.data.name ? timeline.locate(moment) : undefined;
+      if (position === undefined) return false;
+      player.pause();
+      player.go(position);
+      return true;
+    };
+    const here = momentIn(location.href);
+    if (here) go(here);
+    watchMoments(go, end.signal);
+    player.watch(() => this.tellSoon(player), end.signal);
+    links.watch(() => this.save({ picked: [...links.picked] }, "picked"), end.signal);
+    return { timeline, player, links };
+  }
+
+  /** Python learns where the player has come to rest, so that a reload, and a saved notebook, find it there. */
+  private tellSoon(player: Player): void {
+    clearTimeout(this.telling);
+    if (player.playing) return;
+    this.telling = window.setTimeout(() => {
+      this.known = player.atEnd ? -1 : player.position;
+      this.save({ position: this.known }, "position");
+    }, SETTLED);
+  }
+
+  private save(values: Record<string, unknown>, name: string): void {
+    if (JSON.stringify(this.channel.get(name)) === JSON.stringify(values[name])) return;
+    this.channel.set(values);
+    if (this.live) this.channel.save_changes();
+  }
+
+  private async fetch(name: string): Promise<Bytes> {
+    const bytes = this.channel.get<Bytes>(name);
+    if (byteLength(bytes)) return bytes;
+    if (!this.live) throw new Error(`This saved page has no piece “${name}”: run the notebook to see it.`);
+    const arrived = new Promise<Bytes>((resolve, reject) => {
+      const finish = (act: () => void) => {
+        this.channel.off(`change:${name}`, look);
+        this.channel.off("change:trouble", fail);
+        act();
+      };
+      const look = () => {
+        const found = this.channel.get<Bytes>(name);
+        if (byteLength(found)) finish(() => resolve(found));
+      };
+      const fail = () => {
+        if (this.trouble) finish(() => reject(new Error(this.trouble)));
+      };
+      this.channel.on(`change:${name}`, look);
+      this.channel.on("change:trouble", fail);
+    });
+    this.channel.send({ op: "provide", names: [name] });
+    return arrived;
+  }
+}

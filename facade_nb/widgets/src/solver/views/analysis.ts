@@ -1,0 +1,254 @@
+// Analysis: pairs of patterns with their common ends greyed, the equation of each, and both linear systems, solved; an
+// equation that contradicts the others in red (supplement 3.1).
+
+import { h, mark, setText } from "../../dom.ts";
+import { AxisChoice } from "../axes.ts";
+import { linked, target } from "../links.ts";
+import { equation, type Term, term, variables } from "../terms.ts";
+import type { Axis } from "../timeline.ts";
+import type { View, ViewContext, ViewKind } from "../view.ts";
+
+interface Compared {
+  event: "PatternsCompared";
+  at: number;
+  axis: Axis;
+  number: number;
+  patterns: [string, string];
+  prefix: Term[];
+  left: Term[];
+  right: Term[];
+  suffix: Term[];
+  coefficients: Record<string, number>;
+  text: string;
+  system: string;
+  strength: Strength;
+  symbol: string;
+  note: string;
+}
+
+interface Reduced {
+  event: "SystemReduced";
+  at: number;
+  axis: Axis;
+  system: "counters" | "unsized";
+  variables: string[];
+  equations: number[];
+  reduced: {
+    pivot: string;
+    coefficients: Record<string, number>;
+    text: string;
+    sources: number[];
+    strength: Strength;
+  }[];
+  resolved: Record<string, number>;
+  free: string[];
+}
+
+interface Inconsistent {
+  event: "PairInconsistent";
+  at: number;
+  axis: Axis;
+  system: string;
+  equation: number;
+  against: number[];
+  strength: Strength;
+  text: string;
+}
+
+interface NotAnalysed {
+  event: "PatternNotAnalysed";
+  at: number;
+  axis: Axis;
+  pattern: string;
+  reason: string;
+}
+
+type Told = Compared | Reduced | Inconsistent | NotAnalysed;
+type Strength = "binding" | "exact" | "preferred";
+
+const STRENGTH: Record<Strength, string> = {
+  binding: "It holds in every layout.",
+  exact: "It holds where nothing is inserted beside either pattern.",
+  preferred: "It holds as far as sizes stay as preferred.",
+};
+
+export const analysis: ViewKind = {
+  title: "Pattern analysis",
+  subtitle: "What is left of two patterns is equally long (supplement 3.1)",
+  needs: ["analysis"],
+  make: (context) => new AnalysisView(context),
+};
+
+class AnalysisView implements View {
+  readonly el = h("div", { class: "fnb-analysis" });
+  readonly controls: HTMLElement[];
+  private readonly told: Told[];
+  private readonly choice: AxisChoice;
+  private readonly note = h("p", { class: "fnb-empty" });
+  private readonly pairs = h("div", { class: "fnb-pairs", role: "list" });
+  private readonly systems = h("div", { class: "fnb-systems" });
+  private by = "";
+
+  constructor(context: ViewContext) {
+    this.told = (context.pieces.analysis as { events: Told[] }).events;
+    this.choice = new AxisChoice(context.timeline, context.refresh);
+    this.controls = [this.choice.el];
+    this.el.append(this.note, this.pairs, this.systems);
+  }
+
+  show(position: number): void {
+    const axis = this.choice.at(position);
+    const seen = this.told.filter((event) => event.axis === axis && event.at <= position);
+    const now = seen.at(-1)?.at === position;
+    const by = `${axis}|${seen.length}|${now}`;
+    if (by === this.by) return;
+    this.by = by;
+    const conflicts = seen.filter((event): event is Inconsistent => event.event === "PairInconsistent");
+    const compared = seen.filter((event): event is Compared => event.event === "PatternsCompared");
+    const others = seen.filter((event): event is NotAnalysed => event.event === "PatternNotAnalysed");
+    this.pairs.replaceChildren(
+      ...compared.map((one) => this.pair(one, conflicts, now && one.at === position)),
+      ...others.map((one) =>
+        h(
+          "p",
+          { role: "listitem", ...linked([target.pattern(one.pattern)]) },
+          h("code", {}, one.pattern),
+          ` is not analysed: ${one.reason}`,
+        ),
+      ),
+    );
+    const reduced = seen.filter((event): event is Reduced => event.event === "SystemReduced");
+    this.systems.replaceChildren(...reduced.map((one) => this.system(one, conflicts, now && one.at === position)));
+    const all = this.told.some((event) => event.axis === axis);
+    const empty = !compared.length && !others.length;
+    this.note.hidden = !empty;
+    const none = all ? "This axis has no two patterns to compare." : "This axis was not analysed.";
+    setText(this.note, seen.length || !all ? none : "No pair is compared yet: play on, or go to Pattern analysis.");
+  }
+
+  /** Two lines, the common ends greyed, and what follows. */
+  private pair(one: Compared, conflicts: Inconsistent[], now: boolean): HTMLElement {
+    const { axis, number, patterns } = one;
+    const conflict = conflicts.find((own) => own.equation === number);
+    const against = conflicts.some((own) => own.against.includes(number));
+    const content = one.symbol !== "";
+    // A content: the symbol as it stands in the second pattern, and what the first puts in its place.
+    const names = content ? [`${one.symbol} in ${patterns[1]}`, `its content in ${patterns[0]}`] : patterns;
+    const line = (index: 0 | 1, middle: Term[]) => [
+      h(
+        "span",
+        { class: "fnb-pair-name", ...linked([target.pattern(patterns[content ? 1 - index : index] ?? "")]) },
+        names[index] ?? "",
+      ),
+      h("span", { class: "fnb-pair-end fnb-pair-prefix" }, ...one.prefix.map(term)),
+      h("span", { class: "fnb-pair-middle" }, ...(middle.length ? middle.map((own) => this.term(own)) : ["ε"])),
+      h("span", { class: "fnb-pair-end" }, ...one.suffix.map(term)),
+    ];
+    // It is about the letters that are left over: they light up with it, on the façade too.
+    const left = [...new Set([...one.left, ...one.right].flatMap((own) => this.symbols(own)))];
+    const equationText = h("span", { class: "fnb-pair-equation" });
+    if (one.text) equationText.append("⇒ ", ...equation(one.text));
+    else equationText.append(h("span", { class: "fnb-muted" }, one.note ? `no equation: ${one.note}` : "no equation"));
+    const el = h(
+      "div",
+      {
+        class: "fnb-pair",
+        role: "listitem",
+        tabindex: 0,
+        "data-conflict": !!conflict,
+        "data-against": against,
+        "data-now": now,
+        ...linked([target.equation(axis, number), ...left], this.about(one)),
+      },
+      h("span", { class: "fnb-pair-number" }, `(${number + 1})`),
+      h("div", { class: "fnb-pair-lines" }, ...line(0, one.left), ...line(1, one.right)),
+      h(
+        "div",
+        { class: "fnb-pair-follows" },
+        equationText,
+        one.text
+          ? h(
+              "span",
+              { class: "fnb-strength", "data-strength": one.strength, title: STRENGTH[one.strength] },
+              one.strength,
+            )
+          : null,
+      ),
+    );
+    if (conflict) {
+      const mild = conflict.strength === "preferred" ? " That is no fault: sizes may give way a little." : "";
+      el.append(
+        h("p", { class: "fnb-pair-conflict" }, conflict.text, mild ? h("span", { class: "fnb-muted" }, mild) : null),
+      );
+    }
+    if (!conflict && against)
+      el.append(h("p", { class: "fnb-pair-conflict" }, "An equation below contradicts this one."));
+    return el;
+  }
+
+  private term(own: Term): HTMLElement {
+    const el = term(own);
+    for (const [name, value] of Object.entries(linked(this.symbols(own)))) mark(el, name, value);
+    return el;
+  }
+
+  private symbols(own: Term): string[] {
+    return own.letters.map((letter) => target.symbol(letter.replace(/'$/, "")));
+  }
+
+  private about(one: Compared): string[] {
+    const { counters, symbols } = variables(Object.keys(one.coefficients));
+    return [
+      ...one.patterns.map((name) => target.pattern(name)),
+      ...counters.map((name) => target.counter(name)),
+      ...symbols.map((name) => target.symbol(name)),
+    ];
+  }
+
+  /** One of the two systems, solved. */
+  private system(one: Reduced, conflicts: Inconsistent[], now: boolean): HTMLElement {
+    const title = one.system === "counters" ? "Counters" : "Unsized symbols";
+    const conflict = conflicts.find((own) => own.system === one.system);
+    const numbers = (list: readonly number[]) => list.map((n) => `(${n + 1})`).join(", ");
+    const rows = one.reduced.map((row) => {
+      const named = variables([row.pivot, ...Object.keys(row.coefficients)]);
+      const text = h("span", { class: "fnb-system-text" });
+      text.append(...equation(row.text));
+      const is = row.sources.map((n) => target.equation(one.axis, n));
+      const about = [
+        ...named.counters.map((name) => target.counter(name)),
+        ...named.symbols.map((name) => target.symbol(name)),
+      ];
+      return h(
+        "li",
+        { "data-resolved": row.pivot in one.resolved, ...linked(is, about) },
+        text,
+        h("span", { class: "fnb-muted" }, `from ${numbers(row.sources)}`),
+      );
+    });
+    const free = one.free.map((name) => {
+      const { counters, symbols } = variables([name]);
+      const keys = [...counters.map((each) => target.counter(each)), ...symbols.map((each) => target.symbol(each))];
+      return h("span", { class: "fnb-free", ...linked(keys) }, name);
+    });
+    return h(
+      "section",
+      { class: "fnb-system", "data-system": one.system, "data-now": now },
+      h(
+        "h4",
+        {},
+        title,
+        h("span", { class: "fnb-muted" }, one.equations.length ? ` from ${numbers(one.equations)}` : ""),
+      ),
+      rows.length
+        ? h("ul", {}, ...rows)
+        : h(
+            "p",
+            { class: "fnb-muted" },
+            one.equations.length ? "No row is left that can hold." : "No equation is about them.",
+          ),
+      free.length ? h("p", { class: "fnb-system-free" }, "free: ", ...free) : null,
+      conflict ? h("p", { class: "fnb-pair-conflict" }, `(${conflict.equation + 1}) cannot hold.`) : null,
+    );
+  }
+}

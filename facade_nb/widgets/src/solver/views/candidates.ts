@@ -1,0 +1,417 @@
+// Candidates: one word of each pattern under one value of each counter, and what became of each (the paper's 5.1). The
+// table sorts and filters; a candidate that is chosen is marked in all other views.
+
+import { h, mark, setText } from "../../dom.ts";
+import { formatNumber } from "../../fields.ts";
+import { AxisChoice } from "../axes.ts";
+import { filter } from "../filter.ts";
+import { parsed, spelled } from "../letters.ts";
+import { linked, target } from "../links.ts";
+import { Quiz, type Truth } from "../quiz.ts";
+import { type Rows, rows } from "../rows.ts";
+import type { Axis } from "../timeline.ts";
+import type { View, ViewContext, ViewKind } from "../view.ts";
+
+interface Candidate {
+  event: "CandidateJudged";
+  at: number;
+  axis: Axis;
+  number: number;
+  words: Record<string, string>;
+  counters: Record<string, number>;
+  bound: number;
+  floor: number | null;
+  fate: string;
+  cost: number | null;
+  omega: number | null;
+  columns: number | null;
+  deviation: number | null;
+  tolerance: number;
+  networks: number[];
+}
+
+const HEIGHT = 27;
+const MOST = 14;
+
+const FATES: Record<string, string> = {
+  best: "It is the layout.",
+  tied: "It costs as little as the best; that one has more columns, or deviates less after sizing.",
+  dearer: "It was aligned, and costs more than the best.",
+  bound: "It was not aligned to the end: what it costs at least is no better than what is known.",
+  "no alignment": "No alignment keeps the tolerance and the constraints.",
+  "no sizes": "It was aligned, but no sizes keep all bounds.",
+  "other axis": "It was aligned, but the other axis has nothing for these counters.",
+  stopped: "The search was cut short before it was decided.",
+};
+const SIGNS: Record<string, string> = { best: "★", tied: "☆", dearer: "○", bound: "·", stopped: "…" };
+
+interface Column {
+  name: string;
+  label: string;
+  title: string;
+  width: string;
+  value(own: Candidate): number | string | null;
+  /** Whether it would give the answer away. */
+  tells?: boolean;
+  digits?: number;
+}
+
+const METRICS: Column[] = [
+  {
+    name: "J",
+    label: "J",
+    title: "What it costs, metres: see the objective",
+    width: "50px",
+    value: (own) => own.cost,
+    tells: true,
+  },
+  {
+    name: "omega",
+    label: "Ω",
+    title: "Alignment error Ω = Σ ωⱼ, metres",
+    width: "50px",
+    value: (own) => own.omega,
+    tells: true,
+  },
+  {
+    name: "columns",
+    label: "columns",
+    title: "Columns of its alignment, all groups",
+    width: "62px",
+    value: (own) => own.columns,
+    tells: true,
+  },
+  {
+    name: "deviation",
+    label: "deviation",
+    title: "√Σ (size − preferred)² after sizing, metres",
+    width: "68px",
+    value: (own) => own.deviation,
+    tells: true,
+  },
+  {
+    name: "bound",
+    label: "J ≥",
+    title: "What it costs at least, by its sizes alone, metres",
+    width: "50px",
+    value: (own) => own.bound,
+    tells: true,
+  },
+  {
+    name: "tolerance",
+    label: "μ",
+    title: "Tolerance it was aligned at, metres",
+    width: "46px",
+    value: (own) => own.tolerance,
+  },
+];
+
+export const candidates: ViewKind = {
+  title: "Candidates",
+  subtitle: "One word of each pattern, and what became of it",
+  needs: ["candidates"],
+  make: (context) => new CandidatesView(context),
+};
+
+class CandidatesView implements View {
+  readonly el = h("div", { class: "fnb-candidates" });
+  readonly controls: HTMLElement[];
+  readonly quiz: Quiz;
+  private readonly told: Record<Axis, Candidate[]>;
+  private readonly choice: AxisChoice;
+  private readonly list: Rows<Candidate>;
+  private readonly head = h("div", { role: "row", class: "fnb-candidate fnb-candidate-head" });
+  private readonly note = h("p", { class: "fnb-empty" });
+  private readonly count = h("span", { class: "fnb-muted", role: "status" });
+  private readonly typed = h("input", {
+    type: "search",
+    class: "fnb-filter",
+    placeholder: "filter: best, k=3, J<1",
+    "aria-label": "Filter candidates: text, or comparisons such as k=3 or J<1",
+  });
+  private sorted: { name: string; down: boolean } = { name: "number", down: false };
+  private columns: Column[] = [];
+  private seen: Candidate[] = [];
+  private now = -1;
+  private scale = 1;
+  private axis: Axis | null = null;
+  private headed = "";
+  private by = "";
+
+  constructor(private readonly context: ViewContext) {
+    const { events } = context.pieces.candidates as { events: Candidate[] };
+    this.told = { x: events.filter((each) => each.axis === "x"), y: events.filter((each) => each.axis === "y") };
+    this.choice = new AxisChoice(context.timeline, context.refresh);
+    this.typed.addEventListener("input", context.refresh);
+    this.controls = [this.choice.el, this.typed];
+    this.list = rows<Candidate>(
+      {
+        height: HEIGHT,
+        most: MOST,
+        key: (own) => `${own.axis}${own.number} ${own.at === this.now} ${this.quiz.stamp}`,
+        make: (own) => this.row(own),
+        drawn: () => context.links.apply(this.el),
+      },
+      context.signal,
+    );
+    const table = h(
+      "div",
+      { role: "table", "aria-label": "Candidates", class: "fnb-candidate-table" },
+      this.head,
+      this.list.el,
+    );
+    this.el.append(
+      h("div", { class: "fnb-candidate-scroll" }, table),
+      this.note,
+      h("p", { class: "fnb-candidate-count" }, this.count),
+    );
+    this.quiz = new Quiz("Which candidate becomes the layout?", () => this.truths(), true);
+  }
+
+  show(position: number): void {
+    const axis = this.choice.at(position);
+    const own = this.told[axis];
+    // A prediction is made before anything is known: it is of all candidates.
+    const seen = this.quiz.hides ? own : own.filter((each) => each.at <= position);
+    const now = !this.quiz.hides && seen.at(-1)?.at === position ? position : -1;
+    const by = [axis, seen.length, now, this.quiz.stamp, this.typed.value, this.sorted.name, this.sorted.down].join(
+      "|",
+    );
+    if (by === this.by) return;
+    this.by = by;
+    this.seen = seen;
+    this.now = now;
+    if (axis !== this.axis) {
+      this.axis = axis;
+      this.scale = Math.max(1e-9, ...own.map((each) => Math.max(each.cost ?? 0, each.bound)).filter((n) => n < 1e6));
+      this.columns = this.columnsOf(own);
+      this.headed = "";
+    }
+    const holds = filter(this.typed.value);
+    const shown = seen.filter((each) => holds(filterable(each)));
+    this.sort(shown);
+    this.drawHead(own);
+    this.list.set(
+      shown,
+      shown.findIndex((each) => each.at === now),
+    );
+    const empty = own.length
+      ? "No candidate is judged yet: play on, or go to Candidates."
+      : "The trace tells no candidates of this axis.";
+    setText(this.note, seen.length ? "No candidate passes the filter." : empty);
+    this.note.hidden = shown.length > 0;
+    const whole = `${own.length} candidate${own.length === 1 ? "" : "s"}`;
+    setText(this.count, shown.length < own.length ? `${shown.length} of ${whole}` : whole);
+  }
+
+  private columnsOf(own: readonly Candidate[]): Column[] {
+    const counters = [...new Set(own.flatMap((each) => Object.keys(each.counters)))];
+    return [
+      {
+        name: "number",
+        label: "#",
+        title: "The order in which they are told",
+        width: "38px",
+        tells: true,
+        value: (each) => each.number,
+      },
+      {
+        name: "fate",
+        label: "fate",
+        title: "What became of it",
+        width: "112px",
+        value: (each) => each.fate,
+        tells: true,
+      },
+      ...counters.map(
+        (name): Column => ({
+          name,
+          label: name,
+          title: `Counter ${name}`,
+          width: "32px",
+          value: (each) => each.counters[name] ?? null,
+        }),
+      ),
+      ...METRICS.filter((each) => each.name !== "tolerance" || new Set(own.map((one) => one.tolerance)).size > 1),
+    ];
+  }
+
+  private patterns(): string[] {
+    return Object.keys(this.seen[0]?.words ?? {});
+  }
+
+  private sort(shown: Candidate[]): void {
+    const { name, down } = this.sorted;
+    const column = this.columns.find((each) => each.name === name);
+    const value = column ? column.value : (each: Candidate) => each.words[name] ?? null;
+    // In the order in which they are told the best often comes first.
+    const hidden = this.quiz.hides && (column?.tells || name === "number");
+    const order = (a: Candidate, b: Candidate): number => {
+      const [x, y] = [value(a), value(b)];
+      if (x === y) return a.number - b.number;
+      if (x === null) return 1; // what is not known comes last, either way
+      if (y === null) return -1;
+      return (x < y ? -1 : 1) * (down ? -1 : 1);
+    };
+    shown.sort(hidden ? byCounters : order);
+  }
+
+  private drawHead(own: readonly Candidate[]): void {
+    const by = [this.sorted.name, this.sorted.down, this.seen.length > 0].join();
+    if (by === this.headed) return;
+    this.headed = by;
+    const patterns = this.patterns();
+    const widths = [
+      ...this.columns.map((each) => each.width),
+      "110px",
+      ...patterns.map((name) => `minmax(90px, ${widest(own, name)}fr)`),
+    ];
+    this.el.style.setProperty("--fnb-columns", widths.join(" "));
+    const sorter = (name: string, label: string, title: string, number: boolean) => {
+      const active = this.sorted.name === name;
+      const sort = h(
+        "button",
+        { type: "button", class: "fnb-sort", title, "data-number": number },
+        label,
+        active ? (this.sorted.down ? " ▾" : " ▴") : "",
+      );
+      sort.addEventListener("click", () => {
+        this.sorted = { name, down: active && !this.sorted.down };
+        this.context.refresh();
+      });
+      return h(
+        "span",
+        { role: "columnheader", "aria-sort": active ? (this.sorted.down ? "descending" : "ascending") : null },
+        sort,
+      );
+    };
+    const focused = document.activeElement?.closest(".fnb-sort")?.getAttribute("title");
+    this.head.replaceChildren(
+      ...this.columns.map((each) => sorter(each.name, each.label, each.title, each.name !== "fate")),
+      h("span", { role: "columnheader", title: "From what it costs at least to what it costs" }, ""),
+      ...patterns.map((name) => sorter(name, name, `Word of ${name}`, false)),
+    );
+    if (focused)
+      this.head.querySelector<HTMLElement>(`.fnb-sort[title=${CSS.escape(focused)}]`)?.focus({ preventScroll: true });
+  }
+
+  private row(own: Candidate): HTMLElement {
+    const hides = this.quiz.hides;
+    const { state, why } = this.quiz.verdict(String(own.number));
+    const cells = this.columns.map((column) => {
+      const value = hides && column.tells ? null : column.value(own);
+      if (column.name === "fate") return this.fate(own, hides, why);
+      const text = typeof value === "number" ? formatNumber(value) : (value ?? "");
+      return h("span", { role: "cell", class: "fnb-candidate-number" }, text);
+    });
+    const words = Object.entries(own.words).map(([pattern, word]) => {
+      const cell = h("span", {
+        role: "cell",
+        class: "fnb-candidate-word",
+        title: word,
+        ...linked([target.word(own.axis, pattern, word)]),
+      });
+      cell.append(...spelled(parsed(word)));
+      return cell;
+    });
+    const is = [target.candidate(own.axis, own.number)];
+    const about = Object.entries(own.words).map(([pattern, word]) => target.word(own.axis, pattern, word));
+    return h(
+      "div",
+      {
+        role: "row",
+        class: "fnb-candidate",
+        tabindex: 0,
+        "data-fate": hides ? null : own.fate,
+        "data-now": own.at === this.now,
+        "data-verdict": state,
+        title: hides ? null : (FATES[own.fate] ?? null),
+        ...linked([...is, ...about]),
+      },
+      ...cells,
+      this.bar(own, hides),
+      ...words,
+    );
+  }
+
+  private fate(own: Candidate, hides: boolean, why: string): HTMLElement {
+    const cell = h("span", { role: "cell", class: "fnb-candidate-fate" });
+    if (this.quiz.on) {
+      const radio = h("input", {
+        type: "radio",
+        name: `fnb-quiz-${this.context.session.client}`,
+        "aria-label": `Candidate ${own.number} becomes the layout`,
+      });
+      radio.checked = this.quiz.has(String(own.number));
+      radio.disabled = this.quiz.done;
+      radio.addEventListener("change", () => this.quiz.choose(String(own.number)));
+      cell.append(radio);
+    }
+    if (!hides) cell.append(`${SIGNS[own.fate] ?? "✕"} ${own.fate}`);
+    if (why) mark(cell, "title", why);
+    return cell;
+  }
+
+  /** From what it costs at least to what it costs: the candidates on one scale. */
+  private bar(own: Candidate, hides: boolean): HTMLElement {
+    const place = (value: number) => `${(100 * Math.min(1, value / this.scale)).toFixed(2)}%`;
+    const least = h("i", { class: "fnb-bar-least" });
+    least.style.width = hides ? "0" : place(own.bound);
+    const cell = h("span", { role: "cell", class: "fnb-bar", "aria-hidden": "true" }, least);
+    const cost = own.cost ?? own.floor;
+    if (!hides && cost !== null) {
+      const whole = h("i", { class: own.cost === null ? "fnb-bar-floor" : "fnb-bar-cost" });
+      whole.style.left = place(cost);
+      cell.append(whole);
+    }
+    return cell;
+  }
+
+  private truths(): ReadonlyMap<string, Truth> {
+    const axis = this.choice.at(this.context.player.position);
+    const own = this.told[axis];
+    const best = own.find((each) => each.fate === "best");
+    return new Map(own.map((each) => [String(each.number), { right: each === best, why: because(each, best) }]));
+  }
+}
+
+function byCounters(a: Candidate, b: Candidate): number {
+  for (const [name, value] of Object.entries(a.counters)) {
+    const other = b.counters[name] ?? 0;
+    if (value !== other) return value - other;
+  }
+  return a.number - b.number;
+}
+
+function because(own: Candidate, best: Candidate | undefined): string {
+  const why = FATES[own.fate] ?? own.fate;
+  if (own === best || !best || best.cost === null) return why;
+  const known = own.cost ?? own.floor ?? own.bound;
+  const least = own.cost === null ? "at least " : "";
+  return `${why} ${least}${formatNumber(known)} m against ${formatNumber(best.cost)} m.`;
+}
+
+function filterable(own: Candidate) {
+  const { bound, tolerance, number, omega, columns, deviation } = own;
+  return {
+    numbers: {
+      ...own.counters,
+      J: own.cost,
+      omega,
+      Ω: omega,
+      columns,
+      deviation,
+      bound,
+      tolerance,
+      μ: tolerance,
+      number,
+    },
+    texts: [own.fate, ...Object.values(own.words), ...Object.values(own.words).map((word) => word.replaceAll(" ", ""))],
+  };
+}
+
+/** A share of the room for a pattern's words: as many as its longest has signs, within reason. */
+function widest(own: readonly Candidate[], pattern: string): number {
+  const longest = Math.max(...own.slice(0, 40).map((each) => spelled(parsed(each.words[pattern] ?? "")).length), 1);
+  return Math.max(6, Math.min(24, longest));
+}

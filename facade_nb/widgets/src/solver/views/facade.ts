@@ -1,0 +1,190 @@
+// The façade as the events build it: letters as strips while they are placed, then shape by shape; and what is lit
+// anywhere is outlined on it.
+
+import { h, mark, setText, svg } from "../../dom.ts";
+import { type Box, boxOf, type Drawing, parseDrawing } from "../../drawing.ts";
+import { icon } from "../../icons.ts";
+import { themeOf } from "../../theme.ts";
+import { linked, target } from "../links.ts";
+import { type PlacedLetter, Placing, type PlacingData } from "../placing.ts";
+import { type Axis, played } from "../timeline.ts";
+import type { View, ViewContext, ViewKind } from "../view.ts";
+
+interface FacadeData {
+  svg: { light: string; dark: string };
+  shapes: number[];
+  holes: number[];
+}
+
+const PREFIX = "fnb-traced";
+const PLAIN = 24; // pixels per metre of the plain frame, where there is no drawing
+
+export const facade: ViewKind = {
+  title: "Façade",
+  subtitle: "What the events have built so far",
+  needs: ["facade", "placing"],
+  make: (context) => new FacadeView(context),
+};
+
+class FacadeView implements View {
+  readonly el: HTMLElement;
+  private readonly data: FacadeData;
+  private readonly placing: Placing;
+  private readonly sheet = h("div", { class: "fnb-traced-sheet" });
+  private readonly note = h("p", { class: "fnb-traced-note" });
+  private readonly strips = svg("g");
+  private readonly marks = svg("g");
+  private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
+  readonly controls: HTMLElement[];
+  private preview = true;
+  private theme: "light" | "dark" | null = null;
+  private drawing: Drawing | null = null;
+  private shapes: SVGGElement[] = [];
+  private finish: Element[] = [];
+
+  constructor(private readonly context: ViewContext) {
+    this.data = context.pieces.facade as FacadeData;
+    this.placing = new Placing(context.pieces.placing as PlacingData, context.timeline.data.chosen);
+    this.el = h("div", { class: "fnb-traced", "data-preview": true }, this.sheet, this.note);
+    const toggle = h(
+      "button",
+      { type: "button", class: "fnb-button fnb-wide", "aria-pressed": "true", title: "Show faintly what it becomes" },
+      icon("eye"),
+      h("span", {}, "Preview"),
+    );
+    toggle.addEventListener("click", () => {
+      this.preview = !this.preview;
+      mark(this.el, "data-preview", this.preview);
+      mark(toggle, "aria-pressed", String(this.preview));
+      context.refresh();
+    });
+    this.controls = [toggle];
+    const observer = new MutationObserver(() => context.refresh());
+    observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
+    context.signal.addEventListener("abort", () => observer.disconnect());
+    requestAnimationFrame(() => context.signal.aborted || context.refresh()); // in the page it has a theme
+  }
+
+  show(position: number): void {
+    this.dress();
+    const drawn = played(this.data.shapes, position);
+    for (const [n, shape] of this.shapes.entries()) mark(shape, "data-later", n >= drawn);
+    // Lines and shadows are those of all shapes of a layer together: they come with the last shape.
+    const done = drawn === this.data.shapes.length && drawn > 0;
+    for (const element of this.finish) mark(element, "data-later", !done);
+    this.drawStrips(position, drawn > 0);
+    setText(this.note, this.say(position, drawn));
+  }
+
+  light(): void {
+    const { lit, picked } = this.context.links;
+    this.marks.replaceChildren(...this.outlines(picked, "fnb-traced-pick"), ...this.outlines(lit, "fnb-traced-lit"));
+  }
+
+  /** Put the drawing of the page's theme in the sheet. */
+  private dress(): void {
+    const theme = themeOf(this.el);
+    if (theme === this.theme) return;
+    this.theme = theme;
+    const text = this.data.svg[theme];
+    const { x: width, y: height } = this.context.timeline.data.canvas;
+    if (text) {
+      this.drawing = parseDrawing(text.replaceAll(PREFIX, this.ids));
+    } else {
+      const size = { width: width * PLAIN + 20, height: height * PLAIN + 20 };
+      const blank = svg("svg", { viewBox: `0 0 ${size.width} ${size.height}` });
+      this.drawing = { svg: blank, ...size, scale: PLAIN, origin: { x: 10, y: size.height - 10 } };
+    }
+    const { svg: picture, scale, origin } = this.drawing;
+    this.shapes = [...picture.querySelectorAll<SVGGElement>("[data-shape]")];
+    this.shapes.sort((a, b) => Number(a.dataset.shape) - Number(b.dataset.shape));
+    this.finish = [...picture.querySelectorAll(":scope > g > :not([data-shape])")];
+    for (const [n, shape] of this.shapes.entries()) {
+      const told = this.placing.shapes[n];
+      if (!told) continue;
+      const letters = this.placing.lettersOf(told).map((own) => target.letter(own.axis, own.layer, own.letter));
+      for (const [name, value] of Object.entries(linked([target.shape(n), ...letters], this.placing.about(told))))
+        mark(shape, name, value);
+    }
+    const frame = svg("rect", {
+      class: "fnb-traced-canvas",
+      x: origin.x,
+      y: origin.y - height * scale,
+      width: width * scale,
+      height: height * scale,
+    });
+    picture.prepend(frame);
+    picture.append(this.strips, this.marks);
+    this.sheet.replaceChildren(picture);
+  }
+
+  /** Before there are shapes: the letters that are placed, across and up, and the boundaries of their columns. */
+  private drawStrips(position: number, shaped: boolean): void {
+    const letters = this.placing.letters.filter((own) => own.at <= position && !own.transparent);
+    const lines = this.placing.boundaries.filter((own) => own.at <= position);
+    const shown = shaped ? [] : letters.map((own) => this.rect("fnb-traced-strip", this.strip(own)));
+    const cuts = shaped
+      ? []
+      : lines.flatMap((own) =>
+          own.boundaries.map((value) => this.rect("fnb-traced-cut", this.band(own.axis, value, value))),
+        );
+    this.strips.replaceChildren(...shown, ...cuts);
+  }
+
+  private say(position: number, drawn: number): string {
+    const { failure } = this.context.timeline.data;
+    if (drawn) return `${drawn} of ${this.data.shapes.length} shapes`;
+    if (failure) return failure;
+    return this.placing.letters.some((own) => own.at <= position)
+      ? "Letters are placed; shapes come in Merging"
+      : "Nothing is placed yet";
+  }
+
+  private outlines(keys: ReadonlySet<string>, name: string): SVGElement[] {
+    if (!keys.size) return [];
+    const { position } = this.context.player;
+    const own: SVGElement[] = [];
+    const single = [...keys].some((key) => key.startsWith("shape:"));
+    for (const [n, shape] of this.shapes.entries()) {
+      if (!this.preview && shape.hasAttribute("data-later")) continue;
+      const told = this.placing.shapes[n];
+      const hit = single ? keys.has(target.shape(n)) : told && this.placing.about(told).some((key) => keys.has(key));
+      if (hit) own.push(this.rect(name, boxOf(shape)));
+    }
+    if (single) return own;
+    for (const line of this.placing.boundaries) {
+      if (!this.preview && line.at > position) continue;
+      for (const [j, value] of line.boundaries.entries()) {
+        const next = line.boundaries[j + 1];
+        if (keys.has(target.boundary(line.axis, line.group, j)))
+          own.push(this.rect(`${name} fnb-traced-edge`, this.band(line.axis, value, value)));
+        if (next !== undefined && keys.has(target.column(line.axis, line.group, j)))
+          own.push(this.rect(`${name} fnb-traced-column`, this.band(line.axis, value, next)));
+      }
+    }
+    // A letter without a shape of its own: transparent, or masked.
+    const hidden = this.placing.letters.filter(
+      (each) => (this.preview || each.at <= position) && keys.has(target.letter(each.axis, each.layer, each.letter)),
+    );
+    for (const each of hidden) own.push(this.rect(`${name} fnb-traced-letter`, this.strip(each)));
+    return own;
+  }
+
+  private strip(own: PlacedLetter): Box {
+    return this.band(own.axis, own.start, own.end);
+  }
+
+  /** A band across the whole façade, in units of the drawing. */
+  private band(axis: Axis, start: number, end: number): Box {
+    const { x, y } = this.context.timeline.data.canvas;
+    const { scale, origin } = this.drawing as Drawing;
+    const size = (end - start) * scale;
+    return axis === "x"
+      ? { x: origin.x + start * scale, y: origin.y - y * scale, width: size, height: y * scale }
+      : { x: origin.x, y: origin.y - end * scale, width: x * scale, height: size };
+  }
+
+  private rect(name: string, box: Box): SVGRectElement {
+    return svg("rect", { class: name, "pointer-events": "none", ...box });
+  }
+}

@@ -1,0 +1,125 @@
+// The player, with all events as sentences, and the code that does what is played.
+
+import { h, mark, setText } from "../../dom.ts";
+import { icon } from "../../icons.ts";
+import { type Rows, rows } from "../rows.ts";
+import type { View, ViewContext, ViewKind } from "../view.ts";
+
+interface Captions {
+  text: string[];
+}
+
+interface CodeData {
+  stages: Record<string, string>;
+  kinds: Record<string, string>;
+  functions: Record<string, { file: string; line: number; tokens: [string, string][] }>;
+}
+
+const HEIGHT = 22;
+const MOST = 12;
+
+export const player: ViewKind = {
+  title: "Events",
+  subtitle: "What the solver did, one after the other",
+  needs: ["captions"],
+  make: (context) => new PlayerView(context),
+};
+
+class PlayerView implements View {
+  readonly el: HTMLElement;
+  readonly controls: HTMLElement[];
+  private readonly list: Rows<number>;
+  private readonly positions: number[];
+  private readonly code = h("div", { class: "fnb-code-panel", hidden: true });
+  private readonly title = h("p", { class: "fnb-code-title" });
+  private readonly text = h("pre", { class: "fnb-code-text", tabindex: 0, "aria-label": "Code of what is played" });
+  private data: CodeData | null = null;
+  private shown = "";
+  private now = -1;
+
+  constructor(private readonly context: ViewContext) {
+    const { text } = context.pieces.captions as Captions;
+    this.positions = text.map((_, at) => at);
+    this.list = rows<number>(
+      {
+        height: HEIGHT,
+        most: MOST,
+        key: (at) => `${at} ${Math.sign(at - this.now)}`,
+        make: (at) => this.row(at, text[at] ?? ""),
+      },
+      context.signal,
+    );
+    this.code.append(this.title, this.text);
+    const log = h("div", { class: "fnb-events", role: "table", "aria-label": "Events" }, this.list.el);
+    this.el = h("div", { class: "fnb-player" }, log, this.code);
+    const toggle = h(
+      "button",
+      {
+        type: "button",
+        class: "fnb-button fnb-wide",
+        "aria-pressed": "false",
+        title: "Show the code of what is played",
+      },
+      icon("code"),
+      h("span", {}, "Code"),
+    );
+    toggle.addEventListener("click", () => {
+      this.code.hidden = !this.code.hidden;
+      mark(toggle, "aria-pressed", String(!this.code.hidden));
+      mark(this.el, "data-code", !this.code.hidden);
+      void this.load();
+    });
+    this.controls = [toggle];
+    if (context.model.get<boolean>("code")) toggle.click();
+  }
+
+  show(position: number): void {
+    if (position !== this.now) {
+      this.now = position;
+      this.list.set(this.positions, position);
+    }
+    this.showCode(position);
+  }
+
+  private async load(): Promise<void> {
+    if (this.data || this.code.hidden) return;
+    setText(this.title, "Loading…");
+    try {
+      this.data = await this.context.session.piece<CodeData>("code");
+      if (!this.context.signal.aborted) this.context.refresh();
+    } catch (error) {
+      setText(this.title, error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  private showCode(position: number): void {
+    if (!this.data || this.code.hidden) return;
+    const { timeline } = this.context;
+    const stage = timeline.data.stages[timeline.stageAt(position)]?.stage ?? "";
+    const name = this.data.kinds[timeline.kindAt(position)] ?? this.data.stages[stage] ?? "";
+    if (name === this.shown) return;
+    this.shown = name;
+    const found = this.data.functions[name];
+    setText(this.title, found ? `${name}  ·  ${found.file}, line ${found.line}` : "");
+    this.text.replaceChildren(
+      ...(found?.tokens ?? []).map(([text, kind]) => (kind ? h("span", { class: `fnb-code-${kind}` }, text) : text)),
+    );
+    this.text.scrollTop = 0;
+  }
+
+  private row(at: number, caption: string): HTMLElement {
+    const { player, timeline } = this.context;
+    const row = h(
+      "div",
+      { role: "row", class: "fnb-event", "data-now": at === this.now, "data-later": at > this.now, title: caption },
+      h("span", { role: "cell", class: "fnb-event-at" }, String(at + 1)),
+      h("span", { role: "cell", class: "fnb-event-kind" }, timeline.kindAt(at)),
+      h("span", { role: "cell", class: "fnb-event-text" }, caption),
+    );
+    row.addEventListener("click", () => {
+      player.pause();
+      player.go(at);
+    });
+    return row;
+  }
+}

@@ -1,0 +1,72 @@
+import { afterEach, describe, expect, it } from "vitest";
+import { target } from "../../src/solver/links.ts";
+import { analysis } from "../../src/solver/views/analysis.ts";
+import { type Shown, show } from "./fixtures.ts";
+
+let one: Shown;
+afterEach(() => one?.end());
+
+const texts = (selector: string, within: ParentNode = one.view.el): string[] =>
+  [...within.querySelectorAll(selector)].map((element) => element.textContent ?? "");
+
+describe("pattern analysis", () => {
+  it("shows the supplement's example: common ends greyed, m + 2 = l", async () => {
+    one = await show(analysis, "supplement-3.1");
+    expect(texts(".fnb-pair-prefix")).toEqual(["Ak", "Ak"]);
+    expect(texts(".fnb-pair-middle")).toEqual(["Cm+2", "Cl"]);
+    expect(texts(".fnb-pair-middle sup")).toEqual(["m+2", "l"]);
+    expect(texts(".fnb-pair-equation")).toEqual(["⇒ m + 2 = l"]);
+    expect(texts(".fnb-strength")).toEqual(["binding"]);
+    expect(texts('[data-system="counters"] li .fnb-system-text')).toEqual(["m = l − 2"]);
+    expect(texts('[data-system="counters"] .fnb-free')).toEqual(["k", "l"]);
+    expect(one.view.el.querySelector("[data-conflict]")).toBeNull();
+  });
+
+  it("shows the pair that contradicts itself in red, from its event on", async () => {
+    one = await show(analysis, "contradiction");
+    const conflict = one.view.el.querySelector("[data-conflict]");
+    expect(conflict?.textContent).toContain("2m + 1 = 2l; no whole numbers satisfy that");
+    expect(texts(".fnb-system .fnb-pair-conflict")).toEqual(["(1) cannot hold."]);
+    const told = one.timeline.data.marks.find((each) => each.kind === "PairInconsistent");
+    one.go((told?.at ?? 0) - 1);
+    expect(one.view.el.querySelector("[data-conflict]")).toBeNull();
+    expect(texts(".fnb-pair-equation")).toEqual(["⇒ 2m + 1 = 2l"]);
+  });
+
+  it("names the equations that a contradiction is against", async () => {
+    one = await show(analysis, "apartment-house");
+    const numbers = (selector: string) => texts(`${selector} .fnb-pair-number`);
+    expect(numbers("[data-conflict]")).toEqual(["(4)", "(8)"]);
+    expect(numbers("[data-against]")).toEqual(["(2)"]);
+    expect(texts('[data-resolved=""] .fnb-system-text')).toEqual(["|f| = 3.6"]);
+  });
+
+  it("comes pair by pair, then the systems", async () => {
+    one = await show(analysis, "apartment-house");
+    const stage = one.timeline.data.stages.find((each) => each.stage === "analysis" && each.axis === "x");
+    const counts: [number, number][] = [];
+    for (let at = stage?.first ?? 0; at <= (stage?.last ?? 0); at++) {
+      one.go(at);
+      counts.push([texts(".fnb-pair").length, texts(".fnb-system").length]);
+    }
+    expect(counts[0]).toEqual([0, 0]);
+    expect(counts.at(-1)).toEqual([8, 2]);
+    for (const [n, [pairs, systems]] of counts.entries()) {
+      expect(pairs).toBeGreaterThanOrEqual(counts[n - 1]?.[0] ?? 0);
+      if (systems) expect(pairs).toBe(8);
+    }
+  });
+
+  it("lights up with counters, symbols and the rows that follow", async () => {
+    one = await show(analysis, "apartment-house");
+    const lit = () => {
+      one.links.apply(one.view.el);
+      return texts(".fnb-pair[data-lit] .fnb-pair-number");
+    };
+    one.links.hover([target.counter("m")]);
+    expect(lit()).toEqual(["(5)", "(7)", "(8)"]);
+    one.links.hover([target.equation("x", 1)]);
+    expect(lit()).toEqual(["(2)"]);
+    expect(texts("li[data-lit] .fnb-system-text")).toHaveLength(3); // the rows that follow from it
+  });
+});

@@ -1,0 +1,77 @@
+// What holds of every view: it shows a moment, not the way there; it steps in time; what it links is in the vocabulary.
+
+import { afterEach, describe, expect, it } from "vitest";
+import { target } from "../../src/solver/links.ts";
+import { VIEWS } from "../../src/solver/views/index.ts";
+import { DESIGNS, type Shown, show } from "./fixtures.ts";
+
+let shown: Shown[] = [];
+afterEach(() => {
+  for (const one of shown.splice(0)) one.end();
+  shown = [];
+});
+
+const open = async (name: string, design: string): Promise<Shown> => {
+  const kind = VIEWS[name];
+  if (!kind) throw new Error(`no view ${name}`);
+  const made = await show(kind, design);
+  shown.push(made);
+  return made;
+};
+
+/** Positions that matter: where stages begin and end, and some between, spread over the trace. */
+function positions({ timeline }: Shown): number[] {
+  const cuts = timeline.data.stages.flatMap(({ first, last }) => [
+    first,
+    first + 1,
+    Math.floor((first + last) / 2),
+    last,
+  ]);
+  return [...new Set([0, ...cuts, timeline.last].map((at) => Math.max(0, Math.min(timeline.last, at))))].sort(
+    (a, b) => a - b,
+  );
+}
+
+/** Ids that a view makes up may differ; what it shows may not. */
+const seen = ({ view }: Shown): string => view.el.outerHTML.replaceAll(/fnb-[a-z0-9]{6,}-/g, "fnb-id-");
+
+describe.each(Object.keys(VIEWS))("the view %s", (name) => {
+  it.each(DESIGNS)("shows the same stepping back as forward: %s", async (design) => {
+    const one = await open(name, design);
+    const places = positions(one);
+    const forward = places.map((at) => {
+      one.go(at);
+      return seen(one);
+    });
+    for (const [n, at] of [...places.entries()].reverse()) {
+      one.go(at);
+      expect(seen(one), `back at ${at}`).toBe(forward[n]);
+    }
+    // Nor does it matter where one jumps from.
+    const middle = places[Math.floor(places.length / 2)] ?? 0;
+    for (const from of [0, one.timeline.last]) {
+      one.go(from);
+      one.go(middle);
+      expect(seen(one), `at ${middle} from ${from}`).toBe(forward[places.indexOf(middle)]);
+    }
+  });
+
+  it("links to targets of the vocabulary only", async () => {
+    const one = await open(name, "apartment-house");
+    const kinds = new Set<string>();
+    for (const at of positions(one)) {
+      one.go(at);
+      for (const element of one.view.el.querySelectorAll("[data-link], [data-about]"))
+        for (const attribute of ["data-link", "data-about"])
+          for (const token of (element.getAttribute(attribute) ?? "").split(" ").filter(Boolean))
+            kinds.add(token.split(":")[0] ?? "");
+    }
+    expect([...kinds].filter((kind) => !(kind in target))).toEqual([]);
+  });
+
+  it("leaves nothing behind when it ends", async () => {
+    const one = await open(name, "figure-7");
+    one.end();
+    expect(() => one.player.go(0)).not.toThrow();
+  });
+});

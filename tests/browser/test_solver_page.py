@@ -1,0 +1,255 @@
+"""Analysis, candidates, events and code, the whole page, the qualifiers: what stands on the screen."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from .jupyter import App, Notebook, serve
+from .test_solver import TRACED, Watch, section, watch
+
+__all__ = ["watch"]
+
+PAIR = """
+def pair(over, under, counters={}):
+    layer = {"y": {"pattern": "Y"}}
+    return Design.from_dict({
+        "format": "facade-nb/design/1", "name": "A pair", "canvas": {"width": 9.0, "height": 1.0},
+        "symbols": {"A": {"size": 2.0}, "C": {"size": 1.3}, "H": {"size": 1.0}}, "counters": counters,
+        "patterns": {"Pattern0": over, "Pattern1": under, "Y": "H"},
+        "layers": [{"name": "under", "x": {"pattern": "Pattern1", "group": "one"}, **layer},
+                   {"name": "over", "x": {"pattern": "Pattern0", "group": "two"}, **layer, "depth": 1}]})
+from facade_nb import Design, NoLayout
+"""
+
+
+def texts(page: Page, selector: str) -> list[str]:
+    return [text.replace("\n", "") for text in page.locator(selector).all_inner_texts()]
+
+
+def test_the_supplements_pair_is_on_the_screen(watch: Watch) -> None:
+    lab = watch(PAIR + "AnalysisView(solve(pair('A^k c C^m c A^k; c := C', 'A^k C^l A^k'), trace=True))")
+    page = lab.page
+    assert texts(page, ".fnb-pair-middle") == ["Cm+2", "Cl"]
+    assert texts(page, ".fnb-pair-prefix") == ["Ak", "Ak"]
+    expect(page.locator(".fnb-pair-equation")).to_have_text("⇒ m + 2 = l")
+    expect(page.locator("[data-system=counters] .fnb-system-text")).to_have_text("m = l − 2")
+    # The common ends are fainter than what is left, and both lines stand one under the other.
+    faint = page.locator(".fnb-pair-prefix").first.evaluate("e => Number(getComputedStyle(e).opacity)")
+    assert faint < 0.8
+    above, below = (page.locator(".fnb-pair-middle").nth(n).bounding_box() for n in (0, 1))
+    assert above
+    assert below
+    assert above["x"] == pytest.approx(below["x"], abs=1)
+
+
+def test_the_inconsistent_pair_is_red(watch: Watch) -> None:
+    lab = watch(
+        PAIR
+        + """
+try:
+    solve(pair("A A^m A^m", "A^l A^l", {"m": {"max": 2}, "l": {"max": 2}}), trace=True)
+except NoLayout as none:
+    failed = none
+AnalysisView(failed)"""
+    )
+    page = lab.page
+    pair = page.locator(".fnb-pair[data-conflict]")
+    expect(pair).to_contain_text("2m + 1 = 2l; no whole numbers satisfy that")
+    red, _, blue = pair.locator(".fnb-pair-equation").evaluate(
+        "e => getComputedStyle(e).color.match(/[\\d.]+/g).map(Number)"
+    )[:3]
+    assert red > blue + 80
+
+
+def test_candidates_sort_filter_and_are_chosen(watch: Watch) -> None:
+    lab = watch("""
+        layout = traced('residential-house')
+        view = CandidatesView(layout)
+        display(view, WordsView(layout, player=False))
+    """)
+    page = lab.page
+    first = page.locator(".fnb-candidate[data-fate]").first
+    expect(first).to_contain_text("★ best")
+    page.locator(".fnb-sort", has_text="k").first.click()
+    page.locator(".fnb-sort", has_text="k").first.click()
+    expect(first).to_contain_text("· bound")
+    assert texts(page, ".fnb-candidate[data-fate] .fnb-candidate-word:last-child")[0] == "(AB)5A"
+    lab.field("Filter candidates: text, or comparisons such as k=3 or J<1").fill("k=4")
+    expect(page.locator(".fnb-candidate[data-fate]")).to_have_count(1)
+    expect(page.locator(".fnb-candidate-count")).to_have_text("1 of 5 candidates")
+    page.locator(".fnb-candidate[data-fate]").click()
+    expect(section(page, "Bx").locator(".fnb-word[data-chosen] .fnb-word-text")).to_have_text("(AB)4A")
+    lab.expect_python("view.model.picked[0]", "candidate:x:1")
+    page.locator(".fnb-candidate[data-fate]").press("Escape")
+    expect(page.locator(".fnb-word[data-chosen]")).to_have_count(0)
+
+
+def test_a_candidate_is_predicted(watch: Watch) -> None:
+    lab = watch("view = CandidatesView(traced('residential-house'), predict=True); view")
+    page = lab.page
+    assert "best" not in page.locator(".fnb-candidates").inner_text()
+    page.locator(".fnb-candidate input").nth(2).check()
+    lab.button("Check").click()
+    expect(page.locator(".fnb-quiz-outcome")).to_contain_text("Right. It is the layout.")
+    lab.expect_python("view.answer", {"right": ["0"], "wrong": [], "missed": []})
+
+
+def test_the_code_of_what_is_played(watch: Watch) -> None:
+    lab = watch("PlayerView(traced('residential-house'), at='x/words+2')")
+    page = lab.page
+    expect(page.locator(".fnb-event[data-now]")).to_contain_text("WordJudged")
+    lab.button("Code").click()
+    expect(page.locator(".fnb-code-title")).to_contain_text("solver.tracing.spelled.words_judged")
+    expect(page.locator(".fnb-code-text")).to_contain_text("def words_judged(")
+    lab.button("x: Sizing").click()
+    expect(page.locator(".fnb-code-title")).to_contain_text(
+        "solver.sizing.size_axis · facade_nb/solver/sizing.py"
+    )
+    page.locator(".fnb-event", has_text="ActiveSetStep").first.click()
+    expect(page.locator(".fnb-code-title")).to_contain_text("solver.tracing.activeset.steps")
+
+
+def test_the_page_brings_the_view_of_the_stage(watch: Watch) -> None:
+    lab = watch("view = SolverView(traced('residential-house'), at='x/analysis+3'); view")
+    page = lab.page
+    titles = page.locator(".fnb-page .fnb-view:visible .fnb-view-title")
+    expect(titles).to_have_text(["Façade", "Events", "Pattern analysis"])
+    lab.button("x: Words").click()
+    expect(titles).to_have_text(["Façade", "Events", "Words"])
+    lab.button("x: Candidates").click()
+    lab.button("Step forward").click()
+    expect(titles).to_have_text(["Façade", "Events", "Candidates"])
+    expect(page.locator(".fnb-candidate[data-now]")).to_contain_text("★ best")
+    lab.button("Pattern analysis").click()
+    lab.button("Follow the stage").click()
+    expect(titles).to_have_text(["Façade", "Events", "Pattern analysis"])
+    lab.expect_python("[view.follow, view.views]", [False, ["facade", "player", "analysis"]])
+
+
+def test_letters_light_up_on_the_facade_of_the_page(watch: Watch) -> None:
+    lab = watch("SolverView(traced('apartment-house'), views=['facade', 'words'], follow=False)")
+    page = lab.page
+    row = section(page, "Gx").locator(".fnb-word[data-taken]")
+    row.scroll_into_view_if_needed()
+    row.locator(".fnb-box", has_text="F").first.hover()
+    expect(page.locator(".fnb-traced-lit:not(.fnb-traced-letter)")).to_have_count(1)
+    lit = page.locator(".fnb-traced-lit:not(.fnb-traced-letter)").bounding_box()
+    door = page.locator(".fnb-traced [data-x=F][data-y=Z] .cell").first.bounding_box()
+    assert lit == pytest.approx(door, abs=2.5)
+
+
+def test_the_four_cases_of_figure_4(watch: Watch) -> None:
+    lab = watch("view = QualifiersView(); view")
+    page = lab.page
+    told = page.locator(".fnb-case-told")
+    covers = ["P covers D.", "P covers B.", "P stands between A and D.", "P stands between A and D."]
+    expect(told).to_have_text(covers)
+    # A post of (b) stands before the middle of its door, on the screen.
+    case = page.locator(".fnb-case[data-case=b]")
+    post, door = (case.locator(f"[data-x={x}] .cell").first.bounding_box() for x in "PB")
+    assert post
+    assert door
+    assert post["x"] + post["width"] / 2 == pytest.approx(door["x"] + door["width"] / 2, abs=2)
+    # Live: what makes (b) of (a), and back.
+    switch = lab.button("D is unoccludable, case a")
+    switch.click()
+    expect(told).to_have_text(["P covers B.", *covers[1:]])
+    expect(switch).to_have_attribute("aria-pressed", "true")
+    lab.expect_python("view.models[0].design.symbols['D'].unoccludable", True)
+    page.locator(".fnb-case[data-case=a]").get_by_role("button", name="As printed").click()
+    expect(told).to_have_text(covers)
+    lab.python("view.models[2].enter(('symbols', 'P', 'opaque'), False)")
+    expect(told.nth(2)).to_have_text("P covers B.")
+
+
+def test_every_control_has_a_name_and_keeps_its_keys(watch: Watch) -> None:
+    lab = watch(
+        "display(SolverView(traced('figure-7'), views=['facade', 'words', 'candidates']), QualifiersView())"
+    )
+    nameless = lab.page.evaluate(
+        """() => [...document.querySelectorAll('.fnb :is(button, input, select, [tabindex])')]
+            .filter(e => !(e.ariaLabel || e.textContent.trim()) || e.dataset.lmSuppressShortcuts !== 'true')
+            .map(e => e.outerHTML.slice(0, 200))"""
+    )
+    assert nameless == []
+
+
+@pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
+def test_looks(watch: Watch, out: Path, theme: str) -> None:
+    """Screenshots of the page at each stage, and that nothing sticks out of it."""
+    lab = watch("SolverView(traced('apartment-house'), height=700)")
+    page = lab.page
+    name = theme.split()[1].lower()
+    try:
+        lab.theme(theme)  # type: ignore[arg-type]
+        for stage in ("x: Analysis", "x: Words", "x: Candidates", "x: Alignment", "x: Sizing", "Merging"):
+            lab.button(stage).click()
+            for _ in range(3):
+                lab.button("Step forward").click()
+            page.wait_for_timeout(300)
+            wide = page.evaluate(
+                """() => { const root = document.querySelector('.fnb-page').getBoundingClientRect();
+                    return [...document.querySelectorAll('.fnb-view, .fnb-playbar')].filter(e => e.checkVisibility())
+                        .filter(e => e.getBoundingClientRect().right > root.right + 1).map(e => e.ariaLabel); }"""
+            )
+            assert wide == []
+            page.screenshot(path=out / f"solver-{name}-{stage.split()[-1].lower()}.png")
+    finally:
+        lab.theme("JupyterLab Light")
+
+
+def test_the_notebook_shows_its_saved_state_and_can_be_played_without_a_kernel(
+    browser: Browser, tmp_path: Path
+) -> None:
+    shutil.copy(Path(__file__).resolve().parents[2] / "notebooks" / "solver.ipynb", tmp_path)
+    with serve(tmp_path, "lab") as (address, token), browser.new_page() as page:
+        lab = Notebook(page, address, token, tmp_path, "lab")
+        lab.visit("solver.ipynb")
+        expect(page.get_by_alt_text("Elevation of Apartment house")).to_be_visible()  # before it is trusted
+        expect(page.locator("caption", has_text="Stages of Apartment house")).to_be_visible()
+        lab.trust()
+        house = page.locator(".fnb-page")
+        expect(house.locator(".fnb-traced [data-shape]").first).to_be_attached()
+        house.get_by_role("button", name="x: Words", exact=True).click()
+        for _ in range(3):
+            house.get_by_role("button", name="Step forward", exact=True).click()
+        expect(house.locator(".fnb-word[data-now]")).to_have_count(1)
+        # What was not needed before is not in the saved state, and that is said.
+        house.get_by_role("button", name="Code", exact=True).click()
+        expect(house.locator(".fnb-code-title")).to_contain_text("run the notebook to see it")
+        figure = page.locator(".fnb-part-words")
+        figure.scroll_into_view_if_needed()
+        expect(figure.locator(".fnb-tuple-box h4")).to_have_text("Candidates for alignment (6)")
+        assert lab.take_problems() == []
+
+
+@pytest.mark.parametrize("app", ["notebook", "voila"])
+def test_the_views_work_in_other_applications(browser: Browser, tmp_path: Path, app: App) -> None:
+    with serve(tmp_path, app) as (address, token), browser.new_page() as page:
+        notebook = Notebook(page, address, token, tmp_path, app)
+        notebook.open(TRACED + "SolverView(traced('residential-house'))")
+        if app == "notebook":
+            notebook.run()
+        expect(page.locator(".fnb-traced-note")).to_have_text("17 of 17 shapes", timeout=60_000)
+        notebook.button("x: Words").click()
+        for _ in range(3):
+            notebook.button("Step forward").click()
+        expect(page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("CeC")
+        notebook.button("Code").click()  # a piece that Python is asked for
+        expect(page.locator(".fnb-code-text")).to_contain_text("def words_judged(")
+
+
+def test_running_the_cell_again_leaves_nothing_behind(watch: Watch) -> None:
+    lab: Notebook = watch("view = SolverView(traced('figure-7')); view")
+    shown = lab.page.locator(".fnb-view").first
+    for _ in range(4):
+        shown.evaluate("e => { e.dataset.old = 'true'; }")
+        lab.run()
+        expect(lab.page.locator(".fnb-view:not([data-old])").first).to_be_visible()
+    widgets = "__import__('ipywidgets').Widget.widgets.values()"
+    lab.expect_python(f"sum(len(w.timeline) > 0 for w in {widgets} if type(w).__name__ == 'TraceChannel')", 1)
+    lab.expect_python(f"sum(type(w).__name__ == 'Code' and w._front == 'solver' for w in {widgets})", 1)
