@@ -12,6 +12,7 @@ from .parts import (
     Toolbar,
 )
 from .studio import MassingView, Studio
+from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
 from .visible import (
     AnalysisView,
     CandidatesView,
@@ -33,16 +34,22 @@ __all__ = [
     "ElevationView",
     "FacadeModel",
     "FacadeView",
+    "GrammarEditor",
+    "GrammarTable",
     "LayerEditor",
     "MassingView",
     "Part",
     "PatternEditor",
+    "PixelInspector",
     "PlayerView",
     "QualifiersView",
     "Selection",
     "SolverView",
     "Studio",
     "SymbolEditor",
+    "TextureModel",
+    "TextureStudio",
+    "TextureView",
     "Toolbar",
     "TraceModel",
     "TraceView",

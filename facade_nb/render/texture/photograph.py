@@ -203,7 +203,9 @@ def _facade_light(
     question = facade.grammar.question(facade.size, facade.seed, facade.start)
     # A pixel covers this much of what is seen straight on; seen slantwise it is sampled finely enough across.
     everywhere = np.ones(len(own), bool)
-    looks = Looks(np.ascontiguousarray(hits.places[own]), local, distance * np.float32(spread), everywhere)
+    looks = Looks(
+        np.ascontiguousarray(hits.places[own]), local, distance * np.float32(spread), spread, everywhere
+    )
     surface = painter.paint_at(question, looks, mips=True).surface
     points = eye + distance[:, None] * rays
     skip = np.full(len(own), index, np.int32)
