@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 from playwright.sync_api import expect
 
 from .jupyter import Notebook
@@ -142,8 +144,10 @@ def test_a_lost_context_comes_back(live: Live) -> None:
     assert (after != before).any()
 
 
-def test_ten_views_share_a_context(live: Live) -> None:
-    lab = live("""
+def test_ten_views_share_a_context(live: Live, lab: Notebook) -> None:
+    made = "() => globalThis[Symbol.for('facade_nb.texture.renderer')]?.made ?? 0"
+    before = lab.page.evaluate(made)
+    live("""
         display(*(TextureView(TEXT, seed=(k, 2 * k), lit=False, controls=False, layout={'width': '120px'})
                   for k in range(10)))
     """)
@@ -152,6 +156,10 @@ def test_ten_views_share_a_context(live: Live) -> None:
         image = pixels(lab, k)
         assert (image[..., 3] > 0).mean() > 0.5
         assert image[..., :3].std() > 5
+    assert lab.page.evaluate(made) == max(before, 1)
+    for stage in lab.page.locator(".fnb-tex-stage").all():  # also as the screen has them
+        stage.scroll_into_view_if_needed()
+        assert np.array(Image.open(BytesIO(stage.screenshot())).convert("L")).std() > 5
 
 
 def test_a_click_shows_the_derivation(live: Live, out: Path) -> None:
@@ -171,4 +179,6 @@ def test_a_click_shows_the_derivation(live: Live, out: Path) -> None:
         lab.theme(theme)
         lab.page.wait_for_timeout(900)
         lab.page.locator(".fnb-tex-stage").scroll_into_view_if_needed()
+        stage = lab.page.locator(".fnb-tex-stage").screenshot()
+        assert np.array(Image.open(BytesIO(stage)).convert("L")).std() > 5
         lab.page.locator(".fnb-texture").screenshot(path=out / f"texture-{theme.split()[1].lower()}.png")

@@ -63,8 +63,8 @@ class _TextureWidget(AnyWidget):
         model = self.model
         if not self._pictured or model.grammar is None:
             return ""
-        width = 480
-        height = max(1, min(480, round(width * model.size[1] / model.size[0])))
+        width = 360
+        height = max(1, min(360, round(width * model.size[1] / model.size[0])))
         pixels = texture_pixels(model.grammar, size=model.size, seed=model.seed, pixels=(width, height))
         data = b64encode(png(pixels)).decode("ascii")
         alt = escape(f"Façade of {model.size[0]:g} × {model.size[1]:g} m drawn by a texture grammar")
@@ -113,7 +113,8 @@ class TextureView(_TextureWidget):
         width, height = self.model.size
         x, y = self.target or (width / 2, height / 2)
         half = tan(radians(ANGLE) / 2)
-        distance = self.distance or 1.04 * max(width, height * pixels[0] / pixels[1]) / 2 / half
+        margin = 1.04 if self.flat else 1.35
+        distance = self.distance or margin * max(width, height * pixels[0] / pixels[1]) / 2 / half
         if self.flat:
             wide = distance * half
             tall = wide * pixels[1] / pixels[0]

@@ -25,11 +25,11 @@ export function picture(session: Session, model: WidgetModel, signal: AbortSigna
     role: "img",
     "data-lm-suppress-shortcuts": "true",
   });
-  const paper = canvas.getContext("2d", { willReadFrequently: false }) as CanvasRenderingContext2D;
   const overlay = svg("svg", { class: "fnb-tex-overlay", "aria-hidden": "true" });
   const note = h("div", { class: "fnb-tex-note", role: "status" });
   const stage = h("div", { class: "fnb-tex-stage" }, canvas, overlay, note);
   const painter = renderer();
+  const paper = canvas.getContext("2d", { willReadFrequently: painter.software }) as CanvasRenderingContext2D;
   let coarse = 1;
   let timer = 0;
   let frame = 0;

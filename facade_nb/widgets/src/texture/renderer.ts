@@ -83,8 +83,17 @@ export class Renderer {
     });
   }
 
-  get lost(): boolean {
-    return this.gl?.isContextLost() ?? false;
+  /** Whether it draws without a graphics card: then pictures are copied into canvases in main memory. */
+  get software(): boolean {
+    try {
+      const gl = this.context();
+      const names = gl?.getExtension("WEBGL_debug_renderer_info");
+      return /swiftshader|llvmpipe|softpipe|software/i.test(
+        String(gl?.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER)),
+      );
+    } catch {
+      return true;
+    }
   }
 
   /** Let the browser take the context, and give it back: what a driver's reset does. */

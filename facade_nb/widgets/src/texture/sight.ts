@@ -27,7 +27,7 @@ export function targetOf(look: Look, size: Pair): Pair {
 }
 
 export function distanceOf(look: Look, size: Pair, aspect: number): number {
-  return look.distance || (1.04 * Math.max(size[0], size[1] * aspect)) / 2 / HALF;
+  return look.distance || ((look.flat ? 1.04 : 1.35) * Math.max(size[0], size[1] * aspect)) / 2 / HALF;
 }
 
 /** The sight of a picture `aspect` times as wide as high. */
