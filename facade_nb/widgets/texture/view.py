@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
+from collections.abc import Iterable
 from html import escape
 from math import cos, radians, sin, tan
 from typing import Any, ClassVar
@@ -17,6 +18,7 @@ from ...render.texture.view import Sight
 from ..bundled import bundle
 from .channel import TextureChannel
 from .model import TextureModel
+from .packet import grammar_table, step_text
 
 __all__ = ["GrammarEditor", "GrammarTable", "PixelInspector", "TextureStudio", "TextureView"]
 
@@ -25,6 +27,12 @@ _LARGEST = 400_000
 
 ANGLE = 50.0
 """Width of the view, degrees."""
+
+
+def _table(rows: Iterable[Iterable[str]]) -> str:
+    """A plain table in HTML."""
+    cells = ("".join(f"<td>{escape(cell)}</td>" for cell in row) for row in rows)
+    return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
 
 
 class _TextureWidget(AnyWidget):
@@ -133,17 +141,42 @@ class GrammarEditor(_TextureWidget):
 
     _shows = "editor"
 
+    def to_html(self) -> str:
+        """The text, a row for each line."""
+        lines = enumerate(self.model.text.split("\n"), 1)
+        return _table((str(number), line) for number, line in lines)
+
 
 class PixelInspector(_TextureWidget):
     """How the pixel that was clicked came about, step by step."""
 
     _shows = "inspector"
 
+    def to_html(self) -> str:
+        """The steps."""
+        return _table((step.name, step.operator, step_text(step)) for step in self.model.derivation)
+
 
 class GrammarTable(_TextureWidget):
     """The grammar texture, channel by channel, with names (the paper's Figure 3)."""
 
     _shows = "table"
+
+    def to_html(self) -> str:
+        """Every rule, its pixels one after the other."""
+        if self.model.grammar is None:
+            return ""
+        return _table(
+            (
+                row["name"],
+                row["operator"],
+                *(
+                    " · ".join(f"{label} {value}" if label else "–" for label, value in pixel["channels"])
+                    for pixel in row["pixels"]
+                ),
+            )
+            for row in grammar_table(self.model.grammar)
+        )
 
 
 class TextureStudio(TextureView):
