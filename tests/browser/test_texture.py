@@ -187,9 +187,6 @@ def test_a_click_shows_the_derivation(live: Live) -> None:
     expect(lab.page.locator(".fnb-tex-pixel[data-lit=now]")).to_have_count(read)
 
 
-@pytest.mark.xfail(
-    reason="after a change of theme headless Chromium shows the stage white, though the canvas holds its picture"
-)
 @pytest.mark.parametrize("theme", ["JupyterLab Dark", "JupyterLab Light"])
 def test_the_picture_stays_on_the_screen_when_the_theme_changes(live: Live, out: Path, theme: Any) -> None:
     lab = live("TextureStudio(gallery.grammar('figure-12'), flat=False, turn=20.0, rise=-8.0)")
