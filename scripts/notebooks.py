@@ -1,6 +1,6 @@
 """Run notebooks and save them as they are kept here: with outputs and widget state, without times.
 
-python scripts/notebooks.py [NAME ...]     all that have widgets, or those named: studio, solver
+python scripts/notebooks.py [NAME ...]     all that have widgets, or those named: studio, solver, texture
 """
 
 import sys
@@ -11,7 +11,9 @@ import nbformat
 from nbclient import NotebookClient
 
 ROOT = Path(__file__).resolve().parents[1]
-WIDGETS = ("studio", "solver")
+WIDGETS = ("studio", "solver", "texture")
+STATIC = ("texture",)
+"""Saved with static forms alone: the tiles would make their state too large."""
 
 
 def main(names: Sequence[str]) -> None:
@@ -25,6 +27,8 @@ def main(names: Sequence[str]) -> None:
         notebook.metadata.pop("language_info", None)
         for cell in notebook.cells:
             cell.metadata.pop("execution", None)
+        if name in STATIC:
+            notebook.metadata.pop("widgets", None)
         nbformat.write(notebook, path)
         print(f"{path.relative_to(ROOT)}  {path.stat().st_size / 1000:.1f} kB")
 

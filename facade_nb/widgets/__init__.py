@@ -12,6 +12,7 @@ from .parts import (
     Toolbar,
 )
 from .studio import MassingView, Studio
+from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
 from .visible import (
     AlignmentView,
     AnalysisView,
@@ -37,11 +38,14 @@ __all__ = [
     "ElevationView",
     "FacadeModel",
     "FacadeView",
+    "GrammarEditor",
+    "GrammarTable",
     "LayerEditor",
     "MassingView",
     "NetworkView",
     "Part",
     "PatternEditor",
+    "PixelInspector",
     "PlayerView",
     "QualifiersView",
     "Selection",
@@ -49,6 +53,9 @@ __all__ = [
     "SolverView",
     "Studio",
     "SymbolEditor",
+    "TextureModel",
+    "TextureStudio",
+    "TextureView",
     "Toolbar",
     "TraceModel",
     "TraceView",

@@ -1,0 +1,49 @@
+// The bundle of the views of a texture grammar.
+
+import "../styles/base.css";
+import "../styles/fields.css";
+import "../styles/texture.css";
+import { h, mark } from "../dom.ts";
+import { editor } from "../texture/editor.ts";
+import { inspector } from "../texture/inspector.ts";
+import { picture } from "../texture/picture.ts";
+import { Session } from "../texture/session.ts";
+import { table } from "../texture/table.ts";
+import { adoptStyle, watchTheme } from "../theme.ts";
+import type { Mount } from "../types.ts";
+
+export function mount({ el, model, channel, css }: Mount): () => void {
+  const end = new AbortController();
+  adoptStyle(css);
+  const session = Session.of(channel);
+  const parts: Record<string, () => HTMLElement> = {
+    view: () => picture(session, model, end.signal),
+    editor: () => editor(session, end.signal),
+    inspector: () => inspector(session, end.signal),
+    table: () => table(session, end.signal),
+    studio: () =>
+      h(
+        "div",
+        { class: "fnb-tex-studio" },
+        h("div", {}, picture(session, model, end.signal), inspector(session, end.signal)),
+        h("div", {}, editor(session, end.signal), table(session, end.signal)),
+      ),
+  };
+  const part = model.get<string>("part");
+  const make = parts[part];
+  if (!make) throw new Error(`facade_nb: no view of a texture named ${part}`);
+  const root = h("div", { class: `fnb fnb-texture fnb-texture-${part}` });
+  mark(root, "data-lm-suppress-shortcuts", true);
+  watchTheme(root, end.signal, () => {});
+  el.append(root);
+  const trouble = h("pre", { class: "fnb-tex-trouble", role: "alert", hidden: true });
+  root.append(make(), trouble);
+  session.hold(() => {
+    trouble.textContent = session.trouble;
+    trouble.hidden = !session.trouble;
+  }, end.signal);
+  return () => {
+    end.abort();
+    root.remove();
+  };
+}

@@ -1,0 +1,78 @@
+// The text of the grammar. Faults stand below it, each with its line and a caret; a click goes to the place.
+
+import { h, mark, setText } from "../dom.ts";
+import type { Session } from "./session.ts";
+
+/** The offset of a line and column, both from 1. */
+export function offsetOf(text: string, line: number, column: number): number {
+  const lines = text.split("\n").slice(0, line - 1);
+  return Math.min(text.length, lines.reduce((sum, one) => sum + one.length + 1, 0) + column - 1);
+}
+
+export function editor(session: Session, signal: AbortSignal): HTMLElement {
+  const area = h("textarea", {
+    class: "fnb-tex-text",
+    spellcheck: "false",
+    autocomplete: "off",
+    wrap: "off",
+    "aria-label": "Grammar",
+    "data-lm-suppress-shortcuts": "true",
+  });
+  const gutter = h("div", { class: "fnb-tex-gutter", "aria-hidden": "true" });
+  const list = h("div", { class: "fnb-tex-faults", role: "status" });
+  let numbered = "";
+
+  const number = () => {
+    const count = area.value.split("\n").length;
+    const faulty = new Set(session.faults.map((fault) => fault.line));
+    const now = `${count}:${[...faulty]}`;
+    if (now === numbered) return;
+    numbered = now;
+    gutter.replaceChildren(
+      ...Array.from({ length: count }, (_, k) => h("div", { "data-faulty": faulty.has(k + 1) }, String(k + 1))),
+    );
+    gutter.scrollTop = area.scrollTop;
+  };
+  area.addEventListener("input", () => {
+    session.type(area.value);
+    number();
+  });
+  area.addEventListener("scroll", () => {
+    gutter.scrollTop = area.scrollTop;
+  });
+  session.hold(() => {
+    if (!session.typing && area.value !== session.text) area.value = session.text;
+    area.readOnly = !session.live;
+    mark(area, "aria-invalid", session.faults.length ? "true" : null);
+    number();
+    const key = JSON.stringify(session.faults);
+    if (list.dataset.key === key) return;
+    list.dataset.key = key;
+    list.replaceChildren(
+      ...session.faults.map((fault) => {
+        const place = fault.line ? `Line ${fault.line}, column ${fault.column}` : fault.place;
+        const go = h(
+          "button",
+          { type: "button", class: "fnb-tex-fault" },
+          h("strong", {}, place),
+          " ",
+          h("span", {}, fault.message),
+          h("pre", {}, fault.excerpt),
+        );
+        go.addEventListener("click", () => {
+          area.focus();
+          const at = offsetOf(area.value, fault.line ?? 1, fault.column ?? 1);
+          area.setSelectionRange(at, at);
+        });
+        return go;
+      }),
+    );
+    if (!session.faults.length) setText(list, session.scene?.report ?? "");
+  }, signal);
+  return h(
+    "section",
+    { class: "fnb-tex-editor", "aria-label": "Grammar editor" },
+    h("div", { class: "fnb-tex-code" }, gutter, area),
+    list,
+  );
+}

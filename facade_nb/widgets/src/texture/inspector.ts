@@ -1,0 +1,58 @@
+// How the pixel that was clicked came about, step by step.
+
+import { h, mark } from "../dom.ts";
+import type { Session } from "./session.ts";
+
+export function inspector(session: Session, signal: AbortSignal): HTMLElement {
+  const head = h("div", { class: "fnb-tex-hint", role: "status" });
+  const list = h("ol", { class: "fnb-tex-steps" });
+  let shown: unknown = null;
+  list.addEventListener("keydown", (event) => {
+    const by = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
+    if (!by) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const to = Math.min(session.steps.length - 1, Math.max(0, session.step + by));
+    session.look(to);
+    list.children[to]?.querySelector("button")?.focus();
+  });
+  session.hold(() => {
+    const { steps, point } = session;
+    if (shown !== steps) {
+      shown = steps;
+      list.replaceChildren(
+        ...steps.map((step, k) => {
+          const layer = step.layers.map(([, number]) => `layer ${number}`).join(", ");
+          const where = [...step.faces, layer].filter(Boolean).join(" · ");
+          const swatch = step.color && h("i", { class: "fnb-tex-swatch" });
+          if (swatch && step.color)
+            swatch.style.background = `rgb(${step.color
+              .slice(0, 3)
+              .map((v) => Math.round(255 * v))
+              .join(" ")})`;
+          const go = h(
+            "button",
+            { type: "button", "data-lm-suppress-shortcuts": "true" },
+            h("b", {}, step.rule),
+            " ",
+            h("code", {}, step.operator),
+            " ",
+            h("span", {}, step.text),
+            swatch,
+            where ? h("small", {}, where) : null,
+          );
+          go.addEventListener("click", () => session.look(k));
+          return h("li", {}, go);
+        }),
+      );
+    }
+    [...list.children].forEach((row, k) => {
+      mark(row, "aria-current", k === session.step ? "step" : null);
+    });
+    head.textContent =
+      point && steps.length
+        ? `At ${point.map((v) => v.toFixed(2)).join(", ")} m: ${steps.length} steps`
+        : "Click the façade, or press Enter on it, to see how a pixel comes about.";
+  }, signal);
+  return h("section", { class: "fnb-tex-inspector", "aria-label": "Pixel inspector" }, head, list);
+}

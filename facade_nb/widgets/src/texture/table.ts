@@ -1,0 +1,61 @@
+// The grammar texture, a rule in each row, its channels with their names: the paper's Figure 3 for this grammar. What the
+// pixel looked into has read is lit.
+
+import { h, mark } from "../dom.ts";
+import type { Session } from "./session.ts";
+
+export function table(session: Session, signal: AbortSignal): HTMLElement {
+  const body = h("tbody", {});
+  const box = h(
+    "div",
+    {
+      class: "fnb-tex-table",
+      tabindex: 0,
+      role: "region",
+      "aria-label": "Grammar texture",
+      "data-lm-suppress-shortcuts": "true",
+    },
+    h(
+      "table",
+      {},
+      h("thead", {}, h("tr", {}, ...["rule", "operator", "pixels"].map((name) => h("th", { scope: "col" }, name)))),
+      body,
+    ),
+  );
+  let shown: unknown = null;
+  let cells = new Map<string, HTMLElement>();
+  session.hold(() => {
+    const { scene } = session;
+    if (scene && shown !== scene) {
+      shown = scene;
+      cells = new Map();
+      body.replaceChildren(
+        ...scene.table.map((rule) => {
+          const pixels = rule.pixels.map(({ at, channels }) => {
+            const cell = h(
+              "div",
+              { class: "fnb-tex-pixel" },
+              h("small", {}, at.join(", ")),
+              ...channels.map(([label, value]) =>
+                h("span", { "data-empty": label === "" }, h("i", {}, label || "–"), label ? value : ""),
+              ),
+            );
+            cells.set(at.join(), cell);
+            return cell;
+          });
+          return h(
+            "tr",
+            {},
+            h("th", { scope: "row" }, rule.name),
+            h("td", {}, rule.operator),
+            h("td", {}, h("div", { class: "fnb-tex-pixels" }, ...pixels)),
+          );
+        }),
+      );
+    }
+    const read = new Set(session.steps.flatMap((step) => step.records.map((at) => at.join())));
+    const now = new Set(session.steps[session.step]?.records.map((at) => at.join()) ?? []);
+    for (const [at, cell] of cells) mark(cell, "data-lit", now.has(at) ? "now" : read.has(at) ? "read" : null);
+  }, signal);
+  return box;
+}

@@ -1,0 +1,116 @@
+"""The wire between a texture model and the browser: the grammar in pieces, what is typed, the pixel looked into."""
+
+from __future__ import annotations
+
+import traceback
+from typing import Any
+from weakref import WeakKeyDictionary
+
+from traitlets import Bool, Bytes, Dict, Float, List, TraitError, Unicode
+
+from ..bundled import Bundled, Message
+from .model import TextureModel, told
+from .packet import derivation, light_piece, scene_piece, tiles_piece
+
+__all__ = ["TextureChannel"]
+
+_PLAIN = ("size", "seed", "hour", "lit")
+
+
+def _same_all(model: TextureModel) -> dict[str, Any]:
+    return {
+        "text": model.text,
+        "faults": told(model.faults),
+        "size": list(model.size),
+        "seed": list(model.seed),
+        "hour": model.hour,
+        "lit": model.lit,
+        "point": list(model.point or ()),
+        "ray": list(model.ray or ()),
+        "steps": derivation(model.derivation),
+    }
+
+
+class TextureChannel(Bundled):
+    """One texture model's line to the browser. Get it by `TextureChannel.of`: there is one for each."""
+
+    front = "texture"
+
+    text = Unicode().tag(sync=True)
+    faults = List(Dict()).tag(sync=True)
+    ack = Dict(help="Client and number of the last text that was read.").tag(sync=True)
+    scene = Bytes().tag(sync=True)
+    tiles = Bytes().tag(sync=True)
+    light = Bytes().tag(sync=True)
+    size = List(Float()).tag(sync=True)
+    seed = List(Float()).tag(sync=True)
+    hour = Float().tag(sync=True)
+    lit = Bool().tag(sync=True)
+    point = List(Float()).tag(sync=True)
+    ray = List(Float()).tag(sync=True)
+    steps = List(Dict()).tag(sync=True)
+
+    def __init__(self, model: TextureModel) -> None:
+        self.model = model
+        self._tiles: tuple[str, ...] | None = None
+        super().__init__(**_same_all(model))
+        self._refill()
+        model.observe(self._on_model)
+
+    @classmethod
+    def of(cls, model: TextureModel) -> TextureChannel:
+        """The channel of a model, made when first asked for, or anew if it was closed."""
+        channel = _channels.get(model)
+        if channel is None or channel.comm is None:
+            channel = _channels[model] = cls(model)
+        return channel
+
+    def close(self) -> None:
+        """Close the wire; the model lives on."""
+        if self.comm is not None:
+            self.model.unobserve(self._on_model)
+        super().close()
+
+    def _refill(self) -> None:
+        grammar = self.model.grammar
+        self.light = light_piece()
+        if grammar is None:
+            return
+        try:
+            if self._tiles != grammar.encoding.tiles:
+                self.tiles = tiles_piece(grammar)
+                self._tiles = grammar.encoding.tiles
+            self.scene = scene_piece(grammar)
+        except Exception:  # the edge to the browser: it is shown there, not lost in a log
+            self.trouble = traceback.format_exc()
+
+    def _empty(self) -> None:
+        self._tiles = None
+        self.scene = self.tiles = self.light = b""
+
+    def _on_model(self, change: Any) -> None:
+        with self.hold_sync():
+            if change["name"] == "grammar" and not self._asleep:
+                self._refill()
+            for name, value in _same_all(self.model).items():
+                setattr(self, name, value)
+
+    def _answer(self, message: Message) -> None:
+        try:
+            with self.hold_sync():
+                op = message.get("op")
+                if op == "text":
+                    self.model.enter(str(message["text"]))
+                    self.ack = {"client": message["client"], "seq": message["seq"]}
+                elif op == "pick":
+                    self.model.pick(message["point"], message.get("ray"))
+                elif op == "set" and message["name"] in _PLAIN:
+                    value = message["value"]
+                    setattr(self.model, message["name"], tuple(value) if isinstance(value, list) else value)
+        except TraitError as error:
+            self.trouble = str(error)
+        except Exception:  # as above
+            self.trouble = traceback.format_exc()
+
+
+_channels: WeakKeyDictionary[TextureModel, TextureChannel] = WeakKeyDictionary()

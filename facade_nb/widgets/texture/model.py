@@ -1,0 +1,133 @@
+"""The shared state of the views of one texture grammar. It needs no notebook."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from traitlets import Bool, Float, HasTraits, Instance, TraitError, Tuple, Unicode, validate
+
+from ...design import DesignError
+from ...design.errors import Fault
+from ...render import Grammar
+from ...render.texture.atlas import Tiles
+from ...render.texture.steps import Step
+
+__all__ = ["TextureModel"]
+
+_WIDEST = 1000.0
+
+
+class TextureModel(HasTraits):
+    """A grammar that is being edited, the façade it is shown on, and the pixel that is looked into.
+
+    Parameters
+    ----------
+    grammar
+        A grammar, or its text; a text with faults is kept, with its faults.
+    size
+        Width and height of the façade, metres.
+    seed
+        Of the façade, metres.
+    hour
+        Of the day, 0 to 24.
+    lit
+        Whether the light of the hour falls on it; else colours are as the grammar gives them.
+    tiles
+        The tiles that the text may name; None: those of the grammar, or those that ship.
+
+    Attributes
+    ----------
+    text
+        What was typed last. Nothing typed is lost.
+    grammar
+        What was read of the last text without faults; None before the first.
+    faults
+        Of the text; empty if `grammar` is its.
+    point, ray
+        The pixel that is looked into: metres on the façade, direction from the eye; None: none.
+    derivation
+        How it came about, step by step.
+    """
+
+    text = Unicode()
+    grammar = Instance(Grammar, allow_none=True)
+    faults = Tuple()
+    size = Tuple(Float(), Float(), default_value=(12.0, 9.0))
+    seed = Tuple(Float(), Float(), default_value=(0.0, 0.0))
+    hour = Float(11.0)
+    lit = Bool(True)
+    point = Tuple(Float(), Float(), allow_none=True, default_value=None)
+    ray = Tuple(Float(), Float(), Float(), allow_none=True, default_value=None)
+    derivation = Tuple()
+
+    def __init__(self, grammar: Grammar | str = "", *, tiles: Tiles | None = None, **traits: Any) -> None:
+        super().__init__(**traits)
+        self.tiles = tiles
+        if isinstance(grammar, Grammar):
+            self.tiles = tiles if tiles is not None else grammar.tiles
+            grammar = grammar.text
+        self.enter(grammar)
+        self.observe(self._derive, ["grammar", "size", "seed", "point", "ray"])
+        self._derive()
+
+    def enter(self, text: str) -> None:
+        """Take a text as it was typed. With faults, the grammar stays what it last was; nothing is raised."""
+        with self.hold_trait_notifications():
+            self.text = text
+            try:
+                self.grammar = Grammar.parse(text, self.tiles)
+            except DesignError as error:
+                self.faults = error.faults
+            else:
+                self.faults = ()
+
+    def pick(self, point: Sequence[float] | None, ray: Sequence[float] | None = None) -> tuple[Step, ...]:
+        """Look into a point of the façade, straight on or along a ray; None: into none. Returns the derivation."""
+        with self.hold_trait_notifications():
+            self.set_trait("point", None if point is None else tuple(map(float, point)))
+            self.set_trait("ray", None if point is None or ray is None else tuple(map(float, ray)))
+        return self.derivation
+
+    def _derive(self, _: Any = None) -> None:
+        inside = self.point is not None and all(
+            0 <= at <= end for at, end in zip(self.point, self.size, strict=True)
+        )
+        if self.grammar is None or not inside:
+            self.derivation = ()
+            return
+        self.derivation = self.grammar.steps(self.point, self.size, self.seed, ray=self.ray)
+
+    @validate("size")
+    def _check_size(self, proposal: Any) -> Any:
+        if not all(0 < value <= _WIDEST for value in proposal["value"]):
+            raise TraitError(
+                f"size: expected a width and a height above 0, at most {_WIDEST:g} m; found {proposal['value']}"
+            )
+        return proposal["value"]
+
+    @validate("seed")
+    def _check_seed(self, proposal: Any) -> Any:
+        if not all(abs(value) < 2**53 for value in proposal["value"]):
+            raise TraitError(f"seed: expected two numbers; found {proposal['value']}")
+        return proposal["value"]
+
+    @validate("hour")
+    def _check_hour(self, proposal: Any) -> Any:
+        if not 0 <= proposal["value"] <= 24:
+            raise TraitError(f"hour: expected 0 to 24; found {proposal['value']}")
+        return proposal["value"]
+
+
+def told(faults: Sequence[Fault]) -> list[dict[str, Any]]:
+    """Faults as the front end has them."""
+    return [
+        {
+            "place": fault.place,
+            "message": fault.message,
+            "line": fault.line,
+            "column": fault.column,
+            "excerpt": fault.excerpt,
+        }
+        for fault in faults
+    ]
