@@ -209,8 +209,8 @@ def test_the_notebook_shows_its_saved_state_and_can_be_played_without_a_kernel(
     with serve(tmp_path, "lab") as (address, token), browser.new_page() as page:
         lab = Notebook(page, address, token, tmp_path, "lab")
         lab.visit("solver.ipynb")
-        expect(page.get_by_alt_text("Elevation of Apartment house")).to_be_visible()  # before it is trusted
-        expect(page.locator("caption", has_text="Stages of Apartment house")).to_be_visible()
+        expect(page.get_by_alt_text("Elevation of Residential house")).to_be_visible()  # before it is trusted
+        expect(page.locator("caption", has_text="Stages of Residential house").first).to_be_visible()
         lab.trust()
         house = page.locator(".fnb-page")
         expect(house.locator(".fnb-traced [data-shape]").first).to_be_attached()
