@@ -34,7 +34,7 @@ class Search {
   double root;
 
   Search(std::vector<Group*> groups, int keep, double nodes_, double turn, bool judged)
-      : network(std::move(groups)), most_(nodes_), turn_(turn), judged_(judged), seen_(network, keep) {
+      : network(std::move(groups)), most_(nodes_), turn_(turn), judged_(judged), keep_(keep), seen_(network, keep) {
     bound = root = network.later[0];
     for (const Group* group : network.groups) horizon_ = std::min(horizon_, group->tolerance);
     if (root < kInf) push(root, network.root());
@@ -68,13 +68,15 @@ class Search {
 
   double most_, turn_;
   bool judged_;
+  int keep_;
   Seen seen_;
   std::priority_queue<Waiting, std::vector<Waiting>, Later> queue_;
   std::vector<std::pair<double, Path*>> parked_;
   long long serial_ = 0;
   double horizon_ = kInf, limit_ = 0.0, best_ = kInf, pause_ = 0.0;
   int columns_ = 0;
-  bool proper_ = false, full_ = false;
+  bool proper_ = false, full_ = false, cut_ = false;
+  std::vector<const Path*> improper_;
   const Path* asked_ = nullptr;
   Pricer price_;
 
@@ -86,16 +88,10 @@ class Search {
   /// Whether it matters for a structure as dear as the best if its pieces can all be longer than nothing.
   bool doubtful(const Path& path) const { return proper_ != fewer(path); }
 
-  /// Whether the structure priced last, as dear as the best, is no better: proper ones come first, then more columns.
-  bool needless(const Path& path, bool proper) {
-    if (!doubtful(path)) return fewer(path);
-    proper = proper || price_.proper(false);
-    return proper ? proper_ && fewer(path) : proper_ || fewer(path);
-  }
-
   void push(double least, Path* path) { queue_.push({rounded(least), path->columns, serial_++, path, false, false}); }
 
   Status go_on() {
+    if (cut_) return ended();
     while (!queue_.empty()) {
       const Waiting top = queue_.top();
       if (top.bound > limit_ + kEps || (best_ < kInf && top.bound > best_ + kEps)) break;
@@ -104,18 +100,29 @@ class Search {
       if (best_ == kInf) bound = std::max(bound, top.bound);
       Path& path = *top.path;
       if (top.priced) {
-        if (!judged_ && best_ < kInf) {
-          if (!top.proper && doubtful(path)) price_(network, &path);
-          if (needless(path, top.proper)) continue;
+        if (judged_) return left(&path);
+        if (best_ < kInf && !doubtful(path) && fewer(path)) continue;
+        bool proper = top.proper;
+        if (!proper) {
+          price_(network, &path);
+          proper = price_.proper(false);
           if (stopped) return kStopped;
         }
-        asked_ = &path;
-        return kLeft;
+        if (best_ < kInf && (proper ? proper_ && fewer(path) : proper_ || fewer(path))) continue;
+        if (!proper) {
+          wait_for_better(&path, top.bound);
+          continue;
+        }
+        improper_.clear();
+        return left(&path);
       }
       if (path.dropped) continue;
       ++nodes;
       if (check(500)) return kStopped;
-      if (nodes >= most_) return kCut;
+      if (nodes >= most_) {
+        cut_ = true;
+        return ended();
+      }
       if (network.complete(path)) {
         if (!judged_ && best_ < kInf) {  // it can be as good as the best, not better
           if (doubtful(path)) {
@@ -137,7 +144,29 @@ class Search {
         expand(path, -kInf);
       if (stopped) return kStopped;
     }
-    return kEnded;
+    return ended();
+  }
+
+  Status left(const Path* path) {
+    asked_ = path;
+    return kLeft;
+  }
+
+  /// Improper structures are only looked at once it is clear that there are no others.
+  void wait_for_better(const Path* path, double cost) {
+    if (path->columns > columns_) improper_.clear();
+    improper_.push_back(path);
+    best_ = std::min(best_, cost);
+    limit_ = std::min(limit_, cost);
+    columns_ = path->columns;
+    full_ = static_cast<int>(improper_.size()) >= keep_;
+  }
+
+  Status ended() {
+    if (improper_.empty()) return cut_ ? kCut : kEnded;
+    const Path* first = improper_.front();
+    improper_.erase(improper_.begin());
+    return left(first);
   }
 
   /// Take up what a lesser limit left aside; whether there is anything to search.
