@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
@@ -13,35 +12,22 @@ from ..design.model import Symbol
 from .candidates import Candidate, CandidateStream, candidates, inputs_of, rows_of
 from .clock import Progress
 from .columns import EPS, Group, lone_unsized, make_group
-from .compiled import CompiledDives, CompiledSearch, best_first, dives, start_afresh
-from .dive import Dives
-from .ida import search_ida
+from .compiled import start_afresh
 from .instances import Instances, Range
 from .keeping import Kept
 from .letters import Letter, Word
 from .objective import Objective
 from .pricing import Priced
 from .problem import AxisProblem
-from .search import BestFirst, Found, Stopped
+from .running import GROWTH, STEP, TIES, GroupSearch
+from .search import Stopped
 from .sizing import Sized, size_axis
-from .sweeping import can_sweep, sweeps
-from .tracing import Recorder, Walk, sizing
+from .tracing import Recorder, sizing
 from .words import axis_words
 
 __all__ = ["AxisSearch", "Best", "Solved", "forget_groups"]
 
-_TIES = 4
 _NODES = 1_000_000
-_STEP = 0.004
-"""How far above its lower bound a candidate goes first, as a fraction of the canvas."""
-_GROWTH = 1.5
-"""Each turn takes it so many times further."""
-_TURN = 150
-"""After so many paths a search gives way to those of other candidates."""
-_SLOW = 0.03
-"""A search that takes more seconds than this is helped by sweeps."""
-_LONG = 3_000
-"""A search of more paths than this is a long one, and dives help it."""
 
 _kept: Kept[tuple[list[Priced], float]] = Kept(512)
 """What has been found for groups, so that those that an edit leaves alone are not searched again."""
@@ -99,171 +85,6 @@ class Best:
         return inf if self.solved is None else self.solved.cost
 
 
-class _Run:
-    """The search of one cluster of groups, by either method, shared by all candidates that give it the same words.
-
-    Among structures that are equally good, which come first depends on the limits that a search went through. So
-    it goes through the same ones every time, each further from its lower bound by `_GROWTH`. Where the best answer
-    so far allows less than the next of them it goes no further than that; if it ends there with more answers than
-    are kept, the search is repeated in steps. That makes an answer the same whatever was searched before.
-
-    A search that takes long is helped by sweeps, where there are no wildcards, and by dives, which take as long again.
-    """
-
-    def __init__(
-        self,
-        groups: Sequence[Group],
-        method: str,
-        nodes: int,
-        check: Callable[[], None] | None,
-        accept: Callable[[Priced], bool] | None,
-        log: Walk | None = None,
-        known: tuple[list[Priced], float] | None = None,
-        fits: Callable[[Priced], bool] | None = None,
-    ) -> None:
-        self.groups, self.log, self._fits = groups, log, fits
-        self._options = (method, nodes, check, accept)
-        self._dives: Dives | CompiledDives | None = None
-        self._sweeps = sweeps(groups[0], check) if accept is None and can_sweep(groups) else None
-        self._swept: Priced | None = None
-        self._spent = self._dived = 0.0
-        self._again = False
-        if known is None:
-            self._begin()
-        else:
-            self._found, self.done = Found(*known), True
-
-    def _begin(self) -> None:
-        method, nodes, check, accept = self._options
-        self._first: BestFirst | CompiledSearch | None = best_first(
-            self.groups, keep=_TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_TURN
-        )
-        self._ida = method == "ida"
-        self._found, self.done = self._first.found, self._first.done
-        self._base = self._found.bound
-        self._step = _STEP * max((group.canvas for group in self.groups), default=1.0)
-        self._stepwise = True
-        self._goal: float | None = None
-
-    def advance(self, limit: float, top: float = inf) -> None:
-        """Find the optimum, if it costs no more than `limit`; nothing above `top` is of any use."""
-        if self.done or limit < self._found.bound - EPS:
-            return
-        begin = time.perf_counter()
-        if self.log is None:
-            self._go_on(limit, top)
-        else:
-            with self.log.turn():
-                self._go_on(limit, top)
-            self.log.known(self.floor, len(self.ties), self.cut)
-        self._spent += time.perf_counter() - begin
-        self._tidy()
-
-    def _tidy(self) -> None:
-        if self.done:
-            self._first = self._dives = None  # they take much memory
-
-    @property
-    def long(self) -> bool:
-        """The search has taken long."""
-        slow = self._sweeps is not None and self._spent > _SLOW
-        return not self.done and (slow or self._found.nodes >= _LONG)
-
-    def dive(self, *, at_once: bool = False) -> None:
-        """Look for some alignment as long as the search has taken; or, `at_once`, until there is one."""
-        _, _, check, accept = self._options
-        if self.done or accept is not None:
-            return
-        if self._sweeps is not None:
-            for priced in self._sweeps:
-                if self._fits is None or self._fits(priced):
-                    self._swept = priced
-            self._sweeps = None
-        if self._found.nodes < _LONG and self._swept is not None:
-            return
-        if self._dives is None:
-            self._dives = dives(self.groups, self.floor, check, self._fits)
-            if self._swept is not None:
-                self._dives.offer(self._swept)
-        begin, before = time.perf_counter(), self._dived
-        while not self._dives.done and (self._dived <= self._spent or (at_once and self._dives.best is None)):
-            self._dives.dive()
-            self._dived = before + time.perf_counter() - begin
-
-    def give_up(self) -> None:
-        """Let go of the search, but not of what it has found."""
-        if not self.done:
-            self._first = self._dives = None
-
-    @property
-    def known(self) -> list[Priced]:
-        """The optimal structures; else the best so far."""
-        best = self._swept if self._dives is None else self._dives.best
-        return self.ties or ([best] if best is not None else [])
-
-    def _go_on(self, limit: float, top: float) -> None:
-        if self._ida and limit == inf:  # it deepens by itself, from the start in every step
-            self._go_to(inf)
-        while not self.done:
-            if self._goal is None:
-                rung = self._base + self._step
-                if rung > top and not self._again:
-                    self._stepwise, self._goal = False, limit
-                else:
-                    self._step, self._goal = self._step * _GROWTH, rung
-            goal = self._goal
-            self._go_to(goal)
-            if self.paused:
-                return
-            self._goal = None
-            if goal >= limit:
-                break
-        if self.done and not self._stepwise and len(self._found.ties) >= _TIES:
-            self._again = True
-            self._begin()
-            self._go_on(limit, top)
-        elif self.done and not self._ida:
-            self._found.ties.sort(key=_in_order)
-
-    @property
-    def paused(self) -> bool:
-        """It has not come to the end of what it was asked for."""
-        return not self.done and self._first is not None and self._first.paused
-
-    def _go_to(self, limit: float) -> None:
-        if not self._ida:
-            assert self._first is not None, "a search that was given up is not gone on with"
-            self._first.advance(limit)
-            self.done = self._first.done
-        else:
-            _, nodes, check, accept = self._options
-            self._found = search_ida(
-                self.groups,
-                cap=limit,
-                keep=_TIES,
-                nodes=nodes,
-                check=check,
-                accept=accept,
-                observer=self.log,
-            )
-            self.done = bool(self._found.ties) or self._found.bound == inf or self._found.cut
-
-    @property
-    def ties(self) -> list[Priced]:
-        """The optimal structures; empty where they are not known, or there are none."""
-        return self._found.ties if self.done else []
-
-    @property
-    def floor(self) -> float:
-        """Proven lower bound."""
-        return self._found.bound
-
-    @property
-    def cut(self) -> bool:
-        """It gave up."""
-        return self._found.cut
-
-
 @dataclass(slots=True)
 class _Case:
     """A candidate being solved."""
@@ -272,7 +93,7 @@ class _Case:
     least: float
     groups: list[Group] = field(default_factory=list)
     clusters: list[list[int]] = field(default_factory=list)
-    runs: list[_Run] = field(default_factory=list)
+    runs: list[GroupSearch] = field(default_factory=list)
     solved: Solved | None = None
     unsizable: bool = False
     dived: bool = False
@@ -307,9 +128,9 @@ class AxisSearch:
     progress: Progress = field(default_factory=Progress)
     found: dict[str, Instances] = field(default_factory=dict)
     cases: list[_Case] = field(default_factory=list)
-    runs: dict[object, _Run] = field(default_factory=dict)
+    runs: dict[object, GroupSearch] = field(default_factory=dict)
     rows: dict[object, _Rows] = field(default_factory=dict)
-    by_words: dict[object, _Run] = field(default_factory=dict)
+    by_words: dict[object, GroupSearch] = field(default_factory=dict)
     inputs: list[tuple[str, ...]] | None = None
     stream: CandidateStream | None = None
 
@@ -404,7 +225,7 @@ class AxisSearch:
                         break
                     heappush(queue, (candidate.bound, len(self.cases)))
                     self.cases.append(self.case(candidate))
-                    steps.append(_STEP * self.problem.canvas)
+                    steps.append(STEP * self.problem.canvas)
                 floor = min(stream.bound, queue[0][0] if queue else inf)
                 if not queue or queue[0][0] > top + EPS:
                     break
@@ -412,7 +233,7 @@ class AxisSearch:
                     self.check()
                 own, n = queue[0]
                 limit = min(top, own + steps[n])
-                steps[n] *= _GROWTH
+                steps[n] *= GROWTH
                 case = self.cases[n]
                 self.progress.at("alignment", self.problem.axis, candidate=n + 1, of=len(self.cases))
                 solved = self._turn(case, limit, top)
@@ -532,7 +353,7 @@ class AxisSearch:
         """Find the candidate's groups, and the searches that other candidates share with it."""
         rows, keys, clusters = self._rows(case.candidate)
         groups: list[Group | None] = [None] * len(rows)
-        runs: list[_Run] = []
+        runs: list[GroupSearch] = []
         for cluster in clusters:
             run = self._same_words(rows, cluster, tuple(keys[g] for g in cluster))
             runs.append(run)
@@ -541,7 +362,7 @@ class AxisSearch:
         case.clusters, case.groups = clusters, [group for group in groups if group is not None]
         case.runs = runs  # all of them or none: the clock may have stopped this before
 
-    def _same_words(self, rows: Sequence[_Rows], cluster: Sequence[int], words: object) -> _Run:
+    def _same_words(self, rows: Sequence[_Rows], cluster: Sequence[int], words: object) -> GroupSearch:
         """The search of a cluster: the one that there is for the same words, or others with the same letters."""
         run = self.by_words.get(words)
         if run is None:
@@ -571,7 +392,7 @@ class AxisSearch:
         accept: Callable[[Priced], bool] | None,
         cluster: Iterable[int],
         known: tuple[list[Priced], float] | None = None,
-    ) -> _Run:
+    ) -> GroupSearch:
         nodes = _NODES if accept is None else _NODES // 50
         log = None
         if self.trace is not None:
@@ -582,7 +403,7 @@ class AxisSearch:
             parts = tuple((priced, k) for k in range(len(groups)))
             return size_axis(groups, parts, self.problem.canvas, self._symbol) is not None
 
-        return _Run(groups, self.method, nodes, self.check, accept, log, known, fits)
+        return GroupSearch(groups, self.method, nodes, self.check, accept, log, known, fits)
 
     def _symbol(self, name: str) -> Symbol:
         return self.problem.symbol.get(name) or Symbol(name)
@@ -617,7 +438,7 @@ class AxisSearch:
     def _size(self, case: _Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
         """Size every combination of equally good structures; the least deviation wins."""
         best: Solved | None = None
-        for combination in islice(product(*ties), 2 * _TIES):
+        for combination in islice(product(*ties), 2 * TIES):
             parts: dict[int, tuple[Priced, int]] = {}
             for cluster, priced in zip(case.clusters, combination, strict=True):
                 parts.update({g: (priced, k) for k, g in enumerate(cluster)})
@@ -637,11 +458,3 @@ class AxisSearch:
             if solved.beats(best):
                 best = solved
         return best
-
-
-def _in_order(priced: Priced) -> tuple[tuple[tuple[tuple[int, ...], ...], ...], ...]:
-    """Equally good structures have an order of their own."""
-    return tuple(
-        tuple(tuple(option.letters for option in column) for column in columns)
-        for columns in priced.structure
-    )

@@ -12,7 +12,7 @@ import pytest
 from facade_nb import Design, DesignError, NoLayout, gallery, solve
 from facade_nb.design import edit
 from facade_nb.design.model import AXES
-from facade_nb.solver import Objective, axis, solving
+from facade_nb.solver import Objective, running, solving
 from facade_nb.solver.keeping import Kept
 from tests.oracle.designs import CONTENT, CONTROL, SOLID, design, make_design
 
@@ -197,13 +197,13 @@ class TestReuse:
 
     def test_groups_that_an_edit_leaves_alone(self, monkeypatch: pytest.MonkeyPatch) -> None:
         """The search that gave a group's answer is not done again, though another group has changed."""
-        real, seen = axis.best_first, set[tuple[str, ...]]()
+        real, seen = running.best_first, set[tuple[str, ...]]()
 
         def spy(groups: Any, **options: Any) -> Any:
             seen.add(tuple("".join(map(str, band.letters)) for group in groups for band in group.bands))
             return real(groups, **options)
 
-        monkeypatch.setattr(axis, "best_first", spy)
+        monkeypatch.setattr(running, "best_first", spy)
         solve(self.ONE)
         assert ("A" * 6, "B" * 10) in seen
         seen.clear()

@@ -7,7 +7,7 @@ import random
 import pytest
 
 from facade_nb import solve
-from facade_nb.solver import Letter, Objective, align, axis, solving
+from facade_nb.solver import Letter, Objective, align, running, solving
 from facade_nb.solver.columns import Group, make_group
 from facade_nb.solver.compiled import CompiledDives
 from facade_nb.solver.dive import Dives
@@ -128,7 +128,7 @@ class TestAnytime:
     ) -> None:
         """Stopped after so many checks, not seconds: long before the search has come to any alignment."""
         design = bench_anytime.stack(16, 1)
-        monkeypatch.setattr(axis, "_SLOW", 0.0)
+        monkeypatch.setattr(running, "_SLOW", 0.0)
         solving.forget()
         calls = iter(range(10**9))
         layout = solve(design, time_limit=None, should_stop=lambda: next(calls) > 3_000)

@@ -1,0 +1,204 @@
+"""The search of one cluster of groups: its turns, what helps it when it takes long, and what it has come to."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from math import inf
+
+from .columns import EPS, Group
+from .compiled import CompiledDives, CompiledSearch, best_first, dives
+from .dive import Dives
+from .ida import search_ida
+from .pricing import Priced
+from .search import BestFirst, Found
+from .sweeping import can_sweep, sweeps
+from .tracing import Walk
+
+__all__ = ["GROWTH", "STEP", "TIES", "GroupSearch"]
+
+TIES = 4
+"""So many equally good structures are kept."""
+STEP = 0.004
+"""How far above its lower bound a candidate goes first, as a fraction of the canvas."""
+GROWTH = 1.5
+"""Each turn takes it so many times further."""
+_TURN = 150
+"""After so many paths a search gives way to those of other candidates."""
+_SLOW = 0.03
+"""A search that takes more seconds than this is helped by sweeps."""
+_LONG = 3_000
+"""A search of more paths than this is a long one, and dives help it."""
+
+
+class GroupSearch:
+    """The search of one cluster of groups, by either method, shared by all candidates that give it the same words.
+
+    Among structures that are equally good, which come first depends on the limits that a search went through. So
+    it goes through the same ones every time, each further from its lower bound by `GROWTH`. Where the best answer
+    so far allows less than the next of them it goes no further than that; if it ends there with more answers than
+    are kept, the search is repeated in steps. That makes an answer the same whatever was searched before.
+
+    A search that takes long is helped by sweeps, where there are no wildcards, and by dives, which take as long again.
+    """
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        method: str,
+        nodes: int,
+        check: Callable[[], None] | None,
+        accept: Callable[[Priced], bool] | None,
+        log: Walk | None = None,
+        known: tuple[list[Priced], float] | None = None,
+        fits: Callable[[Priced], bool] | None = None,
+    ) -> None:
+        self.groups, self.log, self._fits = groups, log, fits
+        self._options = (method, nodes, check, accept)
+        self._dives: Dives | CompiledDives | None = None
+        self._sweeps = sweeps(groups[0], check) if accept is None and can_sweep(groups) else None
+        self._swept: Priced | None = None
+        self._spent = self._dived = 0.0
+        self._again = False
+        if known is None:
+            self._begin()
+        else:
+            self._found, self.done = Found(*known), True
+
+    def _begin(self) -> None:
+        method, nodes, check, accept = self._options
+        self._first: BestFirst | CompiledSearch | None = best_first(
+            self.groups, keep=TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_TURN
+        )
+        self._ida = method == "ida"
+        self._found, self.done = self._first.found, self._first.done
+        self._base = self._found.bound
+        self._step = STEP * max((group.canvas for group in self.groups), default=1.0)
+        self._stepwise = True
+        self._goal: float | None = None
+
+    def advance(self, limit: float, top: float = inf) -> None:
+        """Find the optimum, if it costs no more than `limit`; nothing above `top` is of any use."""
+        if self.done or limit < self._found.bound - EPS:
+            return
+        begin = time.perf_counter()
+        if self.log is None:
+            self._go_on(limit, top)
+        else:
+            with self.log.turn():
+                self._go_on(limit, top)
+            self.log.known(self.floor, len(self.ties), self.cut)
+        self._spent += time.perf_counter() - begin
+        self._tidy()
+
+    def _tidy(self) -> None:
+        if self.done:
+            self._first = self._dives = None  # they take much memory
+
+    @property
+    def long(self) -> bool:
+        """The search has taken long."""
+        slow = self._sweeps is not None and self._spent > _SLOW
+        return not self.done and (slow or self._found.nodes >= _LONG)
+
+    def dive(self, *, at_once: bool = False) -> None:
+        """Look for some alignment as long as the search has taken; or, `at_once`, until there is one."""
+        _, _, check, accept = self._options
+        if self.done or accept is not None:
+            return
+        if self._sweeps is not None:
+            for priced in self._sweeps:
+                if self._fits is None or self._fits(priced):
+                    self._swept = priced
+            self._sweeps = None
+        if self._found.nodes < _LONG and self._swept is not None:
+            return
+        if self._dives is None:
+            self._dives = dives(self.groups, self.floor, check, self._fits)
+            if self._swept is not None:
+                self._dives.offer(self._swept)
+        begin, before = time.perf_counter(), self._dived
+        while not self._dives.done and (self._dived <= self._spent or (at_once and self._dives.best is None)):
+            self._dives.dive()
+            self._dived = before + time.perf_counter() - begin
+
+    def give_up(self) -> None:
+        """Let go of the search, but not of what it has found."""
+        if not self.done:
+            self._first = self._dives = None
+
+    @property
+    def known(self) -> list[Priced]:
+        """The optimal structures; else the best so far."""
+        best = self._swept if self._dives is None else self._dives.best
+        return self.ties or ([best] if best is not None else [])
+
+    def _go_on(self, limit: float, top: float) -> None:
+        if self._ida and limit == inf:  # it deepens by itself, from the start in every step
+            self._go_to(inf)
+        while not self.done:
+            if self._goal is None:
+                rung = self._base + self._step
+                if rung > top and not self._again:
+                    self._stepwise, self._goal = False, limit
+                else:
+                    self._step, self._goal = self._step * GROWTH, rung
+            goal = self._goal
+            self._go_to(goal)
+            if self.paused:
+                return
+            self._goal = None
+            if goal >= limit:
+                break
+        if self.done and not self._stepwise and len(self._found.ties) >= TIES:
+            self._again = True
+            self._begin()
+            self._go_on(limit, top)
+        elif self.done and not self._ida:
+            self._found.ties.sort(key=_in_order)
+
+    @property
+    def paused(self) -> bool:
+        """It has not come to the end of what it was asked for."""
+        return not self.done and self._first is not None and self._first.paused
+
+    def _go_to(self, limit: float) -> None:
+        if not self._ida:
+            assert self._first is not None, "a search that was given up is not gone on with"
+            self._first.advance(limit)
+            self.done = self._first.done
+        else:
+            _, nodes, check, accept = self._options
+            self._found = search_ida(
+                self.groups,
+                cap=limit,
+                keep=TIES,
+                nodes=nodes,
+                check=check,
+                accept=accept,
+                observer=self.log,
+            )
+            self.done = bool(self._found.ties) or self._found.bound == inf or self._found.cut
+
+    @property
+    def ties(self) -> list[Priced]:
+        """The optimal structures; empty where they are not known, or there are none."""
+        return self._found.ties if self.done else []
+
+    @property
+    def floor(self) -> float:
+        """Proven lower bound."""
+        return self._found.bound
+
+    @property
+    def cut(self) -> bool:
+        """It gave up."""
+        return self._found.cut
+
+
+def _in_order(priced: Priced) -> tuple[tuple[tuple[tuple[int, ...], ...], ...], ...]:
+    """Equally good structures have an order of their own."""
+    return tuple(
+        tuple(tuple(option.letters for option in column) for column in columns)
+        for columns in priced.structure
+    )
