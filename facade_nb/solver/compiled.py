@@ -16,7 +16,6 @@ from array import array
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache
-from importlib.util import find_spec
 from math import inf
 from pathlib import Path as File
 from struct import unpack_from
@@ -46,7 +45,11 @@ _ENDED, _PAUSED, _LEFT, _PRICE = range(4)
 @cache
 def available() -> bool:
     """Whether the compiled search can be used."""
-    return find_spec("wasmtime") is not None and _MODULE.is_file()
+    try:
+        import wasmtime  # noqa: F401
+    except (ImportError, OSError, RuntimeError):  # not installed, or not made for this machine
+        return False
+    return _MODULE.is_file()
 
 
 @cache

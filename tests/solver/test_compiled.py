@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 from collections.abc import Callable, Sequence
 from math import inf
 from threading import Thread
@@ -67,6 +68,18 @@ def both(
 def test_is_there() -> None:
     """The packages that are tested with have it; what follows says nothing otherwise."""
     assert available()
+
+
+def test_without_wasmtime_the_other_search_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "wasmtime", None)  # as if it were not installed
+    available.cache_clear()
+    try:
+        assert not available()
+        assert isinstance(best_first([case_group(random_case(1))]), BestFirst)
+        solving.forget()
+        assert solve(gallery.load("residential-house")).x.proven
+    finally:
+        available.cache_clear()
 
 
 class TestSearch:
