@@ -1,4 +1,4 @@
-"""The best-first search and the dives in WebAssembly: the same steps as `search` and `dive`, some thirty times faster.
+"""The best-first search and the dives in WebAssembly: the same steps as `search` and `dive`, many times faster.
 
 `core/` is a transcription of `network`, `making`, `stepping`, `paths`, `pairs`, `shortfall`, `skeleton`, `seen`,
 `pricing`, `search` and `dive` into C++, built into `core/core.wasm` by `make core` and run by wasmtime. It takes the
