@@ -55,6 +55,8 @@ class Option:
         Kind of the element; neither: solid.
     size
         Its size in metres; None: elastic (it holds a piece of a cut letter, or an unsized letter).
+    least
+        The size of its whole sized letters; of an elastic element, less than its size.
     loose
         Σ over neighbouring solid letters of the smaller size, metres.
     soft
@@ -87,6 +89,7 @@ class Option:
     letters: tuple[int, ...] = ()
     tied: bool = False
     sized: float | None = None
+    least: float = 0.0
 
 
 class Band:
@@ -224,6 +227,7 @@ class Band:
             yield Option(
                 8 * (j + 1) + (1 if letter.attached else 0),
                 size=size,
+                least=size,
                 loose=loose,
                 soft=soft,
                 opaque=not soft,
@@ -236,6 +240,7 @@ class Band:
     def _transparent(self, i: int, mid: bool) -> Iterator[Option]:
         word = self.letters
         fixed: float | None = None if mid else 0.0
+        least = 0.0
         tied = False
         for j in range(i, len(word)):
             letter = word[j]
@@ -251,8 +256,10 @@ class Band:
                     begins=not mid,
                     letters=letters,
                     tied=tied or bound,
+                    least=least,
                 )
             whole = letter.size if (j > i or not mid) else None
+            least += whole or 0.0
             fixed = None if fixed is None or whole is None else fixed + whole
             tied = tied or bound
             yield Option(
@@ -264,6 +271,7 @@ class Band:
                 letters=letters,
                 tied=tied and fixed is None,
                 sized=letter.size,
+                least=least,
             )
 
 

@@ -142,6 +142,8 @@ class Maker:
                 empties_ += 1
             elif size is None:
                 elastic_ = True
+                if option.least > high:
+                    high_ = option.least
             else:
                 if size > high:
                     high_ = size
@@ -187,7 +189,7 @@ class Maker:
         cost = omega + self.by_empty * empties * high + self.by_loose * (loose + softs * high - soft_sizes)
         if cost + after > self.limit or cost + after <= self.floor or omega > self.mu:
             return
-        some = backed = begun = ended = tied = guarded = False
+        some = backed = begun = ended = tied = guarded = pinched = False
         needy = empties > 0
         chosen = self.chosen
         for option in chosen:
@@ -200,6 +202,7 @@ class Maker:
             guarded = guarded or option.guarded
             backed = backed or option.opaque
             needy = needy or option.soft
+            pinched = pinched or (rested and option.size is None and option.least >= high - EPS)
         if not some or (self.owed and not begun) or (needy and not backed and not self.group.waived):  # C1
             return
         if guarded:  # C3
@@ -223,5 +226,6 @@ class Maker:
                 tied or not firm,
                 pieces,
                 1.0 + self.by_empty * empties + self.by_loose * softs,
+                pinched,
             )
         )

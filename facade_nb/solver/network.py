@@ -22,12 +22,14 @@ from math import inf
 
 from .columns import EPS, Group, Option, unsizable
 from .making import edges
-from .paths import Edge, Path, Trailed, gathered
+from .paths import Edge, Path, Span, Trailed, gathered
 from .shortfall import ahead, shortfall
 from .skeleton import Skeleton
 from .stepping import steps
 
 __all__ = ["Network", "ceiling"]
+
+_NOTHING: Span = (0.0, 0.0, False)
 
 
 class Network:
@@ -70,7 +72,7 @@ class Network:
 
     def _enter(self, g: int) -> Path:
         group = self.groups[g]
-        path = Path(g, group.start, 0.0, 0.0, 0, spans=((0.0, 0.0),) * len(group.bands))
+        path = Path(g, group.start, 0.0, 0.0, 0, spans=(_NOTHING,) * len(group.bands))
         path.ahead = ahead(group, group.start)
         return path
 
@@ -114,6 +116,10 @@ class Network:
                     ranges = gathered(ranges, trail, path.group, edge)
                 else:
                     trail = (*trail, Trailed(path.group, edge.column))
+            spans, learnt, pinched = path.spans, path.learnt, path.pinched or edge.pinched
+            if group.tied:
+                spans, learnt, tight = self._learn(group, path, edge)
+                pinched = pinched or tight
             if all(p >> 2 == band.end >> 2 for p, band in zip(edge.state, group.bands, strict=True)):
                 cost += self._closing(group, width, firm)
                 bound = cost + later
@@ -127,9 +133,9 @@ class Network:
                 state = self.groups[g].start if g < len(self.groups) else ()
                 child = Path(g, state, cost, 0.0, path.columns + 1, True, False, trail, path, edge.column)
                 child.ranges = ranges
-                child.spans = ((0.0, 0.0),) * len(state)
+                child.spans = (_NOTHING,) * len(state)
                 child.ahead = ahead(self.groups[g], state) if state else 0.0
-                child.learnt = self._learn(group, path, edge)[1] if group.tied else path.learnt
+                child.learnt, child.late = learnt, pinched
             else:
                 child = Path(
                     path.group,
@@ -143,9 +149,7 @@ class Network:
                     path,
                     edge.column,
                 )
-                child.spans, child.learnt = (
-                    self._learn(group, path, edge) if group.tied else (path.spans, path.learnt)
-                )
+                child.spans, child.learnt = spans, learnt
                 child.ahead = ahead(group, edge.state) if group.tall else edge.ahead
                 child.ranges = ranges
                 rest = shortfall(group, child)
@@ -155,16 +159,29 @@ class Network:
                 bound = cost + rest + later
                 if bound == inf:
                     continue
+                child.late = pinched and rest <= self._apart(group, child) + EPS
+            child.pinched = pinched
             out.append((bound, child))
         return out
 
     @staticmethod
+    def _apart(group: Group, path: Path) -> float:
+        """What is still to come costs at least, whatever the pieces that are laid have paid for."""
+        least = max([band.at_least(p) for band, p in zip(group.bands, path.state, strict=True)])
+        return path.ahead + group.objective.fit * max(0.0, path.width + least - group.canvas)
+
+    @staticmethod
     def _learn(
         group: Group, path: Path, edge: Edge
-    ) -> tuple[tuple[tuple[float, float], ...], tuple[tuple[str, float, float], ...]]:
-        """What the pieces in a column say about the letters they belong to."""
+    ) -> tuple[tuple[Span, ...], tuple[tuple[str, float, float], ...], bool]:
+        """What the pieces in a column say about the letters they belong to, and whether one of those is pinched.
+
+        A piece beside something that has a size is as long as that, or pays 1 a metre. So if the pieces of a letter are as
+        long as it is, but for one that may have any length or is still to come, nothing is left for that one.
+        """
         least, most = (edge.least, edge.width) if edge.firm else (0.0, inf)
-        spans: list[tuple[float, float]] = []
+        spans: list[Span] = []
+        pinched = False
         learnt = path.learnt
         for b, (band, option) in enumerate(zip(group.bands, edge.column, strict=True)):
             span = path.spans[b]
@@ -172,20 +189,22 @@ class Network:
                 spans.append(span)
                 continue
             if not option.transparent:
-                spans.append((0.0, 0.0))
+                spans.append(_NOTHING)
                 continue
             low = least if len(option.letters) == 1 else 0.0
             last = option.letters[-1]
             for i in option.letters:
-                begun = span if i == option.letters[0] and not option.begins else (0.0, 0.0)
-                span = (begun[0] + low, begun[1] + most)
+                begun = span if i == option.letters[0] and not option.begins else _NOTHING
+                span = (begun[0] + low, begun[1] + most, begun[2] or low <= EPS)
                 letter = band.letters[i]
                 done = i != last or option.ends
+                if letter.size is not None and span[0] >= letter.size - EPS:
+                    pinched = pinched or span[2] or not done
                 new = letter.size is None and all(symbol != letter.symbol for symbol, _, _ in learnt)
                 if done and new and not band.is_free(letter):
-                    learnt = (*learnt, (letter.symbol, *span))
-            spans.append((0.0, 0.0) if option.ends else span)
-        return tuple(spans), learnt
+                    learnt = (*learnt, (letter.symbol, span[0], span[1]))
+            spans.append(_NOTHING if option.ends else span)
+        return tuple(spans), learnt, pinched
 
     @staticmethod
     def _closing(group: Group, width: float, firm: bool) -> float:

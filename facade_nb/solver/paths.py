@@ -7,12 +7,16 @@ from math import inf
 
 from .columns import EPS, Option, Position
 
-__all__ = ["Edge", "Path", "Piece", "Range", "State", "Trailed", "gathered"]
+__all__ = ["Edge", "Path", "Piece", "Range", "Span", "State", "Trailed", "gathered"]
 
 State = tuple[Position, ...]
 
 Piece = tuple[int, int, tuple[int, ...]]
 """Group, band, and the letters that share an element: most often one."""
+
+Span = tuple[float, float, bool]
+"""Of the pieces of a letter that are laid: least and greatest total size at no cost; one of them may have any length,
+down to nothing."""
 
 Range = tuple[tuple[Piece, ...], float, float, float]
 """Of the columns in which just these pieces stand: least and greatest total size of each at no cost, and the price of
@@ -40,8 +44,11 @@ class Path:
     ahead
         What the rows still cost each other, by pairs.
     spans
-        Per band: least and greatest size that the pieces of the letter it stands in have taken so far, at
-        no cost.
+        Per band: what the pieces of the letter it stands in have taken so far.
+    pinched
+        If all pieces are longer than nothing, its columns cost more than `cost`, by more than what a larger W gains.
+    late
+        If all pieces are longer than nothing, the whole costs more than its bound.
     learnt
         Unsized symbols that have stood as a whole: ``(symbol, least, greatest)`` size at no cost.
     made, step
@@ -63,7 +70,9 @@ class Path:
     column: tuple[Option, ...] = ()
     ranges: tuple[Range, ...] = ()
     ahead: float = 0.0
-    spans: tuple[tuple[float, float], ...] = ()
+    spans: tuple[Span, ...] = ()
+    pinched: bool = False
+    late: bool = False
     learnt: tuple[tuple[str, float, float], ...] = ()
     dropped: bool = False
     made: float = -inf
@@ -90,6 +99,8 @@ class Edge:
     pieces, up
         The tied pieces, where their columns are comparable by their ranges; what a metre by which they widen
         the column costs.
+    pinched
+        It costs more if its pieces are longer than nothing, for one of them stands with letters that fill it.
     """
 
     column: tuple[Option, ...]
@@ -105,6 +116,7 @@ class Edge:
     tied: bool
     pieces: tuple[tuple[int, tuple[int, ...]], ...]
     up: float
+    pinched: bool = False
 
 
 def gathered(ranges: tuple[Range, ...], trail: tuple[object, ...], g: int, edge: Edge) -> tuple[Range, ...]:

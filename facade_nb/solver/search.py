@@ -115,17 +115,17 @@ class BestFirst:
         self._ceiling = ceiling(groups)
         self._serial = count()
         self._seen = Seen(self.network, keep)
-        self._queue: list[tuple[float, int, int, Path | Priced]] = []
+        self._queue: list[tuple[float, bool, int, int, Path | Priced]] = []
         self._parked: list[tuple[float, Path]] = []
         self._horizon = min((group.tolerance for group in groups), default=inf)
         if not self.done:
             self._push(self.found.bound, self.network.root())
 
-    def _push(self, bound: float, item: Path | Priced) -> None:
+    def _push(self, bound: float, item: Path | Priced, *, late: bool = False) -> None:
         # Equal costs come in one order, whatever the last digits are that an addition has left.
         if bound < inf:
             bound = round(bound * _GRID) / _GRID
-        heappush(self._queue, (bound, -item.columns, next(self._serial), item))
+        heappush(self._queue, (bound, late, -item.columns, next(self._serial), item))
 
     def advance(self, limit: float) -> None:
         """Go on until the optimum is known, or is known to cost more than `limit`, or it is the turn of others.
@@ -146,7 +146,7 @@ class BestFirst:
             if found.nodes >= pause:
                 self.paused = True
                 return
-            item = heappop(queue)[3]
+            _, late, _, _, item = heappop(queue)
             if not found.ties:
                 found.bound = max(found.bound, bound)
             if isinstance(item, Priced):
@@ -154,7 +154,7 @@ class BestFirst:
                     found.offer(item, self.keep)
                     limit = min(limit, item.cost)
                 continue
-            if item.dropped:
+            if item.dropped or (late and found.best is not None and found.best.proper):
                 continue
             found.nodes += 1
             if self.check is not None and not found.nodes & 31:
@@ -239,7 +239,7 @@ class BestFirst:
         if self.log is not None:
             self.log.edge(child, bound, drops)
         if not drops:
-            self._push(bound, child)
+            self._push(bound, child, late=child.late)
 
 
 def search(

@@ -52,6 +52,8 @@ class Seen:
 
     def _beats(self, a: Path, b: Path) -> int:
         """1: `a` makes `b` needless; 0: as good as it in every respect; -1: neither."""
+        if a.pinched and not b.pinched:
+            return -1
         dw = a.width - b.width
         slack = 0.0
         wider = False

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 
 from .columns import EPS, Band, Group
-from .paths import Path, State
+from .paths import Path, Span, State
 
 __all__ = ["ahead", "shortfall"]
 
@@ -42,7 +42,7 @@ def shortfall(group: Group, path: Path) -> float:
         multiple = 1
         if band.tied:
             if mid and (size := band.letters[i].size) is not None:
-                low, high = path.spans[b]
+                low, high, _ = path.spans[b]
                 least = max(least, size - high + band.rest_min[i + 1])
                 most = min(most, size - low + band.rest_max[i + 1]) if size > low else band.rest_max[i + 1]
             if known and (waiting := band.unsized_from(i + 1 if mid else i)):
@@ -106,7 +106,7 @@ def known_sizes(group: Group, path: Path) -> dict[str, tuple[float, float]]:
     return known
 
 
-def most_sized(band: Band, i: int, span: tuple[float, float]) -> float:
+def most_sized(band: Band, i: int, span: Span) -> float:
     """Greatest size of the sized letters to come, of which letter i has given up `span` already."""
     return max(0.0, (band.letters[i].size or 0.0) - span[0]) + band.rest_min[i + 1]
 

@@ -15,7 +15,7 @@ struct Edge {
   const Option* const* column;  // per band
   const Position* state;        // per band
   double cost, omega, width, least, rise, ahead, up;
-  bool firm, owed, tied, pieces;
+  bool firm, owed, tied, pieces, pinched;
 };
 
 /// The edges of a node that have been made, the least rise first, and up to which.

@@ -68,7 +68,7 @@ class Maker {
     const double cost = omega + by_empty_ * part.empties * part.high +
                         by_loose_ * (part.loose + part.softs * part.high - part.soft_sizes);
     if (cost + part.ahead > limit_ || cost + part.ahead <= floor_ || omega > mu_) return;
-    bool some = false, backed = false, begun = false, ended = false, tied = false, guarded = false;
+    bool some = false, backed = false, begun = false, ended = false, tied = false, guarded = false, pinched = false;
     bool needy = part.empties > 0;
     for (const Option* option : chosen_) {
       if (option->empty) continue;
@@ -79,6 +79,7 @@ class Maker {
       guarded = guarded || option->guarded;
       backed = backed || option->opaque;
       needy = needy || option->soft;
+      pinched = pinched || (rested && option->elastic && option->least >= part.high - kEps);
     }
     if (!some || (owed_ && !begun) || (needy && !backed && !group_.waived)) return;  // C1
     const int n = group_.count();
@@ -95,7 +96,7 @@ class Maker {
       state[b] = chosen_[b]->target;
     }
     made_.push_back({column, state, cost, omega, part.high, low, cost + part.ahead - before_, part.ahead,
-                     1.0 + by_empty_ * part.empties + by_loose_ * part.softs, firm, !ended, tied || !firm, tied && firm});
+                     1.0 + by_empty_ * part.empties + by_loose_ * part.softs, firm, !ended, tied || !firm, tied && firm, pinched});
   }
 
  private:
@@ -133,7 +134,7 @@ class Maker {
       const double ahead = row != nullptr ? part.ahead + (*row)[option.target >> 2] : part.ahead;
       const bool sized = !option.empty && !option.elastic;
       const double size = option.size;
-      const double high = sized && size > part.high ? size : part.high;
+      const double high = std::max(part.high, option.least);
       const double low = sized && size < part.low && (plain_ || !option.soft) ? size : part.low;
       const double loose = sized ? part.loose + option.loose : part.loose;
       const int empties = part.empties + option.empty;

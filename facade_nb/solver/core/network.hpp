@@ -104,6 +104,8 @@ class Network {
       child->n_ranges = path.n_ranges;
       child->learnt = path.learnt;
       child->n_learnt = path.n_learnt;
+      child->spans = path.spans;
+      child->pinched = path.pinched || edge->pinched;
       const double width = path.width + edge->width;
       const bool firm = path.firm && edge->firm;
       int trail = path.trail;
@@ -136,6 +138,7 @@ class Network {
         if (group.tied) learn(group, path, *edge, *child);
         child->group = path.group + 1;
         child->firm = true;
+        child->late = child->pinched;
         if (child->group < last) {
           Group& next = *groups[child->group];
           start(next, *child);
@@ -147,12 +150,12 @@ class Network {
         child->width = width;
         child->firm = firm;
         child->owed = edge->owed;
-        child->spans = path.spans;
         if (group.tied) learn(group, path, *edge, *child);
         child->ahead = group.tall ? group.ahead(edge->state) : edge->ahead;
         double rest = shortfall_(group, *child);
         if (skeleton != nullptr) rest = std::max(rest, skeleton->ahead(width, group.stiff ? width : skeleton->width));
         bound = child->cost + rest + after;
+        child->late = child->pinched && rest <= apart(group, *child) + kEps;
       }
       child->trail = trail;
       if (bound == kInf || !take(bound, *child)) arena.rewind(before);
@@ -181,7 +184,7 @@ class Network {
     Position* state = arena.room<Position>(group.count());
     Span* spans = arena.room<Span>(group.count());
     std::fill(state, state + group.count(), 0);
-    std::fill(spans, spans + group.count(), Span{0.0, 0.0});
+    std::fill(spans, spans + group.count(), Span{0.0, 0.0, false});
     path.state = state;
     path.spans = spans;
   }
@@ -216,7 +219,14 @@ class Network {
     return *known;
   }
 
-  /// What the pieces in a column say about the letters they belong to.
+  /// What is still to come costs at least, whatever the pieces that are laid have paid for.
+  static double apart(const Group& group, const Path& path) {
+    double least = 0.0;
+    for (int b = 0; b < group.count(); ++b) least = std::max(least, group.bands[b]->at_least(path.state[b]));
+    return path.ahead + group.prices.fit * std::max(0.0, path.width + least - group.canvas);
+  }
+
+  /// What the pieces in a column say about the letters they belong to, and whether one of those is pinched.
   void learn(const Group& group, const Path& path, const Edge& edge, Path& child) {
     const int n = group.count();
     const double least = edge.firm ? edge.least : 0.0, most = edge.firm ? edge.width : kInf;
@@ -231,22 +241,24 @@ class Network {
         continue;
       }
       if (!option.transparent) {
-        spans[b] = {0.0, 0.0};
+        spans[b] = {0.0, 0.0, false};
         continue;
       }
       const double low = option.count == 1 ? least : 0.0;
       const int last = option.first + option.count - 1;
       for (int i = option.first; i <= last; ++i) {
-        const Span begun = i == option.first && !option.begins ? span : Span{0.0, 0.0};
-        span = {begun.low + low, begun.high + most};
+        const Span begun = i == option.first && !option.begins ? span : Span{0.0, 0.0, false};
+        span = {begun.low + low, begun.high + most, begun.open || low <= kEps};
         const Letter& letter = band.letters[i];
+        if (letter.sized && span.low >= letter.size - kEps)
+          child.pinched = child.pinched || span.open || (i == last && !option.ends);
         if ((i != last || option.ends) && !letter.sized && !letter.free) {
           bool fresh = true;
           for (const Learnt& own : learnt_) fresh = fresh && own.symbol != letter.symbol;
           if (fresh) learnt_.push_back({letter.symbol, span.low, span.high});
         }
       }
-      spans[b] = option.ends ? Span{0.0, 0.0} : span;
+      spans[b] = option.ends ? Span{0.0, 0.0, false} : span;
     }
     child.spans = spans;
     if (static_cast<int>(learnt_.size()) != path.n_learnt) {

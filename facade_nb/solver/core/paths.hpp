@@ -15,8 +15,10 @@ struct Range {
   double low, high, up;
 };
 
+/// Of the pieces of a letter: see paths.Span.
 struct Span {
   double low, high;
+  bool open;  // one of them may have any length
 };
 
 struct Learnt {
@@ -36,7 +38,7 @@ struct Path {
   double ahead, made, step;
   Path* next;  // another one that is known at the same node (see seen.hpp)
   int trail, n_ranges, n_learnt;
-  bool firm, owed, dropped;
+  bool firm, owed, dropped, pinched, late;
 };
 
 

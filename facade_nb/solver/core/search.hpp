@@ -18,10 +18,12 @@ struct Waiting {
   long long serial;
   Path* path;
   bool priced, proper;  // proper: no piece has to be looked at again
+  bool late;            // see Path
 };
 struct Later {
   bool operator()(const Waiting& a, const Waiting& b) const {
     if (a.bound != b.bound) return a.bound > b.bound;
+    if (a.late != b.late) return a.late;
     if (a.columns != b.columns) return a.columns < b.columns;
     return a.serial > b.serial;
   }
@@ -88,7 +90,9 @@ class Search {
   /// Whether it matters for a structure as dear as the best if its pieces can all be longer than nothing.
   bool doubtful(const Path& path) const { return proper_ != fewer(path); }
 
-  void push(double least, Path* path) { queue_.push({rounded(least), path->columns, serial_++, path, false, false}); }
+  void push(double least, Path* path, bool late = false) {
+    queue_.push({rounded(least), path->columns, serial_++, path, false, false, late});
+  }
 
   Status go_on() {
     if (cut_) return ended();
@@ -116,7 +120,7 @@ class Search {
         improper_.clear();
         return left(&path);
       }
-      if (path.dropped) continue;
+      if (path.dropped || (top.late && best_ < kInf && proper_)) continue;
       ++nodes;
       if (check(500)) return kStopped;
       if (nodes >= most_) {
@@ -128,14 +132,14 @@ class Search {
           if (doubtful(path)) {
             const bool proper = price_.proper_within(network, &path, best_ + kEps);
             if (stopped) return kStopped;
-            if (proper) queue_.push({rounded(best_), path.columns, serial_++, &path, true, true});
+            if (proper) queue_.push({rounded(best_), path.columns, serial_++, &path, true, true, false});
             continue;
           }
           if (fewer(path)) continue;
         }
         const double cost = price_(network, &path);
         if (stopped) return kStopped;
-        if (cost < kInf) queue_.push({rounded(cost), path.columns, serial_++, &path, true, price_.proper(true)});
+        if (cost < kInf) queue_.push({rounded(cost), path.columns, serial_++, &path, true, price_.proper(true), false});
         continue;
       }
       if (network.tall)
@@ -214,7 +218,7 @@ class Search {
 
   bool take(double least, Path& child) {
     if (!judged_ && seen_.drops(child)) return false;
-    push(least, &child);
+    push(least, &child, child.late);
     return true;
   }
 };

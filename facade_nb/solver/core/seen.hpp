@@ -64,6 +64,7 @@ class Seen {
 
   /// 1: `a` makes `b` needless; 0: as good as it in every respect; −1: neither.
   int beats(const Path& a, const Path& b) const {
+    if (a.pinched && !b.pinched) return -1;
     const double dw = a.width - b.width;
     double slack = 0.0;
     bool wider = false;

@@ -27,7 +27,7 @@ class Shortfall {
       if (band.tied) {
         if (mid && band.letters[i].sized) {
           const double size = band.letters[i].size;
-          const auto [low, high] = path.spans[b];
+          const auto [low, high, open] = path.spans[b];
           least = std::max(least, size - high + band.rest_min[i + 1]);
           most = std::min(most, size > low ? size - low + band.rest_max[i + 1] : band.rest_max[i + 1]);
         }

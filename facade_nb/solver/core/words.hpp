@@ -30,6 +30,7 @@ struct Option {
   double size;       // where it is not elastic
   double loose;
   double sized;  // size of the letter that ends it, NaN: none
+  double least;  // size of its whole sized letters
   bool empty, transparent, elastic, soft, opaque, guarded, begins, ends, tied;
 
   bool holds(int letter) const { return letter >= first && letter < first + count; }
@@ -145,6 +146,7 @@ inline void Band::solid(int i, Options& out) const {
     if (letter.transparent) return;
     if (j > i) run.loose += std::fmin(letter.size, letters[j - 1].size);
     run.size += letter.size;
+    run.least = run.size;
     run.soft = run.soft || !letter.opaque;
     run.opaque = !run.soft;
     run.guarded = run.guarded || letter.unoccludable;
@@ -157,7 +159,7 @@ inline void Band::solid(int i, Options& out) const {
 
 inline void Band::transparent(int i, bool mid, Options& out) const {
   bool fixed = !mid, tied = false;
-  double size = 0.0;
+  double size = 0.0, least = 0.0;
   for (int j = i; j < this->size(); ++j) {
     const Letter& letter = letters[j];
     if (!letter.transparent) return;
@@ -173,8 +175,10 @@ inline void Band::transparent(int i, bool mid, Options& out) const {
       part.elastic = true;
       part.tied = tied || bound;
       part.sized = NAN;
+      part.least = least;
       out.push_back(part);
     }
+    if (letter.sized && (j > i || !mid)) least += letter.size;
     fixed = fixed && letter.sized && (j > i || !mid);
     if (fixed) size += letter.size;
     tied = tied || bound;
@@ -184,6 +188,7 @@ inline void Band::transparent(int i, bool mid, Options& out) const {
     run.size = fixed ? size : 0.0;
     run.tied = tied && !fixed;
     run.sized = letter.sized ? letter.size : NAN;
+    run.least = least;
     out.push_back(run);
     if (!(run.count & 255) && check(1024)) return;
   }
