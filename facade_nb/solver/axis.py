@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from heapq import heappop, heappush
+from heapq import heappop, heappush, heapreplace
 from itertools import islice, product
 from math import inf
 
 from ..design.model import Symbol
-from .candidates import Candidate, CandidateStream, candidates, inputs_of, rows_of
+from .candidates import Candidate, CandidateStream, candidates
 from .clock import Progress
 from .columns import EPS, Group, lone_unsized, make_group
 from .compiled import start_afresh
+from .floors import GroupKey, inputs_of, rows_of
 from .instances import Instances, Range
 from .keeping import Kept
 from .letters import Letter, Word
@@ -93,6 +94,7 @@ class _Case:
     least: float
     groups: list[Group] = field(default_factory=list)
     clusters: list[list[int]] = field(default_factory=list)
+    keys: list[GroupKey] = field(default_factory=list)
     runs: list[GroupSearch] = field(default_factory=list)
     solved: Solved | None = None
     unsizable: bool = False
@@ -212,7 +214,7 @@ class AxisSearch:
         may have a cheap one, and when the least lower bound is above the best answer, that is optimal.
         """
         best = Best()
-        stream = self.stream or self._stream()
+        stream = self.stream = self.stream or self._stream()
         queue: list[tuple[float, int]] = []
         steps: list[float] = []
         floor, dived = 0.0, False
@@ -232,6 +234,11 @@ class AxisSearch:
                 if self.check is not None:
                     self.check()
                 own, n = queue[0]
+                if (
+                    own + EPS < self.cases[n].floor < inf
+                ):  # what it shares with others has become known meanwhile
+                    heapreplace(queue, (self.cases[n].floor, n))
+                    continue
                 limit = min(top, own + steps[n])
                 steps[n] *= GROWTH
                 case = self.cases[n]
@@ -335,6 +342,7 @@ class AxisSearch:
             self.progress.group = self.problem.groups[cluster[0]][0]
             others = case.floor - run.floor
             run.advance(limit - others, top - others)
+            self._tell(case)
             if not run.ties:
                 return None
         if case.solved is None:
@@ -360,7 +368,16 @@ class AxisSearch:
             for g, group in zip(cluster, run.groups, strict=True):
                 groups[g] = group
         case.clusters, case.groups = clusters, [group for group in groups if group is not None]
+        case.keys = keys
         case.runs = runs  # all of them or none: the clock may have stopped this before
+        self._tell(case)
+
+    def _tell(self, case: _Case) -> None:
+        """Let the stream know what has been proven about words that other candidates have as well."""
+        if self.stream is not None:
+            for run, cluster in zip(case.runs, case.clusters, strict=True):
+                if len(cluster) == 1:
+                    self.stream.learn(case.keys[cluster[0]], run.floor)
 
     def _same_words(self, rows: Sequence[_Rows], cluster: Sequence[int], words: object) -> GroupSearch:
         """The search of a cluster: the one that there is for the same words, or others with the same letters."""
@@ -411,7 +428,7 @@ class AxisSearch:
     def _known_as(self, key: object) -> object:
         return key, self.problem.canvas, self.tolerance, self.objective, self.method
 
-    def _rows(self, candidate: Candidate) -> tuple[list[_Rows], list[object], list[list[int]]]:
+    def _rows(self, candidate: Candidate) -> tuple[list[_Rows], list[GroupKey], list[list[int]]]:
         """The rows of each group, what they depend on, and which groups are aligned together.
 
         Those are that share an unsized symbol.
@@ -419,7 +436,7 @@ class AxisSearch:
         if self.inputs is None:
             self.inputs = inputs_of(self.problem)
         rows: list[_Rows] = []
-        keys: list[object] = []
+        keys: list[GroupKey] = []
         for g, (names, (_, standing)) in enumerate(zip(self.inputs, self.problem.groups, strict=True)):
             words = tuple(candidate.words[name] for name in names)
             key = (g, *map(id, words))

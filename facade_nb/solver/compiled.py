@@ -18,7 +18,7 @@ from contextlib import suppress
 from functools import cache
 from math import inf
 from pathlib import Path as File
-from struct import unpack_from
+from struct import Struct, unpack, unpack_from
 from typing import Any
 from weakref import WeakKeyDictionary, WeakSet, finalize, ref
 
@@ -40,6 +40,10 @@ _UNLIMITED = float(2**53)
 
 _BAD_FILE = 8
 _ENDED, _PAUSED, _LEFT, _PRICE = range(4)
+_SEARCH, _DIVES, _GROUP = range(3)
+_BOX = [Struct(f"<{n}d") for n in range(9)]
+_MANY = 8
+"""So many things that are no longer needed are let go of at once, or fewer where memory is short."""
 
 
 @cache
@@ -94,12 +98,14 @@ class _Core:
         self._check: Callable[[], None] | None = None
         self._raised: BaseException | None = None
         self._symbols: dict[str, int] = {}
-        self._groups: WeakKeyDictionary[Group, int] = WeakKeyDictionary()
-        self._alive: set[tuple[str, int]] = set()
-        self._dead: list[tuple[str, int]] = []
+        self._groups: WeakKeyDictionary[Group, float] = WeakKeyDictionary()
+        self._alive: set[tuple[int, float]] = set()
+        self._dead: list[tuple[int, float]] = []
         self.busy = self.broken = False
+        self.told: tuple[float, ...] = ()
         self._room = self._at = 0
-        self.call("_initialize")
+        self._functions["_initialize"](self._store)
+        self._box = int(self._functions["box_at"](self._store))
         _cores.add(self)
 
     def close(self) -> None:
@@ -117,17 +123,22 @@ class _Core:
         self._bury()
         return not self._alive and self.size > _LARGE
 
-    def call(self, name: str, *arguments: float) -> Any:
-        """Call what returns soon."""
-        return self._functions[name](self._store, *arguments)
+    def _call(self, name: str, *arguments: float) -> None:
+        """Call a function, its arguments in the box: to wasmtime each parameter and result takes microseconds."""
+        if arguments:
+            self._memory.write(self._store, _BOX[len(arguments)].pack(*arguments), self._box)
+        self._functions[name](self._store)
 
-    def ask(self, check: Callable[[], None] | None, name: str, *arguments: float) -> int:
-        """Call what takes long; what `check` raises meanwhile is raised once the call has come back."""
+    def _answer(self) -> tuple[float, ...]:
+        return _BOX[5].unpack(self._memory.read(self._store, self._box, self._box + 40))
+
+    def ask(self, check: Callable[[], None] | None, name: str, *arguments: float) -> tuple[float, ...]:
+        """Call what may take long, and read its answer; what `check` raises meanwhile is raised afterwards."""
         import wasmtime
 
-        self._check, self.busy = check, True
+        self._check, self.busy, self.told = check, True, ()
         try:
-            status = int(self.call(name, *arguments))
+            self._call(name, *arguments)
         except wasmtime.Trap:
             if self.size < 0.9 * _MOST:
                 raise
@@ -136,9 +147,10 @@ class _Core:
         finally:
             self._check, self.busy = None, False
         raised, self._raised = self._raised, None
+        self.told = self._answer()
         if raised is not None:
             raise raised
-        return status
+        return self.told
 
     def _asked(self) -> int:
         if self._check is None:
@@ -150,46 +162,47 @@ class _Core:
             return 1
         return 0
 
-    def groups(self, groups: Sequence[Group]) -> int:
+    def groups(self, groups: Sequence[Group]) -> float:
         """Pass some groups as arguments of the next call; how many."""
         numbers = array("d")
         for group in groups:
             number = self._groups.get(group)
             if number is None:
                 self._put(_told(group, self._symbols))
-                number = self._groups[group] = int(self.call("group_new"))
-                self.owned(group, "group_free", number)
+                self._call("group_new")
+                number = self._groups[group] = self._answer()[0]
+                self.owned(group, _GROUP, number)
             numbers.append(number)
         self._put(numbers)
         return len(numbers)
 
-    def owned(self, owner: object, free: str, number: int) -> None:
+    def owned(self, owner: object, kind: int, number: float) -> None:
         """Let go of something when its owner is no more."""
-        self._bury()
-        self._alive.add((free, number))
-        finalize(owner, self._dead.append, (free, number)).atexit = False
+        if len(self._dead) >= _MANY or self.size > _LARGE // 4:
+            self._bury()
+        self._alive.add((kind, number))
+        finalize(owner, self._dead.append, (kind, number)).atexit = False
 
     def _bury(self) -> None:
         """Let go of what has no owner any more: not at once, as that may happen in any thread, at any time."""
-        while self._dead and not self.busy and not self.broken:
-            self._dead.sort(key=lambda own: own[0] == "group_free")  # searches refer to groups
-            free, number = self._dead.pop(0)
-            self._alive.discard((free, number))
-            self.call(free, number)
+        if not self._dead or self.busy or self.broken:
+            return
+        dead, self._dead[:] = sorted(self._dead), []  # searches before the groups that they refer to
+        self._alive.difference_update(dead)
+        self._put(array("d", [number for own in dead for number in own]))
+        self._call("free_all", len(dead))
 
-    def doubles(self, at: int, count: int) -> tuple[float, ...]:
-        """Numbers in its memory."""
-        return unpack_from(f"<{count}d", self._memory.read(self._store, at, at + 8 * count))
-
-    def integers(self, at: int) -> tuple[int, ...]:
+    def integers(self, at: float) -> tuple[int, ...]:
         """Numbers in its memory, before which stands how many they are."""
-        (count,) = unpack_from("<i", self._memory.read(self._store, at, at + 4))
-        return unpack_from(f"<{count}i", self._memory.read(self._store, at + 4, at + 4 + 4 * count))
+        begin = int(at)
+        (count,) = unpack("<i", self._memory.read(self._store, begin, begin + 4))
+        return unpack_from(f"<{count}i", self._memory.read(self._store, begin + 4, begin + 4 + 4 * count))
 
     def _put(self, numbers: array[float]) -> None:
         if len(numbers) > self._room:
             self._room = 2 * len(numbers)
-            self._at = int(self.call("numbers_at", self._room))
+            self._call("numbers_at", self._room)
+            self._at = int(self._answer()[0])
         self._memory.write(self._store, numbers.tobytes(), self._at)
 
 
@@ -298,21 +311,12 @@ class CompiledSearch:
         self.groups, self.keep, self.check, self.accept = tuple(groups), keep, check, accept
         self.paused = False
         core = self._core = _core()
-        self._search = int(
-            core.ask(
-                check,
-                "search_new",
-                core.groups(groups),
-                keep,
-                float(nodes),
-                float(min(turn, _UNLIMITED)),
-                accept is not None,
-            )
-        )
-        core.owned(self, "search_free", self._search)
-        bound, _, root = core.doubles(self._search, 3)
+        turn = min(turn, _UNLIMITED)
+        numbers = (core.groups(groups), keep, nodes, turn, accept is not None)
+        _, bound, _, _, self._search = core.ask(check, "search_new", *numbers)
+        core.owned(self, _SEARCH, self._search)
         self.found = Found(bound=bound)
-        self.done = root == inf
+        self.done = bound == inf
         self._ceiling = ceiling(groups)
 
     def advance(self, limit: float) -> None:
@@ -324,7 +328,7 @@ class CompiledSearch:
         status = self._ask("search_advance", float(limit), paused)
         while status != _ENDED:
             if status == _LEFT:
-                numbers = self._core.integers(self._core.call("search_structure", self._search))
+                numbers = self._core.integers(self._structure)
                 item = price(self.groups, _structure(self.groups, numbers))
                 if item is not None and (self.accept is None or self.accept(item)):
                     found.offer(item, self.keep)
@@ -350,14 +354,16 @@ class CompiledSearch:
             return inf, 0, False, False
         return best.cost, best.columns, best.proper, len(self.found.ties) >= self.keep
 
-    def _ask(self, name: str, *arguments: float) -> int:
+    def _ask(self, name: str, *arguments: float) -> float:
         try:
-            return self._core.ask(self.check, name, self._search, *arguments)
+            status, *_ = self._core.ask(self.check, name, self._search, *arguments)
         finally:
-            bound, nodes, _ = self._core.doubles(self._search, 3)
-            self.found.nodes = int(nodes)
-            if not self.found.ties:
-                self.found.bound = max(self.found.bound, bound)
+            if self._core.told:  # not where it ran out of memory
+                _, bound, nodes, self._structure, _ = self._core.told
+                self.found.nodes = int(nodes)
+                if not self.found.ties:
+                    self.found.bound = max(self.found.bound, bound)
+        return status
 
 
 class CompiledDives:
@@ -373,29 +379,29 @@ class CompiledDives:
         self.groups, self.check, self._accept = tuple(groups), check, accept
         self.best: Priced | None = None
         core = self._core = _core()
-        self._dives = int(core.ask(check, "dives_new", core.groups(groups), float(least), accept is not None))
-        core.owned(self, "dives_free", self._dives)
-        core.ask(check, "dives_begin", self._dives, ceiling(groups))
-
-    @property
-    def done(self) -> bool:
+        self.done = False
         """There is no better one."""
-        return self._core.doubles(self._dives, 2)[1] != 0.0
+        self._dives = core.ask(check, "dives_new", core.groups(groups), least, accept is not None)[4]
+        core.owned(self, _DIVES, self._dives)
+        self._ask("dives_begin", ceiling(groups))
+
+    def _ask(self, name: str, *arguments: float) -> tuple[float, ...]:
+        told = self._core.ask(self.check, name, self._dives, *arguments)
+        self.done = told[2] != 0.0
+        return told
 
     def dive(self) -> bool:
         """Go through the network once; whether a better alignment was found."""
-        core = self._core
-        if core.ask(self.check, "dives_dive", self._dives, self.best is not None) != _PRICE:
+        status, limit, _, structure, _ = self._ask("dives_dive", self.best is not None)
+        if status != _PRICE:
             return False
-        numbers = core.integers(core.call("dives_structure", self._dives))
-        priced = price(self.groups, _structure(self.groups, numbers))
-        limit, _ = core.doubles(self._dives, 2)
+        priced = price(self.groups, _structure(self.groups, self._core.integers(structure)))
         if (
             priced is None
             or priced.cost > limit + EPS
             or (self._accept is not None and not self._accept(priced))
         ):
-            core.call("dives_missed", self._dives)
+            self._ask("dives_missed")
             return False
         self.offer(priced)
         return True
@@ -403,7 +409,7 @@ class CompiledDives:
     def offer(self, priced: Priced) -> None:
         """An alignment that is known already: only cheaper ones are looked for."""
         self.best = priced
-        self._core.ask(self.check, "dives_found", self._dives, priced.cost)
+        self._ask("dives_found", priced.cost)
 
 
 def best_first(

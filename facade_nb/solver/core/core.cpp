@@ -25,14 +25,18 @@ bool check(unsigned work) {
   return stopped;
 }
 
-// Python reads the first members of both.
-static_assert(offsetof(Search, bound) == 0 && offsetof(Search, nodes) == 8 && offsetof(Search, root) == 16);
-static_assert(offsetof(Dives, limit) == 0 && offsetof(Dives, done) == 8);
-
 namespace {
 
-std::vector<double> numbers;  // what is passed in
-std::vector<int> structure;   // what is passed out
+// What is passed in and out of a call; calls have neither parameters nor results, which are dear in Python.
+double box[8];
+std::vector<double> numbers;  // more to be passed in
+std::vector<int> structure;   // passed out, with its length before it
+
+template <class T>
+T* object(double number) {
+  return reinterpret_cast<T*>(static_cast<std::uintptr_t>(number));
+}
+double number(const void* object) { return static_cast<double>(reinterpret_cast<std::uintptr_t>(object)); }
 
 /// The columns of a complete path: per group their number, then per column and band which option was taken.
 const int* spell(const Network& network, const Path* path) {
@@ -49,50 +53,97 @@ const int* spell(const Network& network, const Path* path) {
   return structure.data();
 }
 
-std::vector<Group*> groups_of(int n) {
+std::vector<Group*> groups_of(double n) {
   std::vector<Group*> groups;
-  for (int k = 0; k < n; ++k) groups.push_back(reinterpret_cast<Group*>(static_cast<std::uintptr_t>(numbers[k])));
+  for (int k = 0; k < n; ++k) groups.push_back(object<Group>(numbers[k]));
   return groups;
+}
+
+/// Status, bound, nodes, and a structure that has left the queue.
+void answer(Search& search, Status status) {
+  box[0] = status;
+  box[1] = search.bound;
+  box[2] = search.nodes;
+  box[3] = status == kLeft ? number(spell(search.network, search.asked())) : 0.0;
+}
+
+/// Status, limit, whether it is done, and a structure to be priced.
+void answer(Dives& dives, Status status) {
+  box[0] = status;
+  box[1] = dives.limit;
+  box[2] = dives.done;
+  box[3] = status == kPrice ? number(spell(dives.network, dives.asked())) : 0.0;
 }
 
 }  // namespace
 
-// Large enough for most of what is passed in.
-EXPORT(numbers_at) double* numbers_at(int n) {
-  if (static_cast<int>(numbers.size()) < n) numbers.resize(n);
-  return numbers.data();
+EXPORT(box_at) double* box_at() { return box; }
+
+// How many numbers are to be passed in → where they are put; large enough for most.
+EXPORT(numbers_at) void numbers_at() {
+  if (static_cast<double>(numbers.size()) < box[0]) numbers.resize(static_cast<std::size_t>(box[0]));
+  box[0] = number(numbers.data());
 }
 
-EXPORT(group_new) Group* group_new() { return Group::read(numbers.data()); }
-EXPORT(group_free) void group_free(Group* group) { delete group; }
+// → its number
+EXPORT(group_new) void group_new() { box[0] = number(Group::read(numbers.data())); }
 
-EXPORT(search_new) Search* search_new(int groups, int keep, double nodes, double turn, int judged) {
+// How many groups, structures to keep, most nodes, nodes in a turn, whether Python judges → its number, and as `answer`
+EXPORT(search_new) void search_new() {
   stopped = false;
-  return new Search(groups_of(groups), keep, nodes, turn, judged != 0);
+  auto* search = new Search(groups_of(box[0]), static_cast<int>(box[1]), box[2], box[3], box[4] != 0.0);
+  answer(*search, stopped ? kStopped : kEnded);
+  box[4] = number(search);
 }
-EXPORT(search_free) void search_free(Search* search) { delete search; }
-EXPORT(search_advance) int search_advance(Search* search, double limit, int paused) {
+// Search, limit, whether it was paused → `answer`
+EXPORT(search_advance) void search_advance() {
   stopped = false;
-  return search->advance(limit, paused != 0);
+  auto& search = *object<Search>(box[0]);
+  answer(search, search.advance(box[1], box[2] != 0.0));
 }
-EXPORT(search_judged)
-int search_judged(Search* search, double best, int columns, int proper, int enough, double limit) {
-  return search->judged(best, columns, proper != 0, enough != 0, limit);
-}
-EXPORT(search_structure) const int* search_structure(Search* search) {
-  return spell(search->network, search->asked());
+// Search, cost of the best, its columns, whether it is proper, whether there are enough as good, limit → `answer`
+EXPORT(search_judged) void search_judged() {
+  auto& search = *object<Search>(box[0]);
+  answer(search, search.judged(box[1], static_cast<int>(box[2]), box[3] != 0.0, box[4] != 0.0, box[5]));
 }
 
-EXPORT(dives_new) Dives* dives_new(int groups, double least, int sizable) {
+// How many groups, least cost, whether only columns that can be sized → its number, and as `answer`
+EXPORT(dives_new) void dives_new() {
   stopped = false;
-  return new Dives(groups_of(groups), least, sizable != 0);
+  auto* dives = new Dives(groups_of(box[0]), box[1], box[2] != 0.0);
+  answer(*dives, stopped ? kStopped : kEnded);
+  box[4] = number(dives);
 }
-EXPORT(dives_free) void dives_free(Dives* dives) { delete dives; }
-EXPORT(dives_begin) int dives_begin(Dives* dives, double ceiling) { return dives->begin(ceiling); }
-EXPORT(dives_dive) int dives_dive(Dives* dives, int any) {
+// Dives, ceiling → `answer`
+EXPORT(dives_begin) void dives_begin() {
+  auto& dives = *object<Dives>(box[0]);
+  answer(dives, dives.begin(box[1]));
+}
+// Dives, whether there is an alignment already → `answer`
+EXPORT(dives_dive) void dives_dive() {
   stopped = false;
-  return dives->dive(any != 0);
+  auto& dives = *object<Dives>(box[0]);
+  answer(dives, dives.dive(box[1] != 0.0));
 }
-EXPORT(dives_missed) int dives_missed(Dives* dives) { return dives->missed(); }
-EXPORT(dives_found) int dives_found(Dives* dives, double cost) { return dives->found(cost); }
-EXPORT(dives_structure) const int* dives_structure(Dives* dives) { return spell(dives->network, dives->asked()); }
+// Dives → `answer`
+EXPORT(dives_missed) void dives_missed() {
+  auto& dives = *object<Dives>(box[0]);
+  answer(dives, dives.missed());
+}
+// Dives, cost → `answer`
+EXPORT(dives_found) void dives_found() {
+  auto& dives = *object<Dives>(box[0]);
+  answer(dives, dives.found(box[1]));
+}
+
+// How many; among the numbers, of each which kind it is (0: search, 1: dives, 2: group) and its number
+EXPORT(free_all) void free_all() {
+  for (int k = 0; k < 2 * box[0]; k += 2) {
+    if (numbers[k] == 0.0)
+      delete object<Search>(numbers[k + 1]);
+    else if (numbers[k] == 1.0)
+      delete object<Dives>(numbers[k + 1]);
+    else
+      delete object<Group>(numbers[k + 1]);
+  }
+}
