@@ -109,6 +109,14 @@ class Pattern:
     text: str = field(default="", compare=False)
     sites: tuple[Site, ...] = field(default=(), compare=False, repr=False)
 
+    def __hash__(self) -> int:
+        """Found once: patterns are part of most keys under which the solver keeps answers."""
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.control, self.substitutions))
+
     def __str__(self) -> str:
         """Canonical text: ``parse(str(pattern)) == pattern``."""
         contents = (f"{spell(name)} := {unparse(content)}" for name, content in self.substitutions)

@@ -383,7 +383,10 @@ class AxisSearch:
         """The search of a cluster: the one that there is for the same words, or others with the same letters."""
         run = self.by_words.get(words)
         if run is None:
-            free = lone_unsized(*(dict.fromkeys(rows[g].letters) for g in cluster))
+            unsized = any(rows[g].unsized for g in cluster)
+            free = (
+                lone_unsized(*(dict.fromkeys(rows[g].letters) for g in cluster)) if unsized else frozenset()
+            )
             groups = [
                 make_group(
                     rows[g].letters,

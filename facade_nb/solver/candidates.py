@@ -9,7 +9,7 @@ from itertools import count
 from math import inf
 
 from .columns import EPS
-from .floors import Floors, GroupKey, LongEnough, Measures
+from .floors import Chosen, Floors, GroupKey, LongEnough, Measured, measured
 from .letters import Word
 from .objective import Objective
 from .problem import AxisProblem
@@ -36,7 +36,7 @@ class Candidate:
         )
 
 
-_Entry = tuple[float, int, int, dict[str, Word], dict[str, int], tuple[float, ...]]
+_Entry = tuple[float, int, int, Chosen, dict[str, int], tuple[float, ...]]
 """Lower bound, minus how many patterns have a word, serial number, words, counters, and the bound of each group."""
 
 
@@ -56,16 +56,16 @@ class CandidateStream:
         objective: Objective,
         check: Callable[[], None] | None = None,
     ) -> None:
-        self._words, self._check = words, check
+        self._check = check
         self._names = [name for name, _ in problem.patterns]
-        self._groups = range(len(problem.groups))
-        measures = Measures()
-        self._long = LongEnough(problem, tolerance, measures)
-        self._floors = Floors(problem, tolerance, objective, measures)
+        self._given = [words[name] for name in self._names]
+        self._words: list[list[Measured]] = []
+        self._long = LongEnough(problem, tolerance)
+        self._floors = Floors(problem, tolerance, objective)
         self._serial = count()
         self._queue: list[_Entry] = []
         self._ready = self._learnt = False
-        heappush(self._queue, (0.0, 0, next(self._serial), {}, {}, (0.0,) * len(problem.groups)))
+        heappush(self._queue, (0.0, 0, next(self._serial), (), {}, (0.0,) * len(problem.groups)))
 
     @property
     def bound(self) -> float:
@@ -80,11 +80,7 @@ class CandidateStream:
             return None
         self._ready = False
         bound, _, _, chosen, values, _ = heappop(self._queue)
-        return Candidate(chosen, values, bound)
-
-    def key(self, g: int, words: Mapping[str, Word]) -> GroupKey:
-        """What tells a group's words from others."""
-        return self._floors.key(g, words)
+        return _candidate(self._names, chosen, values, bound)
 
     def learn(self, key: GroupKey, floor: float) -> None:
         """No alignment of these words of a group costs less than `floor`."""
@@ -115,26 +111,35 @@ class CandidateStream:
         self._ready = True
 
     def _decide(
-        self,
-        bound: float,
-        depth: int,
-        chosen: dict[str, Word],
-        values: dict[str, int],
-        parts: tuple[float, ...],
+        self, bound: float, depth: int, chosen: Chosen, values: dict[str, int], parts: tuple[float, ...]
     ) -> None:
         """Give the next pattern each of its words."""
-        name = self._names[-depth]
-        for word in self._words[name]:
-            if any(values.get(counter, value) != value for counter, value in word.counters.items()):
+        if -depth == len(self._words):
+            self._words.append([measured(word) for word in self._given[-depth]])
+        for word in self._words[-depth]:
+            both = _agreed(values, word.counters)
+            if both is None:
                 continue
-            more = {**chosen, name: word}
-            if not self._long(name, more):
+            more = (*chosen, word)
+            if not self._long.last(more):
                 continue
-            costs = self._floors.after(parts, more, name)
+            costs = self._floors.after(parts, more)
             least = max(bound, sum(costs))
             if least < inf:
-                both = {**values, **word.counters}
                 heappush(self._queue, (least, depth - 1, next(self._serial), more, both, costs))
+
+
+def _agreed(values: dict[str, int], counters: Sequence[tuple[str, int]]) -> dict[str, int] | None:
+    """Values of counters with some more; None where they contradict each other."""
+    for counter, value in counters:
+        if values.get(counter, value) != value:
+            return None
+    return {**values, **dict(counters)} if counters else values
+
+
+def _candidate(names: Sequence[str], chosen: Chosen, values: dict[str, int], bound: float) -> Candidate:
+    words = {name: own.word for name, own in zip(names, chosen, strict=True)}
+    return Candidate(words, dict(values), bound)
 
 
 def candidates(
@@ -146,25 +151,20 @@ def candidates(
 ) -> Iterator[Candidate]:
     """Every candidate whose words keep Eq. 7, in lexicographic order, as the paper goes through them."""
     names = [name for name, _ in problem.patterns]
-    measures = Measures()
-    long = LongEnough(problem, tolerance, measures)
-    bounds = Floors(problem, tolerance, objective, measures)
+    own = [[measured(word) for word in words[name]] for name in names]
+    long, bounds = LongEnough(problem, tolerance), Floors(problem, tolerance, objective)
 
-    def descend(k: int, chosen: dict[str, Word], values: dict[str, int]) -> Iterator[Candidate]:
+    def descend(chosen: Chosen, values: dict[str, int]) -> Iterator[Candidate]:
         if check is not None:
             check()
-        if k == len(names):
+        if len(chosen) == len(names):
             bound = bounds.of(chosen)
             if bound < inf and long.all(chosen):
-                yield Candidate(dict(chosen), dict(values), bound)
+                yield _candidate(names, chosen, values, bound)
             return
-        name = names[k]
-        for word in words[name]:
-            if any(values.get(counter, value) != value for counter, value in word.counters.items()):
-                continue
-            chosen[name] = word
-            if long(name, chosen):
-                yield from descend(k + 1, chosen, {**values, **word.counters})
-        chosen.pop(name, None)
+        for word in own[len(chosen)]:
+            both = _agreed(values, word.counters)
+            if both is not None and long.last((*chosen, word)):
+                yield from descend((*chosen, word), both)
 
-    return descend(0, {}, {})
+    return descend((), {})

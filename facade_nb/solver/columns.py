@@ -43,9 +43,9 @@ next (C4); `held`: the last element ended with an attached letter, so the next c
 (C4)."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(slots=True, eq=False)
 class Option:
-    """One element a band may put into a column.
+    """One element a band may put into a column. Never changed, but made too often to be checked for that.
 
     Attributes
     ----------
@@ -192,27 +192,32 @@ class Band:
             return found[index]
         one = self._single.get((position, index))
         if one is None:
-            one = self._single[position, index] = next(islice(self._make(position), index, None))
+            one = self._single[position, index] = next(self._make(position, index))
         return one
 
-    def _make(self, position: Position) -> Iterator[Option]:
+    def _make(self, position: Position, first: int = 0) -> Iterator[Option]:
+        """The elements, without the first so many."""
         i, mid, gap, held = position >> 3, position & 4, position & 2, position & 1
         word, n = self.letters, len(self.letters)
         if not held:  # C4, behind
             ahead = i < n and not mid and word[i].attached and not word[i].transparent
-            yield Option(8 * i + mid + (2 if ahead else 0), empty=True)
+            if not first:
+                yield Option(8 * i + mid + (2 if ahead else 0), empty=True)
+            first = max(0, first - 1)
         if i == n:
             return
         if word[i].transparent:
-            yield from self._transparent(i, bool(mid))
+            yield from islice(self._transparent(i, bool(mid)), first, None)
         elif not gap:  # C4, before
-            yield from self._solid(i)
+            yield from self._solid(i, first)
 
-    def _solid(self, i: int) -> Iterator[Option]:
+    def _solid(self, i: int, first: int) -> Iterator[Option]:
         word = self.letters
-        size = loose = 0.0
-        soft = guarded = False
-        for j in range(i, len(word)):
+        before = word[i : i + first]
+        sizes = [a.size or 0.0 for a in before]
+        size, loose = sum(sizes), sum(map(min, sizes, sizes[1:]))
+        soft, guarded = any(not a.opaque for a in before), any(a.unoccludable for a in before)
+        for j in range(i + first, len(word)):
             letter = word[j]
             if letter.transparent:
                 return
@@ -332,6 +337,21 @@ class Group:
         return tuple(band.end for band in self.bands)
 
 
+class _Identity:
+    """What tells groups apart; hashed once, for it has all their letters."""
+
+    __slots__ = ("_hash", "_of")
+
+    def __init__(self, of: object) -> None:
+        self._of, self._hash = of, hash(of)
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or (isinstance(other, _Identity) and self._of == other._of)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+
 def make_group(
     rows: Sequence[Sequence[Letter]],
     canvas: float,
@@ -409,11 +429,13 @@ def make_group(
             None if b == reference else PairTable(bands[reference], band, objective, share, len(bands) - 1)
             for b, band in enumerate(bands)
         ),
-        identity=(
-            tuple(band.letters for band in bands),
-            tuple(band.origins for band in bands),
-            tuple(band_of),
-            free,
+        identity=_Identity(
+            (
+                tuple(band.letters for band in bands),
+                tuple(band.origins for band in bands),
+                tuple(band_of),
+                free,
+            )
         ),
     )
 

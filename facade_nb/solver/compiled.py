@@ -126,11 +126,12 @@ class _Core:
     def _call(self, name: str, *arguments: float) -> None:
         """Call a function, its arguments in the box: to wasmtime each parameter and result takes microseconds."""
         if arguments:
-            self._memory.write(self._store, _BOX[len(arguments)].pack(*arguments), self._box)
+            box = self._memory.get_buffer_ptr(self._store, 64, self._box)
+            _BOX[len(arguments)].pack_into(box, 0, *arguments)
         self._functions[name](self._store)
 
     def _answer(self) -> tuple[float, ...]:
-        return _BOX[5].unpack(self._memory.read(self._store, self._box, self._box + 40))
+        return _BOX[5].unpack_from(self._memory.get_buffer_ptr(self._store, 40, self._box))
 
     def ask(self, check: Callable[[], None] | None, name: str, *arguments: float) -> tuple[float, ...]:
         """Call what may take long, and read its answer; what `check` raises meanwhile is raised afterwards."""

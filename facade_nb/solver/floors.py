@@ -1,4 +1,4 @@
-"""What words cost at least, from their sizes alone, before anything is aligned (the paper's 5.1, Eq. 7, supplement 3.2).
+"""What words cost at least, from their sizes alone, before anything is aligned (5.1, Eq. 7, supplement 3.2).
 
 The lower bound of Eq. 7 is canvas − μ − Σ of the opaque letters of the patterns above in the same group,
 because opaque letters above may push the words below aside; unsized letters take whatever is left.
@@ -15,7 +15,7 @@ from .letters import Letter, Word
 from .objective import Objective
 from .problem import AxisProblem
 
-__all__ = ["Floors", "GroupKey", "LongEnough", "Measures", "inputs_of", "rows_of"]
+__all__ = ["Chosen", "Floors", "GroupKey", "LongEnough", "Measured", "inputs_of", "measured", "rows_of"]
 
 GroupKey = tuple[int, ...]
 """A group's number, and the identities of the words that its rows depend on."""
@@ -27,8 +27,10 @@ class Measured:
 
     Attributes
     ----------
-    word
-        Kept, so that no other one can have its identity.
+    word, identity
+        The word, kept so that no other one can have its identity.
+    counters
+        Their values in it.
     size, opaque
         Of its sized letters, and of its opaque ones, metres.
     waiting
@@ -40,6 +42,8 @@ class Measured:
     """
 
     word: Word
+    identity: int
+    counters: tuple[tuple[str, int], ...]
     size: float
     opaque: float
     waiting: tuple[tuple[str, int], ...]
@@ -47,20 +51,12 @@ class Measured:
     contents: tuple[tuple[str, float], ...]
 
 
-class Measures:
-    """Words are measured once."""
-
-    def __init__(self) -> None:
-        self._known: dict[int, Measured] = {}
-
-    def __call__(self, word: Word) -> Measured:
-        found = self._known.get(id(word))
-        if found is None:
-            found = self._known[id(word)] = _measured(word)
-        return found
+Chosen = tuple[Measured, ...]
+"""Words for the first patterns of a problem, in its order."""
 
 
-def _measured(word: Word) -> Measured:
+def measured(word: Word) -> Measured:
+    """Measure a word."""
     size = opaque = 0.0
     soft = False
     waiting: dict[str, int] = {}
@@ -79,7 +75,8 @@ def _measured(word: Word) -> Measured:
     contents: dict[str, float] = {}
     for (symbol, _), extent in instances.items():
         contents.setdefault(symbol, extent)
-    return Measured(word, size, opaque, tuple(waiting.items()), soft, tuple(contents.items()))
+    counters, waits = tuple(word.counters.items()), tuple(waiting.items())
+    return Measured(word, id(word), counters, size, opaque, waits, soft, tuple(contents.items()))
 
 
 class Floors:
@@ -90,37 +87,35 @@ class Floors:
     the number of patterns.
     """
 
-    def __init__(
-        self, problem: AxisProblem, tolerance: float, objective: Objective, measures: Measures
-    ) -> None:
+    def __init__(self, problem: AxisProblem, tolerance: float, objective: Objective) -> None:
         self._canvas, self._tolerance, self._objective = problem.canvas, tolerance, objective
-        self._measures = measures
-        self._rows = [tuple(dict.fromkeys(rows)) for _, rows in problem.groups]
-        self._inputs = inputs_of(problem)
+        number = {name: n for n, (name, _) in enumerate(problem.patterns)}
+        self._rows = [tuple(dict.fromkeys([number[name] for name in rows])) for _, rows in problem.groups]
+        self._inputs = [tuple([number[name] for name in names]) for names in inputs_of(problem)]
         self._givers = [
-            [name for name, pattern in problem.patterns if pattern.substitutions and name in names]
-            for names in self._inputs
+            [n for n, (_, pattern) in enumerate(problem.patterns) if pattern.substitutions and n in inputs]
+            for inputs in self._inputs
         ]
-        self._groups = {
-            name: [g for g, names in enumerate(self._inputs) if name in names] for name, _ in problem.patterns
-        }
+        self._groups = [
+            [g for g, inputs in enumerate(self._inputs) if n in inputs] for n in range(len(problem.patterns))
+        ]
         self._known: dict[GroupKey, float] = {}
 
-    def of(self, words: Mapping[str, Word]) -> float:
+    def of(self, chosen: Chosen) -> float:
         """Sum over the groups."""
-        return sum(self._group(g, words) for g in range(len(self._inputs)))
+        return sum([self._group(g, chosen) for g in range(len(self._inputs))])
 
-    def after(self, before: tuple[float, ...], words: Mapping[str, Word], name: str) -> tuple[float, ...]:
-        """Per group, from what it was before a pattern was given its word."""
+    def after(self, before: tuple[float, ...], chosen: Chosen) -> tuple[float, ...]:
+        """Per group, from what it was before the last pattern was given its word."""
         costs = list(before)
-        for g in self._groups[name]:
-            costs[g] = self._group(g, words)
+        for g in self._groups[len(chosen) - 1]:
+            costs[g] = self._group(g, chosen)
         return tuple(costs)
 
-    def now(self, before: tuple[float, ...], words: Mapping[str, Word]) -> tuple[float, ...]:
+    def now(self, before: tuple[float, ...], chosen: Chosen) -> tuple[float, ...]:
         """Per group, with what has been learnt since."""
         known = self._known
-        return tuple([max(own, known.get(self.key(g, words), own)) for g, own in enumerate(before)])
+        return tuple([max(own, known.get(self._key(g, chosen), own)) for g, own in enumerate(before)])
 
     def learn(self, key: GroupKey, floor: float) -> bool:
         """Take in what a search has proven about all words of a group; whether that is news."""
@@ -129,37 +124,44 @@ class Floors:
             self._known[key] = floor
         return news
 
-    def key(self, g: int, words: Mapping[str, Word]) -> GroupKey:
-        """Under what a group is known; a word that is still to be chosen has the identity of None."""
-        return (g, *[id(words.get(name)) for name in self._inputs[g]])
+    def _key(self, g: int, chosen: Chosen) -> GroupKey:
+        """Under what a group is known."""
+        n = len(chosen)
+        return (g, *[chosen[i].identity if i < n else 0 for i in self._inputs[g]])
 
-    def _group(self, g: int, words: Mapping[str, Word]) -> float:
-        key = self.key(g, words)
+    def _group(self, g: int, chosen: Chosen) -> float:
+        key = self._key(g, chosen)
         bound = self._known.get(key)
         if bound is None:
-            bound = self._known[key] = self._least(g, words)
+            bound = self._known[key] = self._least(g, chosen)
         return bound
 
-    def _least(self, g: int, words: Mapping[str, Word]) -> float:
+    def _least(self, g: int, chosen: Chosen) -> float:
         contents: dict[str, float] = {}
-        for name in self._givers[g]:
-            if name in words:
-                contents = {**dict(self._measures(words[name]).contents), **contents}
-        names = self._rows[g]
-        rows = [self._measures(words[name]) for name in names if name in words]
+        for n in self._givers[g]:
+            if n < len(chosen):
+                contents = {**dict(chosen[n].contents), **contents}
+        numbers = self._rows[g]
+        rows = [chosen[n] for n in numbers if n < len(chosen)]
         distinct: list[Measured] = []
         for row in rows:
-            # cheaper than hashing all their letters
-            if not any(row.size == o.size and row.word.letters == o.word.letters for o in distinct):
+            for other in distinct:
+                # cheaper than hashing all their letters
+                if row.size == other.size and row.word.letters == other.word.letters:
+                    break
+            else:
                 distinct.append(row)
-        most = len(names) if len(rows) < len(names) else len(distinct)
+        most = len(numbers) if len(rows) < len(numbers) else len(distinct)
         objective, totals = self._objective, []
         softly = objective.empty if objective.plain else min(objective.empty, objective.loose)
         for row in distinct:
-            least = row.size
+            size = least = row.size
             for symbol, n in row.waiting:
-                least += n * contents.get(symbol, 0.0)
-            size = least if all(symbol in contents for symbol, _ in row.waiting) else inf
+                content = contents.get(symbol)
+                if content is None:
+                    size = inf
+                else:
+                    size, least = size + n * content, least + n * content
             totals.append((size, least, (softly if row.soft else objective.empty) / most))
         return self._cheapest(totals)
 
@@ -208,30 +210,34 @@ def inputs_of(problem: AxisProblem) -> list[tuple[str, ...]]:
 class LongEnough:
     """Eq. 7: whether a word is long enough next to those above it; unsized letters take whatever is left."""
 
-    def __init__(self, problem: AxisProblem, tolerance: float, measures: Measures) -> None:
+    def __init__(self, problem: AxisProblem, tolerance: float) -> None:
         self._least, self._groups = problem.canvas - tolerance - EPS, len(problem.groups)
-        self._measures = measures
+        number = {name: n for n, (name, _) in enumerate(problem.patterns)}
         # Per pattern, per group that uses it: the patterns whose topmost row is above its own topmost row.
-        self._above: dict[str, list[list[str]]] = {name: [] for name, _ in problem.patterns}
+        self._above: list[list[list[int]]] = [[] for _ in number]
         for _, rows in problem.groups:
-            order = list(dict.fromkeys(rows))
-            for i, name in enumerate(order):
-                self._above[name].append(order[:i])
+            order = [number[name] for name in dict.fromkeys(rows)]
+            for i, n in enumerate(order):
+                self._above[n].append(order[:i])
 
-    def __call__(self, name: str, chosen: Mapping[str, Word]) -> bool:
-        own = self._measures(chosen[name])
+    def last(self, chosen: Chosen) -> bool:
+        """Whether the last word is, next to the others."""
+        return self._one(len(chosen) - 1, chosen)
+
+    def all(self, chosen: Chosen) -> bool:
+        """Once more, for patterns that were chosen before some that stand above them in another group."""
+        return self._groups == 1 or all(self._one(n, chosen) for n in range(len(chosen)))
+
+    def _one(self, n: int, chosen: Chosen) -> bool:
+        own = chosen[n]
         if own.waiting or own.size >= self._least:
             return True
-        for patterns in self._above[name]:
-            if any(p not in chosen for p in patterns):
+        for above in self._above[n]:
+            if any(p >= len(chosen) for p in above):
                 continue  # not chosen yet: another group may use the patterns in another order
-            if own.size < self._least - sum([self._measures(chosen[p]).opaque for p in patterns]):
+            if own.size < self._least - sum([chosen[p].opaque for p in above]):
                 return False
         return True
-
-    def all(self, chosen: Mapping[str, Word]) -> bool:
-        """Once more, for patterns that were chosen before some that stand above them in another group."""
-        return self._groups == 1 or all(self(name, chosen) for name in chosen)
 
 
 def rows_of(
@@ -245,7 +251,7 @@ def rows_of(
     extent: dict[str, float] = {}
     for name, pattern in problem.patterns:
         if pattern.substitutions and name in words:
-            extent = {**dict(_measured(words[name]).contents), **extent}
+            extent = {**dict(measured(words[name]).contents), **extent}
     made: dict[str, tuple[Letter, ...]] = {}
     for name in names:
         if name not in made:

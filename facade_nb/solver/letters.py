@@ -45,6 +45,11 @@ class Letter:
         if self.transparent and self.opaque:
             object.__setattr__(self, "opaque", False)
 
+    def __hash__(self) -> int:
+        return hash(
+            (self.symbol, self.size)
+        )  # words are hashed often, and what else there is follows from the symbol
+
     def __str__(self) -> str:
         return spell(self.symbol) + ("'" if self.mirrored else "")
 

@@ -6,6 +6,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +18,8 @@ __all__ = ["DEFAULT_SHAPE", "find_holes", "hole_warnings", "merge", "shape_of"]
 
 DEFAULT_SHAPE = Shape("wall", "box", "card", 0.0, 0.2, True)
 """What a shape is where nothing is said: a plain box, as in the paper."""
+
+_FIELDS = tuple(f.name for f in fields(Shape))
 
 MAX_SHAPES = 250_000
 """Most shapes of one layer."""
@@ -31,7 +34,7 @@ def shape_of(design: Design, layer: Layer, x: str, y: str) -> Shape:
     *"``, which beats
     ``"* Y"``, which beats ``"* *"``.
     """
-    shape = DEFAULT_SHAPE
+    told: dict[str, Any] = {}
     sources = (
         design.shapes,
         design.patterns[layer.x.pattern].shapes,
@@ -43,9 +46,8 @@ def shape_of(design: Design, layer: Layer, x: str, y: str) -> Shape:
             for key in ("* *", f"* {y}", f"{x} *", f"{x} {y}"):
                 given = source.get(key)
                 if given is not None:
-                    told = {f.name: v for f in fields(given) if (v := getattr(given, f.name)) is not None}
-                    shape = replace(shape, **told)
-    return shape
+                    told.update((f, v) for f in _FIELDS if (v := getattr(given, f)) is not None)
+    return replace(DEFAULT_SHAPE, **told) if told else DEFAULT_SHAPE
 
 
 def merge(
@@ -104,28 +106,36 @@ class _Front:
     """A layer in front of others: which of its cells hide what is wholly behind them."""
 
     def __init__(self, columns: Sequence[PlacedLetter], floors: Sequence[PlacedLetter]) -> None:
-        self._columns, self._floors = columns, floors
+        self._columns, self._floors = _Row(columns), _Row(floors)
         self.solid: set[tuple[int | None, int | None]] = set()
 
     def across(self, letters: Sequence[PlacedLetter]) -> list[int | None]:
         """Per letter: the column of this layer that it is wholly behind."""
-        return _holders(self._columns, letters)
+        return self._columns.holders(letters)
 
     def up(self, letters: Sequence[PlacedLetter]) -> list[int | None]:
         """Per letter: the same of rows of cells."""
-        return _holders(self._floors, letters)
+        return self._floors.holders(letters)
 
 
-def _holders(front: Sequence[PlacedLetter], letters: Sequence[PlacedLetter]) -> list[int | None]:
-    """Letters of a row do not overlap, so that only the last one that begins before can hold another."""
-    starts = [a.start for a in front]
-    found: list[int | None] = []
-    for letter in letters:
-        n = bisect_right(starts, letter.start + _NEAR) - 1
-        while n > 0 and front[n].end < letter.end - _NEAR and front[n - 1].end >= letter.end - _NEAR:
-            n -= 1  # it begins a little before the next one does
-        found.append(n if n >= 0 and front[n].end >= letter.end - _NEAR else None)
-    return found
+class _Row:
+    """Where the letters of a row begin and end."""
+
+    def __init__(self, letters: Sequence[PlacedLetter]) -> None:
+        self._starts = [a.start - _NEAR for a in letters]
+        self._ends = [a.end + _NEAR for a in letters]
+
+    def holders(self, letters: Sequence[PlacedLetter]) -> list[int | None]:
+        """Letters of a row do not overlap, so that only the last one that begins before can hold another."""
+        starts, ends = self._starts, self._ends
+        found: list[int | None] = []
+        for letter in letters:
+            end = letter.end
+            n = bisect_right(starts, letter.start) - 1
+            while n > 0 and ends[n] < end and ends[n - 1] >= end:
+                n -= 1  # it begins a little before the next one does
+            found.append(n if n >= 0 and ends[n] >= end else None)
+        return found
 
 
 def _placed(layer: Layer, h: PlacedLetter, v: PlacedLetter, rect: Rect, look: Shape) -> PlacedShape:
@@ -162,9 +172,11 @@ def find_holes(canvas: Canvas, shapes: Sequence[PlacedShape]) -> tuple[Rect, ...
     ys = _cuts([0.0, canvas.height, *(v for s in shapes for v in (s.rect[1], s.rect[3]))], canvas.height)
     nx, ny = len(xs) - 1, len(ys) - 1
     grid = np.ones((nx, ny), dtype=bool)
-    for shape in shapes:
-        left, bottom, right, top = shape.rect
-        grid[_index(xs, left) : _index(xs, right), _index(ys, bottom) : _index(ys, top)] = False
+    rects = {shape.rect for shape in shapes}
+    across = {v: _index(xs, v) for v in {v for rect in rects for v in rect[::2]}}
+    up = {v: _index(ys, v) for v in {v for rect in rects for v in rect[1::2]}}
+    for left, bottom, right, top in rects:
+        grid[across[left] : across[right], up[bottom] : up[top]] = False
     if not grid.any():
         return ()
     bare = grid.tolist()

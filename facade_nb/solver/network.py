@@ -176,8 +176,8 @@ class Network:
     ) -> tuple[tuple[Span, ...], tuple[tuple[str, float, float], ...], bool]:
         """What the pieces in a column say about the letters they belong to, and whether one of those is pinched.
 
-        A piece beside something that has a size is as long as that, or pays 1 a metre. So if the pieces of a letter are as
-        long as it is, but for one that may have any length or is still to come, nothing is left for that one.
+        A piece beside something that has a size is as long as that, or pays 1 a metre. So if the pieces of a letter
+        are as long as it is, but for one that may have any length or is still to come, nothing is left for that one.
         """
         least, most = (edge.least, edge.width) if edge.firm else (0.0, inf)
         spans: list[Span] = []

@@ -67,16 +67,17 @@ def least_squares(
     -------
     The solution, or None where the constraints contradict each other.
     """
-    sense = np.zeros(upper.size, dtype=np.int32)
-    sense[upper == lower] = 5
-    hessian, base = np.diag(2.0 * weight), -2.0 * weight * target
-    if bool((weight > 0).all()):
+    sense = np.multiply(upper == lower, 5, dtype=np.int32)
+    double = 2.0 * weight
+    hessian, base = np.zeros((weight.size, weight.size)), -double * target
+    hessian.reshape(-1)[:: weight.size + 1] = double
+    if weight.size == 0 or weight.min() > 0:
         return _solve(hessian, base, rows, lower, upper, sense, tolerance)
     found = _solve(hessian, base, rows, lower, upper, sense, tolerance, eps_prox=1e-5, eta_prox=1e-12)
     if found is not None:
         n = weight.size
         pull = found.multipliers[:n] + found.multipliers[n:] @ rows
-        if np.abs(hessian.diagonal() * found.x + base + pull).max(initial=0.0) <= _MISSED:
+        if np.abs(double * found.x + base + pull).max() <= _MISSED:
             return found
     return _rounds(hessian, base, rows, lower, upper, sense, tolerance, target)
 

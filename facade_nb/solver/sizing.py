@@ -117,14 +117,18 @@ class _Builder:
     def __init__(self, canvas: float, symbol: Callable[[str], Symbol], least: float) -> None:
         self.canvas, self.symbol, self.least = canvas, symbol, least
         self.keys: list[_Key] = []
-        self.variables: list[tuple[float, float, float, float, float]] = []
-        """Low, high, target, weight, pull."""
+        self.variables: list[float] = []
+        """Five numbers each: low, high, target, weight, pull."""
         self.inner = (0.0, canvas, 0.0, 0.0, 0.0)
         """A boundary between letters."""
-        self.differences: list[tuple[int, int, float]] = []
-        """Greater, less, and by how much at least."""
+        self.greater: list[int] = []
+        self.less: list[int] = []
+        self.by: list[float] = []
+        """Two variables of which one is greater, and by how much at least."""
         self.difference_keys: list[_Key] = []
-        self.spans: list[tuple[int, int, int]] = []
+        self.starts: list[int] = []
+        self.ends: list[int] = []
+        self.lengths: list[int] = []
         """Start, end and size of a letter, which are the same length."""
         self.span_keys: list[_Key] = []
         self.equations: list[Mapping[int, float]] = []
@@ -139,13 +143,15 @@ class _Builder:
         self, key: _Key, low: float, high: float, target: float, weight: float = 0.0, pull: float = 0.0
     ) -> int:
         self.keys.append(key)
-        self.variables.append((low, high, target, weight, pull))
+        self.variables += (low, high, target, weight, pull)
         return len(self.keys) - 1
 
     def difference(self, key: _Key, greater: int, less: int, low: float) -> None:
         """``greater - less >= low``."""
         self.difference_keys.append(key)
-        self.differences.append((greater, less, low))
+        self.greater.append(greater)
+        self.less.append(less)
+        self.by.append(low)
 
     def equation(self, key: _Key, terms: Mapping[int, float]) -> None:
         """``terms = 0``."""
@@ -165,24 +171,16 @@ class _Builder:
 
     def system(self) -> System:
         """The matrices."""
-        n = len(self.keys)
-        low, high, target, weight, pull = np.array(self.variables).T
-        m, k = len(self.differences), len(self.spans)
-        matrix = np.zeros((m + k + len(self.equations), n))
-        floor = np.zeros(len(matrix))
-        ceiling = np.zeros(len(matrix))
-        if m:
-            greater, less, least = zip(*self.differences, strict=True)
-            rows = np.arange(m)
-            matrix[rows, greater] = 1.0
-            matrix[rows, less] = -1.0
-            floor[:m], ceiling[:m] = least, FREE
-        if k:
-            start, end, size = np.array(self.spans).T
-            rows = np.arange(m, m + k)
-            matrix[rows, end] = 1.0
-            matrix[rows, start] = -1.0
-            matrix[rows, size] = -1.0
+        n, m, k, e = len(self.keys), len(self.by), len(self.lengths), len(self.equations)
+        variables = np.array(self.variables).reshape(n, 5)
+        lower, upper = np.zeros(n + m + k + e), np.zeros(n + m + k + e)
+        lower[:n], upper[:n] = variables[:, 0], variables[:, 1]
+        lower[n : n + m], upper[n : n + m] = self.by, FREE
+        matrix = np.zeros((m + k + e, n))
+        cells, first = matrix.reshape(-1), np.arange(0, (m + k) * n, n)  # of each row
+        cells[np.add(first, [*self.greater, *self.ends])] = 1.0
+        cells[np.add(first, [*self.less, *self.starts])] = -1.0
+        cells[np.add(first[m:], self.lengths)] = -1.0
         for row, terms in enumerate(self.equations, m + k):
             for v, coefficient in terms.items():
                 matrix[row, v] = coefficient
@@ -190,11 +188,11 @@ class _Builder:
             tuple(self.keys),
             (*self.difference_keys, *self.span_keys, *self.equation_keys),
             matrix,
-            np.concatenate((low, floor)),
-            np.concatenate((high, ceiling)),
-            weight,
-            target,
-            np.maximum(pull, 1e-6),
+            lower,
+            upper,
+            np.ascontiguousarray(variables[:, 3]),
+            np.ascontiguousarray(variables[:, 2]),
+            np.maximum(variables[:, 4], 1e-6),
         )
 
 
@@ -238,15 +236,24 @@ def size_axis(
         return None
     x = _settle(system, first.x) if build.open else first.x
     # 1 m is to be 1 and not a bit less; the ends are 0 and the canvas exactly
-    at = np.clip(np.round(x, 12), system.lower[: x.size], system.upper[: x.size]).tolist()
+    n = x.size
+    at = np.minimum(np.maximum(np.round(x, 12), system.lower[:n]), system.upper[:n]).tolist()
+    off = first.x - system.target
     return Sized(
         {name: at[v] for name, v in build.size_of.items()},
-        tuple(tuple(at[v] for v in own) for own in edges),
+        tuple([tuple([at[v] for v in own]) for own in edges]),
         tuple(
-            tuple(tuple(tuple((at[s], at[t]) for s, t in element) for element in column) for column in own)
-            for own in bounds
+            [
+                tuple(
+                    [
+                        tuple([tuple([(at[s], at[t]) for s, t in element]) for element in column])
+                        for column in own
+                    ]
+                )
+                for own in bounds
+            ]
         ),
-        sqrt(float(np.sum(system.weight * (first.x - system.target) ** 2))),
+        sqrt(float(system.weight @ (off * off))),
         system,
         first,
         tuple(at),
@@ -283,7 +290,7 @@ def _letters(
     structure, pieces = priced.structure[k], priced.pieces[k]
     placed: list[list[list[tuple[int, int]]]] = [[[] for _ in group.bands] for _ in structure]
     keys, variables, inner = build.keys, build.variables, build.inner
-    spans, span_keys = build.spans, build.span_keys
+    starts, ends, lengths, span_keys = build.starts, build.ends, build.lengths, build.span_keys
     for row, band in enumerate(group.bands):
         word, size_of = band.letters, build.size_of
         # equal words may owe their letters to other contents
@@ -307,7 +314,7 @@ def _letters(
                 else:
                     to = len(keys)
                     keys.append(("t", g, row, j, i))
-                    variables.append(inner)
+                    variables += inner
                 into.append((at, to))
                 stands[letter].append((place, at, to, sizes[i]))
                 for n, origins in marked:
@@ -326,7 +333,9 @@ def _letters(
             if len(own) == 1:
                 ((place, s, t, _),) = own
                 span_keys.append(("=", symbol, place))
-                spans.append((s, t, z))
+                starts.append(s)
+                ends.append(t)
+                lengths.append(z)
             else:
                 _pieces(build, symbol, own, z)
     return placed
@@ -353,10 +362,10 @@ def _gaps(
         placement = "right" if placement == "left" else "left"
     s, t = start, end
     if placement != "left":
-        s = build.variable(("s", *place, 0), 0.0, build.canvas, build.variables[start][2])
+        s = build.variable(("s", *place, 0), 0.0, build.canvas, build.variables[5 * start + 2])
         build.difference(("before", *place, 0), s, start, 0.0)
     if placement != "right":
-        t = build.variable(("t", *place, final), 0.0, build.canvas, build.variables[end][2])
+        t = build.variable(("t", *place, final), 0.0, build.canvas, build.variables[5 * end + 2])
         build.difference(("after", *place, final), end, t, 0.0)
     if placement == "center":
         build.equation(("gaps", *place, 0), {s: 1.0, start: -1.0, end: -1.0, t: 1.0})

@@ -20,13 +20,16 @@ from .problem import AxisProblem
 
 __all__ = ["axis_words", "forget_words", "words"]
 
-_kept: Kept[Instances] = Kept(4_000_000)
-"""Words of patterns asked for last; weighed by their letters."""
+_kept: Kept[tuple[Instances, float]] = Kept(4_000_000)
+"""Words of patterns asked for last, and how much is opaque in one of them at most; weighed by their letters."""
+_ranges: Kept[dict[str, Range]] = Kept(1_000)
+"""What patterns say of counters."""
 
 
 def forget_words() -> None:
     """Let go of all words that are kept for unchanged patterns."""
     _kept.clear()
+    _ranges.clear()
     forget_measures()
 
 
@@ -78,8 +81,8 @@ def axis_words(
             low,
             tuple(own_common.items()),
         )
-        own = _kept.get(key)
-        if own is None:
+        known = _kept.get(key)
+        if known is None:
             try:
                 own = instances(
                     pattern,
@@ -93,9 +96,9 @@ def axis_words(
                 )
             except DesignError as error:
                 raise DesignError(Fault(f"patterns.{name}", str(error))) from None
-            _kept.put(key, own, 10 + sum(map(len, own.words)))
-        found[name] = own
-        opaque[name] = max((_opaque(word) for word in own.words), default=0.0)
+            known = own, max((_opaque(word) for word in own.words), default=0.0)
+            _kept.put(key, known, 10 + sum(map(len, own.words)))
+        found[name], opaque[name] = known
     return found
 
 
@@ -108,7 +111,19 @@ def _common(
     shared = {c for c in counters if sum(c in p.counters for _, p in problem.patterns) > 1}
     for _, pattern in problem.patterns:
         if shared & set(pattern.counters):
-            own = ranges(pattern, lambda s: symbols.get(s) or Symbol(s), lambda c: counters[c], limit, check)
+            key = (
+                pattern,
+                tuple([symbols.get(s) for s in (*pattern.symbols, *pattern.substituted)]),
+                tuple([counters[c] for c in pattern.counters]),
+                limit,
+            )
+            known = _ranges.get(key)
+            if known is None:
+                known = ranges(
+                    pattern, lambda s: symbols.get(s) or Symbol(s), lambda c: counters[c], limit, check
+                )
+                _ranges.put(key, known)
+            own = known
             for c in shared & own.keys():
                 low, high = found.get(c, own[c])
                 found[c] = max(low, own[c][0]), min(high, own[c][1])

@@ -2,7 +2,8 @@
 
 The step (`size_axis`) names the variables and rows of an axis, fills the matrices, solves the two rounds, and places
 the letters. Alone are the calls of daqp that it makes, with the same arguments, one after the other; and, stricter,
-the first of them.
+the first of them. A solve sizes both axes, so that it is their sum, for each design, that the goal speaks of: on the
+smallest axes the step takes some tens of microseconds, whatever there is to solve.
 """
 
 from __future__ import annotations
@@ -31,13 +32,22 @@ def main(limit: float = 60.0) -> None:
     heads = ("axis", "variables", "rows", "calls", "step us", "daqp us", "ratio", "one call us", "ratio")
     widths = (-26, 9, 6, 6, 9, 9, 7, 12, 7)
     print(line_of(list(zip(heads, widths, strict=True))))
-    ratios: list[float] = []
+    sums: dict[str, tuple[float, float]] = {}
     for name in (*LARGE, *others()):
+        steps = alones = 0.0
         for place, arguments in _last_steps(name, limit):
-            cells, ratio = _measured(f"{name} {place}", arguments)
-            ratios.append(ratio)
+            cells, step, alone = _measured(f"{name} {place}", arguments)
+            steps, alones = steps + step, alones + alone
             print(line_of(list(zip(cells, widths, strict=True))), flush=True)
-    print(f"\nmedian ratio {statistics.median(ratios):.2f}, worst {max(ratios):.2f}; goal at most {GOAL:g}")
+        sums[name] = steps, alones
+    print("\nboth axes")
+    for name, (steps, alones) in sums.items():
+        told = "" if name in LARGE else " (small)"
+        print(f"{name + told:32} {steps:6.0f} us, daqp {alones:6.0f} us, ratio {steps / alones:5.2f}")
+    ratios = [steps / alones for name, (steps, alones) in sums.items() if name in LARGE]
+    print(
+        f"\nlarge designs: median ratio {statistics.median(ratios):.2f}, worst {max(ratios):.2f}; goal at most {GOAL:g}"
+    )
 
 
 def _last_steps(name: str, limit: float) -> list[tuple[str, tuple[Any, ...]]]:
@@ -58,7 +68,7 @@ def _last_steps(name: str, limit: float) -> list[tuple[str, tuple[Any, ...]]]:
     return list(steps.items())
 
 
-def _measured(name: str, arguments: tuple[Any, ...]) -> tuple[list[str], float]:
+def _measured(name: str, arguments: tuple[Any, ...]) -> tuple[list[str], float, float]:
     calls: list[tuple[tuple[Any, ...], dict[str, Any]]] = []
 
     class Recorded:
@@ -75,7 +85,7 @@ def _measured(name: str, arguments: tuple[Any, ...]) -> tuple[list[str], float]:
     first = _median(lambda: _again(*calls[0]))
     counts = [str(len(sized.system.variables)), str(len(sized.system.rows)), str(len(calls))]
     times = [f"{step:.0f}", f"{alone:.0f}", f"{step / alone:.2f}", f"{first:.0f}", f"{step / first:.2f}"]
-    return [name, *counts, *times], step / alone
+    return [name, *counts, *times], step, alone
 
 
 def _again(given: tuple[Any, ...], options: dict[str, Any]) -> None:
