@@ -29,6 +29,7 @@ from .words import axis_words
 __all__ = ["AxisSearch", "Best", "Solved", "forget_groups"]
 
 _NODES = 1_000_000
+"""A search of more paths gives up; under the paper's objective, and where structures are refused, of fewer."""
 
 _kept: Kept[tuple[list[Priced], float]] = Kept(512)
 """What has been found for groups, so that those that an edit leaves alone are not searched again."""
@@ -266,15 +267,17 @@ class AxisSearch:
                 best.bound = min(best.bound, floor)
                 return best
         if best.solved is None and not best.complete:
-            best.solved = self._hasty()
+            best.solved = self.hasty()
         best.bound = min(best.bound, floor, self._left_out())
         return best
 
-    def _hasty(self) -> Solved | None:
+    def hasty(self) -> Solved | None:
         """Any layout of one of the likeliest candidates, for when the time is up and there is none yet."""
         best: Solved | None = None
         if self.extend is not None:
             self.extend()
+        if self.objective.plain:
+            return self._hasty_in_order()
         likely = sorted(self.cases, key=lambda case: case.floor)[:3]
         if start_afresh():
             for case in self.cases:
@@ -296,6 +299,19 @@ class AxisSearch:
         except Stopped:
             pass  # what was found until now is all there is
         return best
+
+    def _hasty_in_order(self) -> Solved | None:
+        """The same under the paper's objective, which wants the first candidate that aligns."""
+        try:
+            for candidate in self.in_order():
+                case = self.case(candidate)
+                self._open(case)
+                solved = self._dive(case, inf, at_once=True)
+                if solved is not None:
+                    return solved
+        except Stopped:
+            pass
+        return None
 
     def _dive(self, case: _Case, cost: float, *, at_once: bool = False) -> Solved | None:
         """A layout of the candidate that costs less than `cost`, by structures that may not be the best."""
@@ -413,7 +429,7 @@ class AxisSearch:
         cluster: Iterable[int],
         known: tuple[list[Priced], float] | None = None,
     ) -> GroupSearch:
-        nodes = _NODES if accept is None else _NODES // 50
+        nodes = _NODES if accept is None and not self.objective.plain else _NODES // 50
         log = None
         if self.trace is not None:
             names = [self.problem.groups[g][0] for g in cluster]

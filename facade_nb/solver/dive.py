@@ -90,7 +90,8 @@ class Dives:
         accept: Callable[[Priced], bool] | None = None,
     ) -> None:
         tall = any(group.tall for group in groups)
-        self.network = Network(groups, check, most=_MOST if tall else inf)
+        plain = any(group.objective.plain for group in groups)  # there next to every column costs nothing
+        self.network = Network(groups, check, most=_MOST if tall or plain else inf)
         self.network.sizable = accept is not None
         self.check, self._accept = check, accept
         self.best: Priced | None = None

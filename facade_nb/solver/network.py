@@ -35,7 +35,8 @@ _NOTHING: Span = (0.0, 0.0, False)
 class Network:
     """The network of one group, or of several that share unsized symbols, with lower bounds for what is to come.
 
-    With `sizable`, columns are left out that no sizes of symbols can make.
+    With `sizable`, columns are left out that no sizes of symbols can make. With `binds`, pieces that need more or less
+    than what costs nothing may come up against the tolerance on ω; where no path may cost so much, they do not.
     """
 
     def __init__(
@@ -44,7 +45,7 @@ class Network:
         self.groups = tuple(groups)
         self.check = check
         self.most = most
-        self.gather = True
+        self.binds = False
         self.sizable = False
         self.tall = any(group.tall for group in groups)
         self.skeletons: list[Skeleton | None] = [None] * len(groups)
@@ -112,8 +113,9 @@ class Network:
             firm = path.firm and edge.firm
             trail, ranges = path.trail, path.ranges
             if edge.tied:
-                if edge.pieces and self.gather:
-                    ranges = gathered(ranges, trail, path.group, edge)
+                if edge.pieces:
+                    most = group.tolerance if self.binds else inf
+                    ranges = gathered(ranges, trail, path.group, edge, most)
                 else:
                     trail = (*trail, Trailed(path.group, edge.column))
             spans, learnt, pinched = path.spans, path.learnt, path.pinched or edge.pinched

@@ -14,13 +14,16 @@ State = tuple[Position, ...]
 Piece = tuple[int, int, tuple[int, ...]]
 """Group, band, and the letters that share an element: most often one."""
 
+_PRICE = 255
+"""Stands where a piece has its group: not a piece, but what a metre more costs."""
+
 Span = tuple[float, float, bool]
 """Of the pieces of a letter that are laid: least and greatest total size at no cost; one of them may have any length,
 down to nothing."""
 
-Range = tuple[tuple[Piece, ...], float, float, float]
-"""Of the columns in which just these pieces stand: least and greatest total size of each at no cost, and the price of
-a metre more, which all of them may use. A metre less costs 1."""
+Range = tuple[tuple[Piece, ...], float, float, float, float]
+"""Of the columns in which just these pieces stand: least and greatest total size of each at no cost, the price of
+a metre more, which all of them may use (a metre less costs 1), and how much the tolerance on ω allows of both."""
 
 
 @dataclass(slots=True, eq=False)
@@ -119,16 +122,25 @@ class Edge:
     pinched: bool = False
 
 
-def gathered(ranges: tuple[Range, ...], trail: tuple[object, ...], g: int, edge: Edge) -> tuple[Range, ...]:
+def gathered(
+    ranges: tuple[Range, ...], trail: tuple[object, ...], g: int, edge: Edge, tolerance: float
+) -> tuple[Range, ...]:
     """Add the pieces of a column to what is known of their letters.
 
     Columns with the same pieces act as one: a metre that one of them needs more can be laid into the same column as
     what the others need more. A letter that is complete and within its range needs nothing, whatever the
     others need, and is forgotten.
+
+    Of a column's pieces, those that want more want the largest of that, those that want less the largest of that, and
+    both together no more than the tolerance has left beside ω. Sets of that shape add up to one of that shape, so
+    that what columns allow adds up as well. A metre more is laid where it is cheapest; where the tolerance may bind
+    (it is not infinite), only columns with the same price of it act as one.
     """
     key = tuple([(g, b, letters) for b, letters in edge.pieces])
+    if tolerance < inf:
+        key = (*key, (_PRICE, round(edge.up * 1e9), ()))
     found = {own[0]: own for own in ranges}
-    _join(found, (key, edge.least, edge.width, edge.up))
+    _join(found, (key, edge.least, edge.width, edge.up, tolerance - edge.omega))
     for b, letters in edge.pieces:
         option = edge.column[b]
         if len(letters) == 1 and option.ends and option.sized is not None:
@@ -139,7 +151,7 @@ def gathered(ranges: tuple[Range, ...], trail: tuple[object, ...], g: int, edge:
 def _join(found: dict[tuple[Piece, ...], Range], new: Range) -> None:
     old = found.get(new[0])
     if old is not None:
-        new = (new[0], new[1] + old[1], new[2] + old[2], min(new[3], old[3]))
+        new = (new[0], new[1] + old[1], new[2] + old[2], min(new[3], old[3]), new[4] + old[4])
     found[new[0]] = new
 
 
@@ -165,7 +177,7 @@ def _settle(
         del found[entry[0]]
     for entry in standing:
         rest = tuple([other for other in entry[0] if other != piece])
-        if rest:
+        if any(other[0] != _PRICE for other in rest):
             _join(found, (rest, *entry[1:]))
 
 

@@ -27,6 +27,8 @@ _TURN = 150
 """After so many paths a search gives way to those of other candidates."""
 _SLOW = 0.03
 """A search that takes more seconds than this is helped by sweeps."""
+_BUDGET = 4_000
+"""Of so many partial alignments the paper's search has to come to something at first; then of four times as many."""
 _LONG = 3_000
 """A search of more paths than this is a long one, and dives help it."""
 
@@ -54,6 +56,7 @@ class GroupSearch:
         fits: Callable[[Priced], bool] | None = None,
     ) -> None:
         self.groups, self.log, self._fits = groups, log, fits
+        self._plain = any(group.objective.plain for group in groups)
         self._options = (method, nodes, check, accept)
         self._dives: Dives | CompiledDives | None = None
         self._sweeps = sweeps(groups[0], check) if accept is None and can_sweep(groups) else None
@@ -129,9 +132,9 @@ class GroupSearch:
 
     @property
     def known(self) -> list[Priced]:
-        """The optimal structures; else the best so far."""
+        """The optimal structures, where they are known; else the best so far."""
         best = self._swept if self._dives is None else self._dives.best
-        return self.ties or ([best] if best is not None else [])
+        return self._found.ties or ([best] if best is not None else [])
 
     def _go_on(self, limit: float, top: float) -> None:
         if self._ida and limit == inf:  # it deepens by itself, from the start in every step
@@ -167,18 +170,41 @@ class GroupSearch:
             assert self._first is not None, "a search that was given up is not gone on with"
             self._first.advance(limit)
             self.done = self._first.done
+            if self.cut and self._plain:
+                self._otherwise()
         else:
-            _, nodes, check, accept = self._options
-            self._found = search_ida(
-                self.groups,
-                cap=limit,
-                keep=TIES,
-                nodes=nodes,
-                check=check,
-                accept=accept,
-                observer=self.log,
-            )
-            self.done = bool(self._found.ties) or self._found.bound == inf or self._found.cut
+            budget = _BUDGET if self.log is None else inf  # a trace would tell everything again
+            while not self.done:
+                self._found = self._paper(limit, budget)
+                if budget >= self._options[1] or not self._found.cut:
+                    self.done = bool(self._found.ties) or self._found.bound == inf or self._found.cut
+                    return
+                budget *= 4
+
+    def _paper(self, limit: float, budget: float) -> Found:
+        """What the paper's search finds, of at most so many partial alignments."""
+        _, nodes, check, accept = self._options
+        return search_ida(
+            self.groups,
+            cap=limit,
+            keep=TIES,
+            nodes=int(min(nodes, budget)),
+            check=check,
+            accept=accept,
+            observer=self.log,
+        )
+
+    def _otherwise(self) -> None:
+        """Under the paper's objective bounds say little; where best first gets lost, its own search may not."""
+        if self.log is not None:
+            return
+        first, self._first = self._found, None
+        other = self._paper(inf, _BUDGET)
+        better = other.best is not None and (first.best is None or other.best.cost < first.best.cost)
+        if better or not other.cut:
+            other.nodes += first.nodes
+            other.bound = max(other.bound, first.bound)
+            self._found = other
 
     @property
     def ties(self) -> list[Priced]:

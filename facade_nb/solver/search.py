@@ -187,9 +187,9 @@ class BestFirst:
             if not self.network.bind(limit):
                 self._nothing_within(limit)
                 return False
-            self._begin_again(gather=limit <= self._horizon)
-        elif self.network.gather and limit > self._horizon:
-            self._begin_again(gather=False)
+            self._begin_again(binds=limit > self._horizon)
+        elif not self.network.binds and limit > self._horizon:
+            self._begin_again(binds=True)
         parked, self._parked = self._parked, []
         for made, path in parked:
             if not path.dropped:
@@ -203,12 +203,9 @@ class BestFirst:
         else:
             self.found.bound = max(self.found.bound, limit)
 
-    def _begin_again(self, *, gather: bool) -> None:
-        """Start anew: the bounds hold for another limit, or, without `gather`, the tolerance may bind from here on.
-
-        Then paths are not compared by the ranges of their pieces.
-        """
-        self.network.gather = gather
+    def _begin_again(self, *, binds: bool) -> None:
+        """Start anew: the bounds hold for another limit, or the tolerance may bind from here on."""
+        self.network.binds = binds
         self._seen = Seen(self.network, self.keep)
         self._queue.clear()
         self._parked.clear()

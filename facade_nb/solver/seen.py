@@ -17,10 +17,9 @@ class Seen:
     narrower path may replace a wider one where it cannot end below canvas − μ.
 
     The price of a path also depends on the lengths of pieces that answer to an equation. Where a column holds one such
-    piece, all that matters of it is the range of lengths that cost nothing, and what a metre beyond costs;
-    the ranges of a letter's pieces add up, and of two paths the one with the wider ranges can only be
-    cheaper, as long as the tolerance on ω does not bind (`paths.gathered`). Other columns with such pieces
-    have to be the same (`trail`).
+    piece, all that matters of it is the range of lengths that cost nothing, what a metre beyond costs, and how far
+    the tolerance lets it go; all of that adds up over a letter's pieces, and of two paths the one with the wider
+    ranges can only be cheaper (`paths.gathered`). Other columns with such pieces have to be the same (`trail`).
     """
 
     def __init__(self, network: Network, keep: int) -> None:
@@ -57,10 +56,14 @@ class Seen:
         dw = a.width - b.width
         slack = 0.0
         wider = False
-        for (_, low, high, up), (_, low_b, high_b, up_b) in zip(a.ranges, b.ranges, strict=True):
-            if low > low_b + EPS or high < high_b - EPS or up > up_b + EPS:
+        for (_, low, high, up, more), (_, low_b, high_b, up_b, more_b) in zip(
+            a.ranges, b.ranges, strict=True
+        ):
+            if low > low_b + EPS or high < high_b - EPS or up > up_b + EPS or more < more_b - EPS:
                 return -1
-            wider = wider or low < low_b - EPS or high > high_b + EPS or up < up_b - EPS
+            wider = (
+                wider or low < low_b - EPS or high > high_b + EPS or up < up_b - EPS or more > more_b + EPS
+            )
         if abs(dw) > EPS or wider:
             if a.group == len(self._network.groups):
                 return -1

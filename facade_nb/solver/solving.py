@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from heapq import heappop, heappush
@@ -13,6 +14,7 @@ from ..design.model import AXES, Axis, Design
 from .analysis import analyse
 from .axis import AxisSearch, Best, Solved, forget_groups
 from .clock import Clock
+from .compiled import start_afresh
 from .failure import explain, ran_out
 from .forces import Sizing
 from .instances import Range, ranges
@@ -359,8 +361,13 @@ class _Run:
                     if x is not None and y is not None:
                         return {"x": (walks["x"], x), "y": (walks["y"], y)}
                 continue
-            for axis, walk in walks.items():
-                found = self._first_aligned(walk)
+            for n, (axis, walk) in enumerate(walks.items()):
+                if len(axes) > 1:
+                    self.clock.allot(0.75 if n < len(walks) - 1 else 1.0)
+                found, over = self._first_unless_over(walk)
+                if over:  # here, where nothing is left of what may have used up the memory
+                    walk.forget()
+                    walk, found = self._any_aligned(axis)
                 if found is not None:
                     out[axis] = (walk, found)
             if len(out) == len(axes):
@@ -372,6 +379,7 @@ class _Run:
         """The first candidate, in lexicographic order, that aligns and can be sized."""
         progress, axis = self.clock.progress, walk.problem.axis
         whole = all(found.left == inf for found in walk.found.values())
+        complete = True
         with stage(self.trace, axis, "search"):
             for n, candidate in enumerate(walk.in_order(), 1):
                 progress.at("alignment", axis, candidate=n, of=n)
@@ -379,9 +387,30 @@ class _Run:
                 solved = walk.solve(case)
                 if self.trace is not None:
                     self.trace.tried(walk, case)
+                complete = complete and not any(run.cut for run in case.runs)
                 if solved is not None:
-                    return Best(solved, solved.cost if whole else 0.0)
+                    return Best(solved, solved.cost if whole and complete else 0.0, complete)
         return None
+
+    def _first_unless_over(self, walk: AxisSearch) -> tuple[Best | None, bool]:
+        """The same; and whether time or memory were over before."""
+        try:
+            return self._first_aligned(walk), False
+        except Stopped as stop:
+            if stop.asked:
+                raise
+            return None, True
+
+    def _any_aligned(self, axis: Axis) -> tuple[AxisSearch, Best | None]:
+        """Any layout of an axis at the largest tolerance, for when the time is up."""
+        gc.collect()
+        start_afresh()
+        self.clock.extend()
+        walk = self._walk(axis, self.tolerances[-1])
+        solved = walk.hasty()
+        if solved is None:
+            raise Stopped
+        return walk, Best(solved, 0.0, False)
 
     def _assemble(self, solved: Mapping[Axis, tuple[AxisSearch, Best]]) -> Layout:
         warnings: list[str] = []

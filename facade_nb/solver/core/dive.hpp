@@ -144,7 +144,7 @@ class Dives {
 
   static std::size_t most(const std::vector<Group*>& groups) {
     for (const Group* group : groups)
-      if (group->tall) return kMost;
+      if (group->tall || group->prices.plain) return kMost;
     return SIZE_MAX;
   }
 

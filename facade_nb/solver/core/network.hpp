@@ -18,7 +18,7 @@ class Network {
   Arena arena;
   Trails trails;
   Gatherer gatherer;
-  bool gather = true, tall = false;
+  bool binds = false, tall = false;
   bool sizable = false;  // leave columns out that no sizes of symbols can make
   std::size_t most;
 
@@ -110,9 +110,9 @@ class Network {
       const bool firm = path.firm && edge->firm;
       int trail = path.trail;
       if (edge->tied) {
-        if (edge->pieces && gather) {
+        if (edge->pieces) {
           column_.assign(edge->column, edge->column + n);
-          gatherer.gather(path, trails, *edge, column_);
+          gatherer.gather(path, trails, *edge, column_, binds ? group.tolerance : kInf);
           Range* ranges = arena.room<Range>(gatherer.count());
           gatherer.write(ranges);
           child->ranges = ranges;

@@ -12,7 +12,7 @@
 /// Of the columns in which just the pieces of a key stand: see paths.Range.
 struct Range {
   int key;
-  double low, high, up;
+  double low, high, up, more;
 };
 
 /// Of the pieces of a letter: see paths.Span.
@@ -97,6 +97,7 @@ class Trails {
 };
 
 using Piece = std::uint64_t;  // group, band, first and last letter, most significant first
+constexpr Piece kDearness = 255;  // in place of a group, see paths.gathered
 
 inline Piece piece(int group, int band, int first, int last) {
   return Piece(group) << 56 | Piece(band) << 44 | Piece(first) << 22 | Piece(last);
@@ -105,17 +106,19 @@ inline Piece piece(int group, int band, int first, int last) {
 /// Numbers for sets of pieces, and the sums over the columns in which they stand (paths.gathered).
 class Gatherer {
  public:
-  void gather(const Path& path, const Trails& trails, const Edge& edge, const std::vector<Option const*>& column) {
+  void gather(const Path& path, const Trails& trails, const Edge& edge, const std::vector<Option const*>& column,
+              double tolerance) {
     found_.clear();
     for (int k = 0; k < path.n_ranges; ++k) {
       const Range& own = path.ranges[k];
-      found_.push_back({keys_[own.key], own.low, own.high, own.up});
+      found_.push_back({keys_[own.key], own.low, own.high, own.up, own.more});
     }
     const int g = path.group, n = static_cast<int>(column.size());
     std::vector<Piece> key;
     for (int b = 0; b < n; ++b)
       if (column[b]->tied) key.push_back(of(g, b, *column[b]));
-    join({key, edge.least, edge.width, edge.up});
+    if (tolerance < kInf) key.push_back(kDearness << 56 | static_cast<Piece>(std::llround(edge.up * 1e9)));
+    join({key, edge.least, edge.width, edge.up, tolerance - edge.omega});
     for (int b = 0; b < n; ++b) {
       const Option& option = *column[b];
       if (option.tied && option.count == 1 && option.ends && !std::isnan(option.sized))
@@ -127,7 +130,7 @@ class Gatherer {
   int count() const { return static_cast<int>(found_.size()); }
 
   void write(Range* out) {
-    for (const Sum& sum : found_) *out++ = {number(sum.key), sum.low, sum.high, sum.up};
+    for (const Sum& sum : found_) *out++ = {number(sum.key), sum.low, sum.high, sum.up, sum.more};
   }
 
   void clear() {
@@ -138,7 +141,7 @@ class Gatherer {
  private:
   struct Sum {
     std::vector<Piece> key;
-    double low, high, up;
+    double low, high, up, more;
   };
   std::vector<Sum> found_;
   std::vector<std::vector<Piece>> keys_;
@@ -160,6 +163,7 @@ class Gatherer {
         own.low = sum.low + own.low;
         own.high = sum.high + own.high;
         own.up = std::min(sum.up, own.up);
+        own.more = sum.more + own.more;
         return;
       }
     found_.push_back(std::move(sum));
@@ -188,7 +192,7 @@ class Gatherer {
       found_.erase(std::find_if(found_.begin(), found_.end(), [&](const Sum& own) { return own.key == entry.key; }));
     for (Sum& entry : standing) {
       entry.key.erase(std::find(entry.key.begin(), entry.key.end(), whole));
-      if (!entry.key.empty()) join(std::move(entry));
+      if (!entry.key.empty() && entry.key.front() >> 56 != kDearness) join(std::move(entry));
     }
   }
 };

@@ -177,9 +177,9 @@ class Search {
   bool prepare() {
     if (network.tall) {
       if (!network.bind(limit_)) return false;
-      begin_again(limit_ <= horizon_);
-    } else if (network.gather && limit_ > horizon_) {
-      begin_again(false);
+      begin_again(limit_ > horizon_);
+    } else if (!network.binds && limit_ > horizon_) {
+      begin_again(true);
     }
     std::vector<std::pair<double, Path*>> parked;
     parked.swap(parked_);
@@ -191,8 +191,8 @@ class Search {
     return true;
   }
 
-  void begin_again(bool gather) {
-    network.gather = gather;
+  void begin_again(bool binds) {
+    network.binds = binds;
     seen_.clear();
     queue_ = {};
     parked_.clear();

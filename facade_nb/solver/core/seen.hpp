@@ -70,8 +70,11 @@ class Seen {
     bool wider = false;
     for (int k = 0; k < a.n_ranges; ++k) {
       const Range &own = a.ranges[k], &other = b.ranges[k];
-      if (own.low > other.low + kEps || own.high < other.high - kEps || own.up > other.up + kEps) return -1;
-      wider = wider || own.low < other.low - kEps || own.high > other.high + kEps || own.up < other.up - kEps;
+      if (own.low > other.low + kEps || own.high < other.high - kEps || own.up > other.up + kEps ||
+          own.more < other.more - kEps)
+        return -1;
+      wider = wider || own.low < other.low - kEps || own.high > other.high + kEps || own.up < other.up - kEps ||
+              own.more > other.more + kEps;
     }
     if (std::abs(dw) > kEps || wider) {
       if (network_.complete(a) || dw > 0) return -1;
