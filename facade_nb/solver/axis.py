@@ -11,14 +11,14 @@ from math import inf
 from ..design.model import Symbol
 from .candidates import Candidate, CandidateStream, candidates
 from .clock import Progress
-from .columns import EPS, Group, lone_unsized, make_group
+from .columns import EPS, Group, Option, lone_unsized, make_group
 from .compiled import start_afresh
 from .floors import GroupKey, inputs_of, rows_of
 from .instances import Instances, Range
 from .keeping import Kept
 from .letters import Letter, Word
 from .objective import Objective
-from .pricing import Priced
+from .pricing import Columns, Priced, price
 from .problem import AxisProblem
 from .running import GROWTH, STEP, TIES, GroupSearch
 from .search import Stopped
@@ -115,6 +115,20 @@ class _Rows:
     def __init__(self, letters: list[tuple[Letter, ...]], words: tuple[Word, ...]) -> None:
         self.letters, self.words = letters, words
         self.unsized = {letter.symbol for row in letters for letter in row if letter.size is None}
+
+
+def _alike(group: Group, columns: Columns) -> Columns:
+    """The same columns, of the elements of another group with the same words."""
+    state = list(group.start)
+    out: list[tuple[Option, ...]] = []
+    for column in columns:
+        own: list[Option] = []
+        for b, option in enumerate(column):
+            choices = group.bands[b].options(state[b])
+            own.append(next(o for o in choices if o.letters == option.letters and o.target == option.target))
+            state[b] = own[-1].target
+        out.append(tuple(own))
+    return tuple(out)
 
 
 @dataclass(slots=True)
@@ -276,8 +290,6 @@ class AxisSearch:
         best: Solved | None = None
         if self.extend is not None:
             self.extend()
-        if self.objective.plain:
-            return self._hasty_in_order()
         likely = sorted(self.cases, key=lambda case: case.floor)[:3]
         if start_afresh():
             for case in self.cases:
@@ -300,18 +312,19 @@ class AxisSearch:
             pass  # what was found until now is all there is
         return best
 
-    def _hasty_in_order(self) -> Solved | None:
-        """The same under the paper's objective, which wants the first candidate that aligns."""
-        try:
-            for candidate in self.in_order():
-                case = self.case(candidate)
-                self._open(case)
-                solved = self._dive(case, inf, at_once=True)
-                if solved is not None:
-                    return solved
-        except Stopped:
-            pass
-        return None
+    def adopted(self, other: Solved) -> Solved | None:
+        """What was found under another objective, as it is under this one; None: it is not within the tolerance."""
+        case = self.case(other.candidate)
+        self._open(case)
+        ties: list[list[Priced]] = []
+        for cluster in case.clusters:
+            groups = [case.groups[g] for g in cluster]
+            columns = [other.parts[g][0].structure[other.parts[g][1]] for g in cluster]
+            priced = price(groups, tuple(_alike(*own) for own in zip(groups, columns, strict=True)))
+            if priced is None:
+                return None
+            ties.append([priced])
+        return self._size(case, ties)
 
     def _dive(self, case: _Case, cost: float, *, at_once: bool = False) -> Solved | None:
         """A layout of the candidate that costs less than `cost`, by structures that may not be the best."""

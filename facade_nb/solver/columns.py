@@ -16,6 +16,7 @@ Constraints, by the numbers of SPEC 3:
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
@@ -96,7 +97,8 @@ class Band:
     """The rows of a group that have one word.
 
     `rest_min` and `rest_max` bound the total size still to come at each letter index, from sized letters
-    alone and with unsized ones counted as unbounded.
+    alone and with unsized ones counted as unbounded; `soft_rest` and `gap_rest` what the non-opaque letters still to
+    come cost at least (`back`, `fill`).
     """
 
     def __init__(
@@ -129,6 +131,7 @@ class Band:
             self.rest_min[i] = self.rest_min[i + 1] + (0.0 if size is None else size)
             self.rest_max[i] = self.rest_max[i + 1] + (inf if size is None else size)
         self.soft_rest = [0.0] * (len(self.letters) + 1)
+        self.gap_rest = [0.0] * (len(self.letters) + 1)
         self._unsized: dict[int, tuple[tuple[str, int], ...]] = {}
         self._options: dict[Position, tuple[Option, ...]] = {}
         self._single: dict[tuple[Position, int], Option] = {}
@@ -152,6 +155,38 @@ class Band:
             run += letter.size or 0.0
             soft = soft or not letter.opaque
             self.soft_rest[i] = after + (max(0.0, thinnest - run) if soft else 0.0)
+
+    def fill(self, backs: Sequence[float], tolerance: float) -> None:
+        """Fill `gap_rest`: least Ω that the non-opaque letters still to come ask for where every row counts in ω.
+
+        Behind an element with such a letter stands one of another band that is all opaque (C1), of one of these sizes,
+        in order. Infinity: none is within the tolerance.
+        """
+        end = 0  # of the run of solid letters
+        for i in range(len(self.letters) - 1, -1, -1):
+            if self.letters[i].transparent:
+                self.gap_rest[i], end = self.gap_rest[i + 1], i
+                continue
+            end = end if i + 1 < len(self.letters) and not self.letters[i + 1].transparent else i + 1
+            size, soft, least = 0.0, False, inf
+            for j in range(i, end):
+                size += self.letters[j].size or 0.0
+                soft = soft or not self.letters[j].opaque
+                n = bisect_left(backs, size)
+                gap = min((abs(size - back) for back in backs[max(0, n - 1) : n + 1]), default=0.0)
+                if not soft or gap <= tolerance + EPS:
+                    least = min(least, (gap if soft else 0.0) + self.gap_rest[j + 1])
+            self.gap_rest[i] = least
+
+    def backs(self) -> Iterator[float]:
+        """Sizes of its elements that are all opaque."""
+        for i in range(len(self.letters)):
+            size = 0.0
+            for letter in self.letters[i:]:
+                if not letter.opaque:
+                    break
+                size += letter.size or 0.0
+                yield size
 
     def is_free(self, letter: Letter) -> bool:
         """Whether nothing ties the letter's size."""
@@ -396,6 +431,11 @@ def make_group(
     if solids and not objective.plain:
         for band in bands:
             band.back(min(solids))
+    if solids and objective.plain:
+        for band in bands:
+            if band.soft:
+                others = (other for other in bands if other is not band)
+                band.fill(sorted({size for other in others for size in other.backs()}), tolerance)
     reference = choose_reference(bands) if 1 < len(bands) <= _PAIRED else None
     rigid = sum(not any(letter.transparent for letter in band.letters) for band in bands)
     weights = [

@@ -236,6 +236,7 @@ def _told(group: Group, symbols: dict[str, int]) -> array[float]:
                 )
             )
         out.extend(band.soft_rest)
+        out.extend(band.gap_rest)
     return out
 
 

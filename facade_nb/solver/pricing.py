@@ -24,10 +24,12 @@ import numpy as np
 from .columns import EPS, Group, Option
 from .lp import FREE, solve_lp
 
-__all__ = ["Priced", "Structure", "price"]
+__all__ = ["Columns", "Priced", "Structure", "price"]
 
-Structure = tuple[tuple[tuple[Option, ...], ...], ...]
-"""Per group, per column, per band: the option taken."""
+Columns = tuple[tuple[Option, ...], ...]
+"""Per column, per band: the option taken."""
+Structure = tuple[Columns, ...]
+"""Per group: its columns."""
 
 _Term = tuple[float, dict[int, float]]  # constant + Σ coefficient · variable
 

@@ -23,7 +23,8 @@ def shortfall(group: Group, path: Path) -> float:
     never pays, another one at `under` a metre. Rests of cut and of unsized letters follow from what their
     pieces have taken so far; they are soft, because a piece may leave its range at 1 a metre of ω. So W may
     stay below the longest soft rest at that price, which is the same ω that pays for what bands are short
-    of. Returns infinity where no W within the tolerance can be reached.
+    of. Where every row counts in ω, non-opaque letters to come ask for some of it (`Band.fill`). Returns infinity
+    where no W within the tolerance can be reached.
     """
     width, canvas, objective = path.width, group.canvas, group.objective
     longest = soft_longest = 0.0
@@ -91,7 +92,8 @@ def shortfall(group: Group, path: Path) -> float:
         value += loose + (need if need > short else short)
         if value < best:
             best = value
-    return max(best, path.ahead + objective.fit * max(0.0, low - canvas))
+    gap = max([band.gap_rest[p >> 3] for band, p in zip(group.bands, path.state, strict=True)])
+    return max(best, path.ahead + objective.fit * max(0.0, low - canvas), gap)
 
 
 def known_sizes(group: Group, path: Path) -> dict[str, tuple[float, float]]:

@@ -177,12 +177,13 @@ class _Run:
         known = _cache.get(key)
         if known is None:
             known = find(axes)
-            if not self.trial and all(best.complete for _, best in known.values()):
+            if not self.trial:
                 for walk, best in known.values():
                     walk.forget()
                     for group in best.solved.groups if best.solved else ():
                         group.edges.clear()
-                _cache.put(key, known)
+                if all(best.complete for _, best in known.values()):
+                    _cache.put(key, known)
         return known
 
     def _axis(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
@@ -402,12 +403,17 @@ class _Run:
             return None, True
 
     def _any_aligned(self, axis: Axis) -> tuple[AxisSearch, Best | None]:
-        """Any layout of an axis at the largest tolerance, for when the time is up."""
+        """Any layout of an axis at the largest tolerance, for when the time is up.
+
+        The default objective, which is not degenerate, finds one soon.
+        """
         gc.collect()
         start_afresh()
         self.clock.extend()
         walk = self._walk(axis, self.tolerances[-1])
-        solved = walk.hasty()
+        other = AxisSearch(walk.problem, Objective(), walk.tolerance, check=walk.check, found=walk.found)
+        answer = other.best().solved
+        solved = None if answer is None else walk.adopted(answer)
         if solved is None:
             raise Stopped
         return walk, Best(solved, 0.0, False)

@@ -9,7 +9,9 @@ import pytest
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.solver import Letter, Objective, align
+from facade_nb.solver.columns import make_group
 from facade_nb.solver.solving import TOLERANCES
+from tests.bench.designs import LARGE
 from tests.oracle import PAPER, best
 from tests.oracle.designs import design, make_design
 from tests.oracle.solving import aligned_words, choices, group_rows
@@ -190,3 +192,51 @@ def test_gallery(name: str) -> None:
     one = gallery.load(name)
     layout = by_paper(one)
     assert layout.complete and layout.shapes
+
+
+class TestLargeDesigns:
+    """Where the objective is degenerate there may be no time to prove anything, but there is a layout."""
+
+    @pytest.mark.parametrize("name", LARGE)
+    def test_there_is_a_layout(self, name: str) -> None:
+        layout = solve(gallery.load(name), objective=Objective.paper(), time_limit=2.0)
+        assert layout.shapes
+        for axis, canvas in ((layout.x, layout.canvas.width), (layout.y, layout.canvas.height)):
+            assert axis.proven or not layout.complete
+            assert sum(group.error for group in axis.groups.values()) == pytest.approx(axis.cost)
+            for group in axis.groups.values():
+                # every ω is within the largest tolerance, half the canvas
+                assert group.error <= 0.5 * canvas * (len(group.columns) - 1) + 1e-9
+
+    def test_the_papers_slowest_figure_is_proven(self) -> None:
+        layout = solve(gallery.load("apartment-house"), objective=Objective.paper())
+        assert layout.complete and layout.x.proven and layout.y.proven
+        assert layout.x.cost == pytest.approx(5.3)
+
+    def test_time_is_over_during_either_search(self) -> None:
+        """The last attempt takes what the default objective finds, and says that it is not proven."""
+        one = gallery.load("residential-house")
+        quick = solve(one, objective=Objective.paper(), search="ida", time_limit=2.0)
+        assert not quick.complete and not quick.x.proven
+        assert quick.y.cost == pytest.approx(0.0)
+
+
+class TestNonOpaqueLetters:
+    """Behind a letter that is not opaque stands one that is, and every row counts in ω."""
+
+    def test_what_they_ask_for_is_known_beforehand(self) -> None:
+        soft = (
+            Letter("C", 0.75, opaque=False),
+            Letter("z", 1.0, transparent=True),
+            Letter("C", 0.75, opaque=False),
+        )
+        hard = (Letter("A", 1.0), Letter("B", 1.6))
+        group = make_group([soft, hard], 2.6, 1.3, Objective.paper())
+        band = group.bands[0]
+        assert band.gap_rest == pytest.approx([0.5, 0.25, 0.25, 0.0])
+        assert group.bands[1].gap_rest == [0.0, 0.0, 0.0]
+
+    def test_what_is_beyond_the_tolerance_cannot_be_aligned(self) -> None:
+        rows = [(Letter("C", 0.75, opaque=False),), (Letter("A", 1.0),)]
+        assert make_group(rows, 1.0, 0.2, Objective.paper()).bands[0].gap_rest == [float("inf"), 0.0]
+        assert make_group(rows, 1.0, 0.25, Objective.paper()).bands[0].gap_rest == pytest.approx([0.25, 0.0])

@@ -110,6 +110,8 @@ struct Group {
       }
       band->soft_rest.assign(at, at + letters + 1);
       at += letters + 1;
+      band->gap_rest.assign(at, at + letters + 1);
+      at += letters + 1;
       band->finish();
       group->bands.push_back(std::move(band));
     }

@@ -11,7 +11,7 @@ class Shortfall {
   double operator()(const Group& group, const Path& path) {
     const double width = path.width, canvas = group.canvas, fit = group.prices.fit;
     const double by_loose = group.prices.loose * group.share;
-    double longest = 0.0, soft_longest = 0.0, strain = 0.0;
+    double longest = 0.0, soft_longest = 0.0, strain = 0.0, gap = 0.0;
     rests_.clear();
     needs_.clear();
     known_.clear();
@@ -23,6 +23,7 @@ class Shortfall {
       const bool mid = position & 4;
       double least = mid ? band.rest_min[i + 1] : band.rest_min[i], most = band.rest_max[i];
       if (least > longest) longest = least;
+      gap = std::max(gap, band.gap_rest[i]);
       int multiple = 1;
       if (band.tied) {
         if (mid && band.letters[i].sized) {
@@ -86,7 +87,7 @@ class Shortfall {
       value += loose + (need > lacking ? need : lacking);
       best = std::min(best, value);
     }
-    return std::max(best, path.ahead + fit * std::max(0.0, low - canvas));
+    return std::max({best, path.ahead + fit * std::max(0.0, low - canvas), gap});
   }
 
  private:

@@ -46,7 +46,7 @@ struct Counted {
 class Band {
  public:
   std::vector<Letter> letters;
-  std::vector<double> rest_min, rest_max, soft_rest;
+  std::vector<double> rest_min, rest_max, soft_rest, gap_rest;
   bool cuts = true, soft = false, elastic = false, tied = false, rigid = true;
   Position end = 0;
 
