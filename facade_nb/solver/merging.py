@@ -83,7 +83,12 @@ def merge(
                 look = looks.get(key)
                 if look is None:
                     look = looks[key] = shape_of(design, layer, *key)
-                if look.visible and not any((across[i], k) in solid for solid, across, k in behind):
+                if not look.visible:
+                    continue
+                for solid, across, k in behind:
+                    if (across[i], k) in solid:
+                        break
+                else:
                     own.append(_placed(layer, h, v, (h.start, v.start, h.end, v.end), look))
                     if h.symbol in opaque and v.symbol in opaque:
                         front.solid.add((i, j))
@@ -168,13 +173,15 @@ def _shown(design: Design, layer: Layer, axis: Axis, solved: AxisLayout) -> Iter
 
 def find_holes(canvas: Canvas, shapes: Sequence[PlacedShape]) -> tuple[Rect, ...]:
     """Rectangles of the canvas that no shape covers: a partition into as tall, then as wide, pieces as come."""
-    xs = _cuts([0.0, canvas.width, *(v for s in shapes for v in (s.rect[0], s.rect[2]))], canvas.width)
-    ys = _cuts([0.0, canvas.height, *(v for s in shapes for v in (s.rect[1], s.rect[3]))], canvas.height)
+    rects = {shape.rect for shape in shapes}
+    across = {value: 0 for rect in rects for value in rect[::2]}
+    up = {value: 0 for rect in rects for value in rect[1::2]}
+    xs = _cuts([0.0, canvas.width, *across], canvas.width)
+    ys = _cuts([0.0, canvas.height, *up], canvas.height)
     nx, ny = len(xs) - 1, len(ys) - 1
     grid = np.ones((nx, ny), dtype=bool)
-    rects = {shape.rect for shape in shapes}
-    across = {v: _index(xs, v) for v in {v for rect in rects for v in rect[::2]}}
-    up = {v: _index(ys, v) for v in {v for rect in rects for v in rect[1::2]}}
+    across = {value: _index(xs, value) for value in across}
+    up = {value: _index(ys, value) for value in up}
     for left, bottom, right, top in rects:
         grid[across[left] : across[right], up[bottom] : up[top]] = False
     if not grid.any():
