@@ -6,11 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
 
+from ..design.errors import NoLayout
+from .clock import Clock
 from .columns import Group, make_group
 from .ida import search_ida
 from .letters import Letter
 from .objective import Objective
 from .pricing import Priced
+from .search import Found, Stopped
 from .search import search as search_best
 
 __all__ = ["SEARCHES", "Alignment", "Element", "align", "alignment_of"]
@@ -77,6 +80,8 @@ def align(
     ------
     ValueError
         For an unknown search, sizes that are not finite and positive, or a solid letter without a size.
+    NoLayout
+        Where the search ran out of memory.
     """
     if search not in SEARCHES:
         raise ValueError(f"search: expected one of {', '.join(SEARCHES)}; found {search!r}")
@@ -93,7 +98,17 @@ def align(
     group = make_group(
         rows, canvas, tolerance, Objective.paper() if objective is None else objective, cuts=cuts
     )
-    found = (search_ida if search == "ida" else search_best)([group], keep=1)
+    try:
+        found = (search_ida if search == "ida" else search_best)([group], keep=1, check=Clock(None).check)
+    except Stopped:
+        found = Found(cut=True)
+    if found.cut:
+        letters = " and ".join(str(len(word)) for word in dict.fromkeys(map(tuple, rows)))
+        raise NoLayout(
+            f"The alignment of words of {letters} letters takes more memory than it may; "
+            "shorter words, a smaller tolerance, or Objective(), which is not degenerate, would do.",
+            constraint="memory",
+        )
     return None if found.best is None else alignment_of(group, found.best, 0)
 
 

@@ -23,6 +23,7 @@ from typing import Any
 from weakref import WeakKeyDictionary, WeakSet, finalize, ref
 
 from .columns import EPS, Group, Option
+from .deferring import Deferred
 from .dive import Dives
 from .network import ceiling
 from .pricing import Priced, Structure, price
@@ -103,6 +104,7 @@ class _Core:
         self._dead: list[tuple[int, float]] = []
         self.busy = self.broken = False
         self.told: tuple[float, ...] = ()
+        self._deferred = Deferred()
         self._room = self._at = 0
         self._functions["_initialize"](self._store)
         self._box = int(self._functions["box_at"](self._store))
@@ -139,7 +141,8 @@ class _Core:
 
         self._check, self.busy, self.told = check, True, ()
         try:
-            self._call(name, *arguments)
+            with self._deferred:
+                self._call(name, *arguments)
         except wasmtime.Trap:
             if self.size < 0.9 * _MOST:
                 raise
@@ -154,6 +157,8 @@ class _Core:
         return self.told
 
     def _asked(self) -> int:
+        if self._deferred.came:
+            return 1
         if self._check is None:
             return 0
         try:

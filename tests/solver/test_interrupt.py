@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import suppress
@@ -67,3 +69,43 @@ def test_the_stop_button(
     # Nothing that is kept between calls is spoilt: the same kernel solves on, twice alike.
     same = "[solve(gallery.load('qualifiers-a')).to_dict() for _ in 'ab']"
     assert value(client, f"(lambda a, b: a == b and b['complete'])(*{same})") == "True"
+
+
+SIGNALS = """
+import os, signal, threading
+from facade_nb import NoLayout, solve
+from facade_nb.solver import solving
+from tests.bench.designs import harder
+
+design = harder()["terraced-house (harder)"]  # seconds in compiled code
+
+class Over(Exception):
+    pass
+
+def over(number, frame):
+    raise Over
+
+def interrupted(number, seconds, error):
+    solving.forget()
+    threading.Timer(seconds, os.kill, (os.getpid(), number)).start()
+    try:
+        solve(design, time_limit=60.0)
+    except error:
+        return True
+    return False
+
+handler = signal.getsignal(signal.SIGINT)
+assert all(interrupted(signal.SIGINT, 0.2 + 0.06 * k, KeyboardInterrupt) for k in range(10))
+if hasattr(signal, "SIGALRM"):
+    signal.signal(signal.SIGALRM, over)
+    assert all(interrupted(signal.SIGALRM, 0.2 + 0.06 * k, Over) for k in range(5))
+    assert signal.getsignal(signal.SIGALRM) is over
+assert signal.getsignal(signal.SIGINT) is handler
+print("well")
+"""
+
+
+def test_signals_while_compiled_code_runs() -> None:
+    """What a handler raises must not leave wasmtime's callback: that brought the process down, now and then."""
+    ran = subprocess.run([sys.executable, "-c", SIGNALS], capture_output=True, text=True, timeout=120)
+    assert (ran.returncode, ran.stdout, ran.stderr) == (0, "well\n", "")
