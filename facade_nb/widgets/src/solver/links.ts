@@ -63,6 +63,8 @@ export class Links {
   private hovered: readonly string[] = [];
   private chosen: readonly string[];
   private readonly watchers = new Set<() => void>();
+  /** Roots under which something may be marked: most steps of the player are taken while nothing is. */
+  private readonly marked = new WeakSet<ParentNode>();
 
   constructor(picked: readonly string[]) {
     this.chosen = picked;
@@ -129,9 +131,12 @@ export class Links {
   /** Mark every linked element under a root that shows what is lit (`data-lit`) or picked (`data-chosen`). */
   apply(root: ParentNode): void {
     const [lit, picked] = [this.lit, this.picked];
+    const none = !lit.size && !picked.size;
+    if (none && !this.marked.has(root)) return;
+    if (none) this.marked.delete(root);
+    else this.marked.add(root);
     for (const element of root.querySelectorAll("[data-link], [data-about]")) {
-      if (!lit.size && !picked.size && !element.hasAttribute("data-lit") && !element.hasAttribute("data-chosen"))
-        continue;
+      if (none && !element.hasAttribute("data-lit") && !element.hasAttribute("data-chosen")) continue;
       const own = [...tokens(element, "data-link"), ...tokens(element, "data-about")];
       mark(element, "data-lit", lit.size > 0 && own.some((token) => lit.has(token)));
       mark(element, "data-chosen", picked.size > 0 && own.some((token) => picked.has(token)));

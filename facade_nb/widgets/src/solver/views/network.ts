@@ -5,7 +5,7 @@
 import { h, mark, setText } from "../../dom.ts";
 import { formatNumber } from "../../fields.ts";
 import { target } from "../links.ts";
-import { columnText, leavingList, litLetters } from "../network/lists.ts";
+import { columnText, LeavingList, litLetters } from "../network/lists.ts";
 import { ASPECT, boundsOf, curveOf, type Look, MARGIN, paint, pointOf } from "../network/paint.ts";
 import { Plane, type Point } from "../network/plane.ts";
 import { type Choice, choicesOf, keyOf, nameOf, question } from "../network/question.ts";
@@ -36,6 +36,7 @@ class NetworkView implements View {
   private readonly cuts: HTMLInputElement;
   private readonly forbidden: HTMLInputElement;
   private readonly status = h("p", { class: "fnb-net-status", role: "status" });
+  private readonly leaving = new LeavingList();
   private readonly beside = h("div", { class: "fnb-net-beside" });
   private readonly below = h("div", { class: "fnb-net-below" });
   private readonly legend = h("p", { class: "fnb-net-legend" });
@@ -50,6 +51,9 @@ class NetworkView implements View {
   private looked: Look | null = null;
   private by = "";
   private belowBy = "";
+  private legendBy = "";
+  private optionsBy = "";
+  private ratio = "";
   private pickedNow = "";
 
   constructor(private readonly context: ViewContext) {
@@ -125,7 +129,7 @@ class NetworkView implements View {
     observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
     context.signal.addEventListener("abort", () => observer.disconnect());
     requestAnimationFrame(() => {
-      this.looked = null;
+      this.looked = null; // in the page it has a theme
       this.plane.invalidate();
     });
   }
@@ -227,9 +231,13 @@ class NetworkView implements View {
       ...(scene.arcs.some((arc) => arc.constraint) ? ([["forbidden", "forbidden"]] as [string, string][]) : []),
       ...(told.taken.length ? ([["taken", "taken up"]] as [string, string][]) : []),
     ];
-    this.legend.replaceChildren(
-      ...legend.map(([kind, text]) => h("span", {}, h("i", { class: `fnb-net-key fnb-net-key-${kind}` }), text)),
-    );
+    const legendBy = legend.join("|");
+    if (legendBy !== this.legendBy) {
+      this.legendBy = legendBy;
+      this.legend.replaceChildren(
+        ...legend.map(([kind, text]) => h("span", {}, h("i", { class: `fnb-net-key fnb-net-key-${kind}` }), text)),
+      );
+    }
     if (this.quiz.on) {
       const searching = this.story.next(subject, position, TAKEN) !== undefined;
       this.beside.replaceChildren(question(subject, this.choices(position), searching, this.quiz));
@@ -238,7 +246,8 @@ class NetworkView implements View {
       const arcs = leaving(this.story, subject, base, told, focus);
       const onPath = new Set(steps.map((arc) => arc.key));
       const marked = arcs.map((arc) => (onPath.has(arc.key) ? { ...arc, kind: "path" as const } : arc));
-      this.beside.replaceChildren(leavingList(subject, focus, marked));
+      this.leaving.show(subject, focus, marked);
+      if (this.leaving.el.parentNode !== this.beside) this.beside.replaceChildren(this.leaving.el);
     }
     const chosen = subject.path && subject.path.at <= position && !this.quiz.hides;
     const merged = this.story.data.merged.findLast(
@@ -260,6 +269,9 @@ class NetworkView implements View {
 
   private options(subject: Subject): void {
     const pair = this.pairOf(subject);
+    const by = [subject.key, pair].join();
+    if (by === this.optionsBy) return;
+    this.optionsBy = by;
     for (const [side, select] of [this.downs, this.rights].entries()) {
       select.replaceChildren(
         ...subject.bands.map((band, b) => {
@@ -295,8 +307,10 @@ class NetworkView implements View {
   /** Room for the rows, and no more. */
   private shape(): void {
     const { left, right, top, bottom } = boundsOf(this.scene as Scene);
-    const ratio = (bottom - top) / (right - left);
-    this.plane.el.style.setProperty("--fnb-net-ratio", ratio.toFixed(3));
+    const ratio = ((bottom - top) / (right - left)).toFixed(3);
+    if (ratio === this.ratio) return;
+    this.ratio = ratio;
+    this.plane.el.style.setProperty("--fnb-net-ratio", ratio);
   }
 
   /** The node of this network that the reader has picked. */
