@@ -30,7 +30,7 @@ export async function panel(
 ): Promise<Panel> {
   const made = await Promise.all(kind.needs.map((name) => session.piece(name)));
   const pieces = Object.fromEntries(kind.needs.map((name, n) => [name, made[n]]));
-  const { player, links } = loaded;
+  const { player, links, alternatives } = loaded;
   let view: View | null = null;
   const light = () => {
     if (view?.light) view.light();
@@ -91,6 +91,7 @@ export async function panel(
   }
   player.watch(soon, signal);
   links.watch(() => el.hidden || light(), signal);
+  alternatives.watch(soon, signal);
   links.listen(el, signal);
   signal.addEventListener("abort", () => {
     clearTimeout(resting);

@@ -123,9 +123,26 @@ export class Links {
     root.addEventListener("keydown", (event) => event.key === "Escape" && this.pick([]), { signal });
   }
 
-  /** Pick these, or, where they are what is picked, nothing. */
+  /**
+   * Pick these, or, where they are what is picked, nothing. A candidate stays chosen while other things are picked: what
+   * is picked then is mostly its own.
+   */
   toggle(targets: readonly string[]): void {
-    this.pick(same(targets, this.chosen) ? [] : targets);
+    if (targets.some(isCandidate)) {
+      this.pick(targets.every((key) => this.chosen.includes(key)) ? [] : targets);
+      return;
+    }
+    const kept = this.kept;
+    this.pick(same([...kept, ...targets], this.chosen) ? kept : [...kept, ...targets]);
+  }
+
+  /** Let go of what is picked, but for the candidate that is chosen. */
+  release(): void {
+    this.pick(this.kept);
+  }
+
+  private get kept(): string[] {
+    return this.chosen.some(isCandidate) ? this.chosen.filter((key) => isCandidate(key) || isWord(key)) : [];
   }
 
   /** Mark every linked element under a root that shows what is lit (`data-lit`) or picked (`data-chosen`). */
@@ -147,6 +164,9 @@ export class Links {
     for (const watcher of [...this.watchers]) watcher();
   }
 }
+
+const isCandidate = (key: string): boolean => key.startsWith("candidate:");
+const isWord = (key: string): boolean => key.startsWith("word:");
 
 function same(a: readonly string[], b: readonly string[]): boolean {
   return a.length === b.length && a.every((item, n) => item === b[n]);

@@ -1,6 +1,7 @@
 // What is drawn when: one frame for all views, those out of sight later, lists that are scrolled without being asked.
 
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { Alternatives } from "../../src/solver/alternatives.ts";
 import { panel } from "../../src/solver/frame.ts";
 import { afterDrawing, cancelFrame, inFrame } from "../../src/solver/frames.ts";
 import { Links } from "../../src/solver/links.ts";
@@ -82,7 +83,9 @@ describe("a view that is out of sight", () => {
       make: () => ({ el: document.createElement("p"), show: (position) => shown.push(position) }),
     };
     const session = { live: true } as unknown as Session;
-    const loaded = { timeline, player, links: new Links([]) };
+    const links = new Links([]);
+    const alternatives = new Alternatives(() => Promise.reject(new Error("none")), timeline, links, end.signal);
+    const loaded = { timeline, player, links, alternatives };
     const made = await panel(kind, session, new FakeModel({}), loaded, end.signal);
     return { player, shown, made };
   }

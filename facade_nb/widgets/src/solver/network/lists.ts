@@ -70,7 +70,7 @@ const nameOf = (arc: Arc): string => `${arc.key}>${arc.to.join()}|${arc.constrai
 export function litLetters(subject: Subject, keys: ReadonlySet<string>): Set<string> {
   const found = new Set<string>();
   if (!keys.size) return found;
-  const layers = subject.path?.layers ?? [];
+  const layers = subject.path?.layers ?? subject.layers ?? [];
   for (const [b, band] of subject.bands.entries())
     for (const [n, letter] of band.letters.entries()) {
       const own = [

@@ -1,5 +1,6 @@
 // The networks of a trace, and what the search has done in one of them at a moment.
 
+import type { Alternative } from "../alternatives.ts";
 import type { Axis, Timeline } from "../timeline.ts";
 import { played } from "../timeline.ts";
 import type { BandNote } from "../weighing.ts";
@@ -78,8 +79,20 @@ export interface MergerNote {
   nodes?: [number, number[][]][];
 }
 
+/** A complete path that was priced; `path` is the number of its last edge. */
+export interface PricedNote {
+  at: number;
+  axis: Axis;
+  network: number;
+  path: number | null;
+  cost: number | null;
+  columns: number;
+  unsized: Record<string, number> | null;
+}
+
 export interface NetworkData {
   networks: NetworkNote[];
+  priced: PricedNote[];
   steps: Steps;
   regions: RegionNote[];
   merged: MergerNote[];
@@ -104,6 +117,8 @@ export interface Subject {
   group: number;
   first: number;
   path: PathNote | null;
+  /** Layers of its rows, where no path says them. */
+  layers?: readonly string[];
   /** Its steps, by their numbers, and where in the trace each is told. */
   steps: Int32Array;
   at: Int32Array;
@@ -178,6 +193,28 @@ export class Story {
     });
     const kinds = [TAKEN, WEIGHED, REFUSED].map((kind) => dated(found.filter((n) => this.steps.kind[n] === kind)));
     return { ...dated(found), kinds };
+  }
+
+  /** The networks of a candidate that is not the layout: with what the search did in them, where that is told. */
+  subjectsOf({ note, groups }: Alternative): Subject[] {
+    return groups.map(({ path, aligned, network }, n) => {
+      const told = this.data.networks[network];
+      return {
+        key: `${note.axis}:candidate ${note.number}:${n}`,
+        axis: note.axis,
+        name: path.group,
+        bands: path.bands,
+        canvas: path.canvas,
+        tolerance: path.tolerance,
+        search: told?.search ?? this.timeline.data.search,
+        network: told ? told.network : -1,
+        group: told ? path.number : -1,
+        first: note.at,
+        path: aligned ? path : null,
+        layers: path.layers,
+        ...this.stepsOf(told ? network : -1, path.number),
+      };
+    });
   }
 
   /** The network that is spoken of at a position; where several are chosen, the largest of the axis. */

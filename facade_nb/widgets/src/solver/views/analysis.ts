@@ -91,7 +91,7 @@ class AnalysisView implements View {
 
   constructor(context: ViewContext) {
     this.told = (context.pieces.analysis as { events: Told[] }).events;
-    this.choice = new AxisChoice(context.timeline, context.refresh);
+    this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.controls = [this.choice.el];
     this.el.append(this.note, this.pairs, this.systems);
   }

@@ -5,7 +5,9 @@ import { h, mark, setText, svg } from "../../dom.ts";
 import { type Box, boxOf, type Drawing, parseDrawing } from "../../drawing.ts";
 import { icon } from "../../icons.ts";
 import { themeOf } from "../../theme.ts";
+import type { Alternative } from "../alternatives.ts";
 import { linked, target } from "../links.ts";
+import { rebuilt } from "../placed.ts";
 import { type PlacedLetter, Placing, type PlacingData } from "../placing.ts";
 import { type Axis, played } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -32,6 +34,7 @@ class FacadeView implements View {
   private readonly placing: Placing;
   private readonly sheet = h("div", { class: "fnb-traced-sheet" });
   private readonly note = h("p", { class: "fnb-traced-note" });
+  private readonly other = svg("g", { class: "fnb-traced-other" });
   private readonly strips = svg("g");
   private readonly marks = svg("g");
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
@@ -73,19 +76,28 @@ class FacadeView implements View {
   show(position: number): void {
     this.dress();
     const drawn = played(this.data.shapes, position);
-    const by = [this.theme, drawn, played(this.placed, position)].join("|");
+    const { alternatives } = this.context;
+    const other = alternatives.at(position, alternatives.axis ?? "x");
+    const by = [this.theme, drawn, played(this.placed, position), other?.name].join("|");
     if (by === this.by) return;
     this.by = by;
     for (const [n, shape] of this.shapes.entries()) mark(shape, "data-later", n >= drawn);
     // Lines and shadows are those of all shapes of a layer together: they come with the last shape.
     const done = drawn === this.data.shapes.length && drawn > 0;
     for (const element of this.finish) mark(element, "data-later", !done);
-    this.drawStrips(position, drawn > 0);
-    setText(this.note, this.say(position, drawn));
+    mark(this.el, "data-other", other !== null);
+    for (const element of [...this.shapes, ...this.finish]) mark(element, "data-hidden", other !== null);
+    this.other.replaceChildren(
+      ...(other ? rebuilt(other, this.placing.shapes, this.shapes, this.drawing as Drawing) : []),
+    );
+    this.drawStrips(position, drawn > 0 || other !== null);
+    setText(this.note, other ? this.sayOther(other) : this.say(position, drawn));
   }
 
   light(): void {
-    const { lit, picked } = this.context.links;
+    const { lit, picked: all } = this.context.links;
+    // The outlines are those of the layout: where another candidate stands, its own picks are not on it.
+    const picked = this.el.hasAttribute("data-other") ? new Set<string>() : all;
     this.marks.replaceChildren(...this.outlines(picked, "fnb-traced-pick"), ...this.outlines(lit, "fnb-traced-lit"));
   }
 
@@ -122,7 +134,7 @@ class FacadeView implements View {
       height: height * scale,
     });
     picture.prepend(frame);
-    picture.append(this.strips, this.marks);
+    picture.append(this.other, this.strips, this.marks);
     this.sheet.replaceChildren(picture);
   }
 
@@ -137,6 +149,13 @@ class FacadeView implements View {
           own.boundaries.map((value) => this.rect("fnb-traced-cut", this.band(own.axis, value, value))),
         );
     this.strips.replaceChildren(...shown, ...cuts);
+  }
+
+  private sayOther(other: Alternative): string {
+    const how = other.aligned
+      ? "Its letters stand in its columns at preferred sizes"
+      : "Its letters stand at preferred sizes, end to end where no columns are told";
+    return `${other.name}, not the layout. ${other.fate} ${how}: sizes are told of the layout only.`;
   }
 
   private say(position: number, drawn: number): string {

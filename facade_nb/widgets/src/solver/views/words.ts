@@ -100,7 +100,7 @@ class WordsView implements View {
   constructor(private readonly context: ViewContext) {
     const { events } = context.pieces.words as { events: (Posed | Told)[] };
     this.stories = { x: new Story(events, "x"), y: new Story(events, "y") };
-    this.choice = new AxisChoice(context.timeline, context.refresh);
+    this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.mu = context.model.get<number | null>("tolerance") ?? null;
     this.sample = context.model.get<number | null>("step") ?? null;
     this.step.value = formatNumber(this.sample);
