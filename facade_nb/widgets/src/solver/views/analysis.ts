@@ -288,7 +288,13 @@ class AnalysisView implements View {
     box.checked = this.quiz.has(key);
     box.disabled = this.quiz.done;
     box.addEventListener("change", () => this.quiz.choose(key));
-    return h("label", { class: "fnb-analysis-choice", "data-verdict": state }, box, label, h("span", {}, why));
+    return h(
+      "label",
+      { class: "fnb-analysis-choice", "data-verdict": state },
+      box,
+      h("b", {}, label),
+      h("span", {}, why),
+    );
   }
 
   private truths(): ReadonlyMap<string, Truth> {
@@ -301,7 +307,9 @@ class AnalysisView implements View {
         const conflict = conflicts.find((own) => own.equation === one.number);
         found.set(pairKey(one), {
           right: conflict !== undefined,
-          why: conflict ? conflict.text : "It holds together with those before it.",
+          why: conflict
+            ? "No numbers keep it together with those before it."
+            : "It holds together with those before it.",
         });
       }
       if (one.event !== "SystemReduced") continue;
