@@ -154,7 +154,9 @@ export class Links {
     else this.marked.add(root);
     for (const element of root.querySelectorAll("[data-link], [data-about]")) {
       if (none && !element.hasAttribute("data-lit") && !element.hasAttribute("data-chosen")) continue;
-      const own = [...tokens(element, "data-link"), ...tokens(element, "data-about")];
+      const is = tokens(element, "data-link");
+      // What is picked as a whole is its first target; the others are its parts', which others may share.
+      const own = element.hasAttribute("data-pick") ? is.slice(0, 1) : [...is, ...tokens(element, "data-about")];
       mark(element, "data-lit", lit.size > 0 && own.some((token) => lit.has(token)));
       mark(element, "data-chosen", picked.size > 0 && own.some((token) => picked.has(token)));
     }

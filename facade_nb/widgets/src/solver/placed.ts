@@ -1,12 +1,15 @@
 // Where the letters of a candidate that is not the layout would stand, and the façade that they make: every pair that makes a
 // shape in the layout is drawn as it is there, on the candidate's letters at preferred sizes.
 
-import { boxOf, type Drawing } from "../drawing.ts";
+import { type Box, boxOf, type Drawing } from "../drawing.ts";
 import { atPreferred, cutsOf } from "./align/matrix.ts";
 import type { Alternative } from "./alternatives.ts";
+import { target } from "./links.ts";
 import type { PlacedShape } from "./placing.ts";
 
 export interface Standing {
+  /** Its number in its word. */
+  letter: number;
   symbol: string;
   start: number;
   end: number;
@@ -23,12 +26,19 @@ export function standing({ groups }: Alternative): Map<string, Standing[]> {
         const note = band.letters[letter];
         if (!note || note.transparent) continue;
         const own = letters.get(letter);
-        letters.set(letter, { symbol: note.symbol, start: own?.start ?? start, end });
+        letters.set(letter, { letter, symbol: note.symbol, start: own?.start ?? start, end });
       }
       for (const row of band.rows) found.set(path.layers[row] ?? "", [...letters.values()]);
     }
   }
   return found;
+}
+
+/** A copy of a shape: where it stands in the drawing, and the targets that it shows. */
+export interface Rebuilt {
+  el: SVGGElement;
+  box: Box;
+  keys: string[];
 }
 
 /**
@@ -41,11 +51,11 @@ export function rebuilt(
   shapes: readonly PlacedShape[],
   elements: readonly SVGGElement[],
   { scale, origin }: Drawing,
-): SVGGElement[] {
+): Rebuilt[] {
   const { axis } = own.note;
   const letters = standing(own);
   const seen = new Set<string>();
-  const made: SVGGElement[] = [];
+  const made: Rebuilt[] = [];
   for (const [n, shape] of shapes.entries()) {
     const element = elements[n];
     const [left, bottom, right, top] = shape.rect;
@@ -79,7 +89,14 @@ export function rebuilt(
           ? `translate(${move} 0) scale(${by.toFixed(5)} 1)`
           : `translate(0 ${move}) scale(1 ${by.toFixed(5)})`,
       );
-      made.push(copy);
+      const keys = [
+        target.letter(axis, shape.layer, letter.letter),
+        target.layer(shape.layer),
+        target.symbol(shape.x),
+        target.symbol(shape.y),
+      ];
+      const stands = axis === "x" ? { ...box, x: to, width: size } : { ...box, y: to, height: size };
+      made.push({ el: copy, box: stands, keys });
     }
   }
   return made;

@@ -119,12 +119,24 @@ describe("choosing a candidate", () => {
     const copies = el.querySelectorAll(".fnb-traced-other [data-x=A]").length;
     const windows = el.querySelectorAll(".fnb-traced-other [data-x=B]").length;
     expect([copies > windows, windows > 0]).toEqual([true, true]);
+    one?.links.hover([target.symbol("B")]);
+    one?.view.light?.();
+    expect(el.querySelectorAll(".fnb-traced-lit").length).toBe(windows);
     for (const shape of el.querySelectorAll("[data-shape]")) expect(shape.hasAttribute("data-hidden")).toBe(true);
   });
 
   it("says that sizes of it are not told", async () => {
     const el = await seen("sizing", "residential-house", 2);
     expect(el.querySelector(".fnb-alternative")?.textContent).toContain("this is the system of the layout");
+  });
+
+  it("marks its own row only, and the words in it", async () => {
+    const el = await seen("candidates", "residential-house", 2);
+    one?.links.pick([target.candidate("x", 2), target.word("x", "Cx", "C e C")]); // all of them have that word
+    one?.links.apply(el);
+    const rows = [...el.querySelectorAll(".fnb-candidate[data-fate]")];
+    expect(rows.filter((row) => row.hasAttribute("data-chosen")).length).toBe(1);
+    expect(el.querySelectorAll(".fnb-candidate-word[data-chosen]").length).toBe(rows.length);
   });
 
   it("lasts while its parts are picked", () => {

@@ -7,7 +7,7 @@ import { icon } from "../../icons.ts";
 import { themeOf } from "../../theme.ts";
 import type { Alternative } from "../alternatives.ts";
 import { linked, target } from "../links.ts";
-import { rebuilt } from "../placed.ts";
+import { type Rebuilt, rebuilt } from "../placed.ts";
 import { type PlacedLetter, Placing, type PlacingData } from "../placing.ts";
 import { type Axis, played } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -35,6 +35,7 @@ class FacadeView implements View {
   private readonly sheet = h("div", { class: "fnb-traced-sheet" });
   private readonly note = h("p", { class: "fnb-traced-note" });
   private readonly other = svg("g", { class: "fnb-traced-other" });
+  private copies: Rebuilt[] = [];
   private readonly strips = svg("g");
   private readonly marks = svg("g");
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
@@ -87,17 +88,20 @@ class FacadeView implements View {
     for (const element of this.finish) mark(element, "data-later", !done);
     mark(this.el, "data-other", other !== null);
     for (const element of [...this.shapes, ...this.finish]) mark(element, "data-hidden", other !== null);
-    this.other.replaceChildren(
-      ...(other ? rebuilt(other, this.placing.shapes, this.shapes, this.drawing as Drawing) : []),
-    );
+    this.copies = other ? rebuilt(other, this.placing.shapes, this.shapes, this.drawing as Drawing) : [];
+    this.other.replaceChildren(...this.copies.map(({ el }) => el));
     this.drawStrips(position, drawn > 0 || other !== null);
     setText(this.note, other ? this.sayOther(other) : this.say(position, drawn));
   }
 
   light(): void {
-    const { lit, picked: all } = this.context.links;
-    // The outlines are those of the layout: where another candidate stands, its own picks are not on it.
-    const picked = this.el.hasAttribute("data-other") ? new Set<string>() : all;
+    const { lit, picked } = this.context.links;
+    if (this.el.hasAttribute("data-other")) {
+      const of = (keys: ReadonlySet<string>, name: string) =>
+        this.copies.filter((own) => own.keys.some((key) => keys.has(key))).map(({ box }) => this.rect(name, box));
+      this.marks.replaceChildren(...of(picked, "fnb-traced-pick"), ...of(lit, "fnb-traced-lit"));
+      return;
+    }
     this.marks.replaceChildren(...this.outlines(picked, "fnb-traced-pick"), ...this.outlines(lit, "fnb-traced-lit"));
   }
 
