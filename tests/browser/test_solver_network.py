@@ -15,15 +15,7 @@ TRACED = """
 from IPython.display import display
 from facade_nb import Design, gallery, solve
 from facade_nb.widgets import *
-FIGURE_8 = Design.from_dict({
-    "format": "facade-nb/design/1", "name": "Figure 8", "canvas": {"width": 12.0, "height": 3.0},
-    "symbols": {"A": {"size": 2}, "B": {"size": 3}, "C": {"size": 2}, "e": {"size": 8}, "Y": {"size": 3}},
-    "counters": {"k": {"value": 2}}, "patterns": {"walls": "A(BA)^k", "corners": "cec; c := C", "height": "Y"},
-    "layers": [
-        {"name": "walls", "x": {"pattern": "walls"}, "y": {"pattern": "height"}},
-        {"name": "corners", "x": {"pattern": "corners"}, "y": {"pattern": "height"}, "depth": 1},
-    ],
-})
+FIGURE_8 = gallery.load("figure-8")
 def traced(name, **more):
     return solve(gallery.load(name), trace=True, **more)
 """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import shutil
 from pathlib import Path
 
@@ -86,6 +87,35 @@ def test_candidates_sort_filter_and_are_chosen(watch: Watch) -> None:
     lab.expect_python("view.model.picked[0]", "candidate:x:1")
     page.locator(".fnb-candidate[data-fate]").press("Escape")
     expect(page.locator(".fnb-word[data-chosen]")).to_have_count(0)
+
+
+def test_a_chosen_candidate_is_shown_in_all_views(watch: Watch) -> None:
+    lab = watch("""
+        views = ['facade', 'candidates', 'network', 'alignment', 'sizing']
+        view = SolverView(traced('figure-7'), views=views, follow=False, height=2000)
+        view
+    """)
+    page = lab.page
+    layout = page.locator(".fnb-alignment .fnb-align-row").first.inner_text()
+    lab.button("y: Sizing").click()
+    lab.python("setattr(view.model, 'picked', ['candidate:x:0'])")
+    said = page.locator(".fnb-alternative:visible")
+    for name in ("network", "alignment", "sizing"):
+        own = page.locator(f".fnb-{name} .fnb-alternative")
+        expect(own).to_contain_text("Candidate 0 (s = 1, t = 5). It was aligned and costs more, J = 0.563 m")
+    expect(page.locator(".fnb-net-status")).to_contain_text("The path has 5 columns")
+    expect(page.locator(".fnb-align-group header")).to_contain_text("5 columns")
+    assert page.locator(".fnb-alignment .fnb-align-row").first.inner_text() != layout
+    # The façade has its five windows, where the layout has fewer.
+    expect(page.locator(".fnb-traced-note")).to_contain_text("Candidate 0 (s = 1, t = 5), not the layout")
+    expect(page.locator(".fnb-traced-other [data-x=C]")).to_have_count(5)
+    boxes = [own.bounding_box() for own in page.locator(".fnb-traced-other [data-x=C]").all()]
+    edges = sorted((box["x"], box["x"] + box["width"]) for box in boxes if box)
+    assert all(right[0] >= left[1] - 2 for left, right in itertools.pairwise(edges))
+    # Another moment, at which it is not judged yet: nothing of it.
+    lab.button("x: Words").click()
+    expect(said).to_have_count(0)
+    expect(page.locator(".fnb-traced-other [data-x=C]")).to_have_count(0)
 
 
 def test_a_candidate_is_predicted(watch: Watch) -> None:

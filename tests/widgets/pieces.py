@@ -61,26 +61,7 @@ def _pair(over: str, under: str, counters: Mapping[str, Any] | None = None) -> D
 
 def _figure_8(search: str = "best") -> Trace:
     """The network of (CeC, ABABA), with SPEC 7's sizes."""
-    return solve(FIGURE_8, search=search, trace=True).trace
-
-
-FIGURE_8 = Design.from_dict(
-    {
-        "format": "facade-nb/design/1",
-        "name": "The network of Figure 8",
-        "canvas": {"width": 12.0, "height": 3.0},
-        "symbols": {
-            name: {"size": size} for name, size in {"A": 2.0, "B": 3.0, "C": 2.0, "e": 8.0, "Y": 3.0}.items()
-        },
-        "counters": {"k": {"value": 2}},
-        "patterns": {"walls": "A(BA)^k", "corners": "cec; c := C", "height": "Y"},
-        "layers": [
-            {"name": "walls", "x": {"pattern": "walls"}, "y": {"pattern": "height"}},
-            {"name": "corners", "x": {"pattern": "corners"}, "y": {"pattern": "height"}, "depth": 1},
-        ],
-    }
-)
-"""(CeC, ABABA) with |A| = |C| = 2, |B| = 3, |e| = 8 on a canvas of 12."""
+    return solve(gallery.load("figure-8"), search=search, trace=True).trace
 
 
 def _alternation() -> Trace:

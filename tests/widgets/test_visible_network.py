@@ -13,7 +13,7 @@ from facade_nb.solver.events import ActiveSetStep, EdgeRefused, EdgeWeighed, Nod
 from facade_nb.widgets import AlignmentView, NetworkView, SizingView
 from facade_nb.widgets.visible import chunks, networks
 
-from .pieces import FIGURE_8, TRACES
+from .pieces import TRACES
 from .test_visible import unpack
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -70,7 +70,7 @@ class TestNetworkPiece:
 
 class TestNetworkView:
     def test_the_static_form_is_figure_8(self) -> None:
-        html = NetworkView(FIGURE_8).to_html()
+        html = NetworkView(gallery.load("figure-8")).to_html()
         written = texts(html)
         assert any("4 × 6 nodes" in text for text in written)
         assert {"CeC", "ABABA", "eC", "BABA", "ε"} <= {*written}
@@ -84,13 +84,13 @@ class TestNetworkView:
         assert "<td>D / e / B</td>" in html
 
     def test_the_frame_is_that_of_the_edges(self) -> None:
-        frame = NetworkView(FIGURE_8).frame
+        frame = NetworkView(gallery.load("figure-8")).frame
         assert {"omega", "fate", "constraint", "chosen"} <= {*frame.columns}
 
 
 class TestAlignmentView:
     def test_the_static_form_is_the_matrix_to_scale(self) -> None:
-        html = AlignmentView(FIGURE_8).to_html()
+        html = AlignmentView(gallery.load("figure-8")).to_html()
         boxes = [
             own
             for own in drawing(html).iter(f"{SVG}rect")
@@ -116,7 +116,7 @@ class TestSizingView:
         assert "<td>f</td><td>free</td>" in html
 
     def test_the_frame_is_that_of_the_equations(self) -> None:
-        frame = SizingView(FIGURE_8).frame
+        frame = SizingView(gallery.load("figure-8")).frame
         assert {"1:0-0-0 = |C|", "0:0-0-0 = |C|"} & {*frame.name}
         assert {"multiplier", "active"} <= {*frame.columns}
 

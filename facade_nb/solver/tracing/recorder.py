@@ -37,7 +37,8 @@ ROOM = 60_000
 CANDIDATES = 4_000
 """So many candidates are kept."""
 OTHERS = 3
-"""So many networks of an axis are told besides those of the answer: the last ones that were opened."""
+"""So many networks of an axis are told besides those of the answer: the last ones that were opened. And those of so
+many other candidates that were aligned: the cheapest."""
 
 Places = tuple[int, ...]
 _Letters = tuple[tuple[int, ...], ...]
@@ -381,11 +382,22 @@ class Recorder:
         told = {w.number for own in self.answers.values() for found in own.paths if found for w in found[:1]}
         for axis in ("x", "y"):
             told.update([w.number for w in self.walks.values() if w.axis == axis and w.steps][-OTHERS:])
+            told.update(self._aligned(axis))
         for walk in self.walks.values():
             if walk.number not in told:
                 walk.forget()
             for group in walk.groups:
                 group.edges.clear()
+
+    def _aligned(self, axis: str) -> set[int]:
+        """The networks of the cheapest candidates that were aligned, the best among them."""
+        found = [
+            (own.cost, own.networks)
+            for kind, where, own, *_ in self.notes
+            if kind == "candidate" and where == axis and own.cost is not None
+        ]
+        found.sort(key=lambda one: one[0])
+        return {number for _, networks in found[: OTHERS + 1] for number in networks}
 
     def trace(self) -> Trace:
         """What is read of it all."""

@@ -21,6 +21,7 @@ from ...solver.events import (
     PairsMerged,
     PathChosen,
     RegionTraced,
+    StructurePriced,
     TraceBegun,
     WaysMet,
 )
@@ -38,12 +39,13 @@ _NOWHERE = -1
 
 
 def networks(trace: Trace) -> Json:
-    """Networks, their steps as flat arrays, regions and mergers as they are told, and the chosen paths."""
+    """Networks, their steps as flat arrays, regions, mergers and prices as they are told, and the chosen paths."""
     opened: dict[tuple[str, int], int] = {}
     told: list[Json] = []
     steps = _Steps()
     regions: list[Json] = []
     merged: list[Json] = []
+    priced: list[Json] = []
     for at, e in enumerate(trace.events):
         if isinstance(e, NetworkOpened):
             opened[e.axis, e.network] = len(told)
@@ -54,6 +56,8 @@ def networks(trace: Trace) -> Json:
             steps.add(at, opened[e.axis, e.network], e)
         elif isinstance(e, RegionTraced):
             regions.append({"at": at, **to_plain(e)})
+        elif isinstance(e, StructurePriced) and e.cost is not None:
+            priced.append({"at": at, **to_plain(e)})
         elif isinstance(e, (PairsMerged, ControlsAligned)):
             merged.append({"at": at, **to_plain(e)})
     return {
@@ -61,6 +65,7 @@ def networks(trace: Trace) -> Json:
         "steps": steps.arrays(),
         "regions": regions,
         "merged": merged,
+        "priced": priced,
         "paths": aligned(trace)["paths"],
     }
 

@@ -1,6 +1,7 @@
 // Which axis a view shows: the one that is played, until the reader chooses.
 
 import { h, mark } from "../dom.ts";
+import type { Alternatives } from "./alternatives.ts";
 import type { Axis, Timeline } from "./timeline.ts";
 
 export class AxisChoice {
@@ -11,6 +12,8 @@ export class AxisChoice {
   constructor(
     private readonly timeline: Timeline,
     refresh: () => void,
+    /** Where a candidate is chosen, its axis is shown. */
+    private readonly alternatives?: Pick<Alternatives, "axis">,
   ) {
     const choices: [Axis | null, string, string][] = [
       [null, "auto", "Show the axis that is played"],
@@ -31,7 +34,7 @@ export class AxisChoice {
   /** The axis to show at a position. */
   at(position: number): Axis {
     for (const [axis, tab] of this.tabs) mark(tab, "aria-pressed", String(axis === this.chosen));
-    const axis = this.chosen ?? this.timeline.axisAt(position);
+    const axis = this.chosen ?? this.alternatives?.axis ?? this.timeline.axisAt(position);
     for (const [own, tab] of this.tabs) mark(tab, "data-shown", own === axis);
     return axis;
   }

@@ -3,15 +3,21 @@
 import { h, mark, setText } from "../dom.ts";
 import { icon } from "../icons.ts";
 import type { WidgetModel } from "../types.ts";
+import { cancelFrame, inFrame } from "./frames.ts";
 import { playbar } from "./playbar.ts";
 import type { Quiz } from "./quiz.ts";
 import type { Loaded, Session } from "./session.ts";
 import type { View, ViewKind } from "./view.ts";
 
+const REST = 120; // milliseconds that the player rests before what is out of sight is drawn, too
+const NEAR = 200; // pixels around what is in sight
+
 export interface Panel {
   el: HTMLElement;
   /** Show the present moment: a panel that was hidden has missed some. */
   refresh(): void;
+  /** Whether it is drawn with every step, also out of sight: the page is going to scroll to it. */
+  follow(on: boolean): void;
 }
 
 /** Make a view of a kind in its panel, and have it follow the player and the links until the signal ends. */
@@ -24,7 +30,7 @@ export async function panel(
 ): Promise<Panel> {
   const made = await Promise.all(kind.needs.map((name) => session.piece(name)));
   const pieces = Object.fromEntries(kind.needs.map((name, n) => [name, made[n]]));
-  const { player, links } = loaded;
+  const { player, links, alternatives } = loaded;
   let view: View | null = null;
   const light = () => {
     if (view?.light) view.light();
@@ -56,20 +62,47 @@ export async function panel(
   }
   el.append(body);
 
-  let due = 0;
-  const soon = () => {
-    // Several steps within a frame are drawn once.
-    due ||= requestAnimationFrame(() => {
-      due = 0;
-      if (!signal.aborted && !el.hidden) refresh();
-    });
+  // A view that is out of sight waits until the player rests, or until it comes into sight.
+  let [seen, followed, stale, resting] = [true, false, false, 0];
+  const draw = () => {
+    clearTimeout(resting);
+    if (signal.aborted || el.hidden) return;
+    stale = false;
+    refresh();
   };
+  const soon = () => {
+    if (seen || followed) {
+      inFrame(draw); // several steps within a frame are drawn once
+      return;
+    }
+    stale = true;
+    clearTimeout(resting);
+    resting = window.setTimeout(() => stale && inFrame(draw), REST);
+  };
+  if (typeof IntersectionObserver !== "undefined") {
+    const margin = `${NEAR}px`;
+    const options = { rootMargin: margin, scrollMargin: margin };
+    const observer = new IntersectionObserver((entries) => {
+      seen = entries.at(-1)?.isIntersecting ?? true;
+      if (seen && stale) draw();
+    }, options);
+    observer.observe(el);
+    signal.addEventListener("abort", () => observer.disconnect());
+  }
   player.watch(soon, signal);
   links.watch(() => el.hidden || light(), signal);
+  alternatives.watch(soon, signal);
   links.listen(el, signal);
-  signal.addEventListener("abort", () => cancelAnimationFrame(due));
+  signal.addEventListener("abort", () => {
+    clearTimeout(resting);
+    cancelFrame(draw);
+  });
   refresh();
-  return { el, refresh };
+  const follow = (on: boolean) => {
+    followed = on;
+    if (on && stale) inFrame(draw);
+  };
+  return { el, refresh, follow };
 }
 
 /** A widget that shows one view, with a player of its own above it if its traits say so. */

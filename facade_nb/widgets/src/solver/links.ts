@@ -63,6 +63,8 @@ export class Links {
   private hovered: readonly string[] = [];
   private chosen: readonly string[];
   private readonly watchers = new Set<() => void>();
+  /** Roots under which something may be marked: most steps of the player are taken while nothing is. */
+  private readonly marked = new WeakSet<ParentNode>();
 
   constructor(picked: readonly string[]) {
     this.chosen = picked;
@@ -121,18 +123,40 @@ export class Links {
     root.addEventListener("keydown", (event) => event.key === "Escape" && this.pick([]), { signal });
   }
 
-  /** Pick these, or, where they are what is picked, nothing. */
+  /**
+   * Pick these, or, where they are what is picked, nothing. A candidate stays chosen while other things are picked: what
+   * is picked then is mostly its own.
+   */
   toggle(targets: readonly string[]): void {
-    this.pick(same(targets, this.chosen) ? [] : targets);
+    if (targets.some(isCandidate)) {
+      this.pick(targets.every((key) => this.chosen.includes(key)) ? [] : targets);
+      return;
+    }
+    const kept = this.kept;
+    this.pick(same([...kept, ...targets], this.chosen) ? kept : [...kept, ...targets]);
+  }
+
+  /** Let go of what is picked, but for the candidate that is chosen. */
+  release(): void {
+    this.pick(this.kept);
+  }
+
+  private get kept(): string[] {
+    return this.chosen.some(isCandidate) ? this.chosen.filter((key) => isCandidate(key) || isWord(key)) : [];
   }
 
   /** Mark every linked element under a root that shows what is lit (`data-lit`) or picked (`data-chosen`). */
   apply(root: ParentNode): void {
     const [lit, picked] = [this.lit, this.picked];
+    const none = !lit.size && !picked.size;
+    if (none && !this.marked.has(root)) return;
+    if (none) this.marked.delete(root);
+    else this.marked.add(root);
     for (const element of root.querySelectorAll("[data-link], [data-about]")) {
-      if (!lit.size && !picked.size && !element.hasAttribute("data-lit") && !element.hasAttribute("data-chosen"))
-        continue;
-      const own = [...tokens(element, "data-link"), ...tokens(element, "data-about")];
+      if (none && !element.hasAttribute("data-lit") && !element.hasAttribute("data-chosen")) continue;
+      const is = tokens(element, "data-link");
+      // What is picked as a whole is its first target; the others are its parts', which others may share.
+      const own = element.hasAttribute("data-pick") ? is.slice(0, 1) : [...is, ...tokens(element, "data-about")];
       mark(element, "data-lit", lit.size > 0 && own.some((token) => lit.has(token)));
       mark(element, "data-chosen", picked.size > 0 && own.some((token) => picked.has(token)));
     }
@@ -142,6 +166,9 @@ export class Links {
     for (const watcher of [...this.watchers]) watcher();
   }
 }
+
+const isCandidate = (key: string): boolean => key.startsWith("candidate:");
+const isWord = (key: string): boolean => key.startsWith("word:");
 
 function same(a: readonly string[], b: readonly string[]): boolean {
   return a.length === b.length && a.every((item, n) => item === b[n]);

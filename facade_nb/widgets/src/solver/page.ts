@@ -4,6 +4,7 @@
 import { h, mark } from "../dom.ts";
 import type { WidgetModel } from "../types.ts";
 import { apology, type Panel, panel } from "./frame.ts";
+import { afterDrawing } from "./frames.ts";
 import { playbar } from "./playbar.ts";
 import type { Loaded, Session } from "./session.ts";
 import { VIEWS } from "./views/index.ts";
@@ -34,6 +35,7 @@ export async function page(
     ...Object.keys(VIEWS).filter((name) => !ORDER.includes(name)),
   ];
   const made = new Map<string, Promise<Panel>>();
+  const panels = new Map<string, Panel>();
   const columns = [h("div", { class: "fnb-page-column" }), h("div", { class: "fnb-page-column" })];
   const slots = new Map(names.map((name) => [name, h("div", { class: "fnb-page-slot", hidden: true })]));
   for (const [name, slot] of slots) columns[BESIDE.includes(name) ? 0 : 1]?.append(slot);
@@ -74,22 +76,21 @@ export async function page(
   const bring = (name: string, slot: HTMLElement): void => {
     const kind = VIEWS[name];
     if (!kind) return;
-    const before = made.get(name);
-    if (before) {
-      void before.then((own) => {
-        if (own.el.hidden && !slot.hidden) {
-          own.el.hidden = false;
-          own.refresh();
-        }
-      });
-      return;
+    const before = panels.get(name);
+    if (before?.el.hidden) {
+      before.el.hidden = false;
+      before.refresh();
     }
+    if (made.has(name)) return;
     slot.replaceChildren(h("p", { class: "fnb-empty" }, `Loading ${kind.title}…`));
     const own = panel(kind, session, model, loaded, signal);
     made.set(name, own);
     own.then(
-      ({ el }) => {
-        if (!signal.aborted) slot.replaceChildren(el);
+      (made) => {
+        if (signal.aborted) return;
+        panels.set(name, made);
+        slot.replaceChildren(made.el);
+        show();
       },
       (error) => {
         if (!signal.aborted) slot.replaceChildren(apology(error));
@@ -98,7 +99,8 @@ export async function page(
   };
 
   const show = () => {
-    const now = follow ? spoken() : undefined;
+    const told = spoken();
+    const now = follow ? told : undefined;
     mark(following, "aria-pressed", String(follow));
     for (const { name, button } of chips) {
       mark(button, "aria-pressed", String(kept.has(name)));
@@ -106,28 +108,31 @@ export async function page(
     }
     for (const [name, slot] of slots) {
       const shown = kept.has(name) || name === now;
-      slot.hidden = !shown;
+      if (slot.hidden === shown) slot.hidden = !shown;
       if (shown) bring(name, slot);
-      else
-        void made.get(name)?.then((own) => {
-          own.el.hidden = slot.hidden;
-        });
+      const panel = panels.get(name);
+      if (!panel) continue;
+      if (!shown) panel.el.hidden = true;
+      panel.follow(shown && (name === told || BESIDE.includes(name)));
     }
     for (const column of columns) column.hidden = [...column.children].every((slot) => (slot as HTMLElement).hidden);
   };
   /** Have what is spoken of in sight, within its column: a step must not move the notebook. */
   const reveal = () => {
-    for (const column of columns) {
-      const now = [...column.querySelectorAll<HTMLElement>("[data-now]")].find((each) => each.checkVisibility?.());
-      if (!now || column.scrollHeight <= column.clientHeight) continue;
-      const [outer, inner] = [column.getBoundingClientRect(), now.getBoundingClientRect()];
-      if (inner.top < outer.top) column.scrollTop -= outer.top - inner.top + 40;
+    for (const [n, name] of ["player", spoken() ?? ""].entries()) {
+      const [column, slot] = [columns[n] as HTMLElement, slots.get(name)];
+      if (!slot || slot.hidden || column.scrollHeight <= column.clientHeight) continue;
+      const now = slot.querySelector("[data-now]");
+      const [outer, inner] = [column.getBoundingClientRect(), (now ?? slot).getBoundingClientRect()];
+      if (!now) {
+        if (inner.bottom < outer.top + 40 || inner.top > outer.bottom - 40) column.scrollTop += inner.top - outer.top;
+      } else if (inner.top < outer.top) column.scrollTop -= outer.top - inner.top + 40;
       else if (inner.bottom > outer.bottom) column.scrollTop += inner.bottom - outer.bottom + 40;
     }
   };
   player.watch(show, signal);
-  // After the frame in which the views have drawn the moment.
-  player.watch(() => requestAnimationFrame(() => requestAnimationFrame(reveal)), signal);
+  const drawn = () => afterDrawing(reveal); // when the lists have scrolled
+  player.watch(() => afterDrawing(drawn), signal);
   show();
   await Promise.allSettled(made.values());
   const height = () => el.style.setProperty("--fnb-height", `${model.get<number>("height")}px`);

@@ -1,6 +1,7 @@
 // A long list of rows of one height, of which only those in sight are in the page.
 
 import { h } from "../dom.ts";
+import { afterDrawing, cancelFrame } from "./frames.ts";
 
 const AROUND = 8;
 
@@ -39,11 +40,13 @@ export function rows<T>(
   const el = h("div", { class: "fnb-rows" }, above, body, below);
   let items: readonly T[] = [];
   let spoken = -1;
+  /** Where the list is scrolled to. The page is not asked for it: it would have to be laid out for that. */
+  let top = 0;
   let window: [number, number] = [-1, -1];
   let drawn = new Map<string, HTMLElement>();
 
   const draw = () => {
-    const first = Math.max(0, Math.floor(el.scrollTop / height) - AROUND);
+    const first = Math.max(0, Math.floor(top / height) - AROUND);
     const last = Math.min(items.length, first + most + 2 * AROUND);
     window = [first, last];
     above.style.height = `${first * height}px`;
@@ -64,25 +67,27 @@ export function rows<T>(
   el.addEventListener(
     "scroll",
     () => {
-      const first = Math.floor(el.scrollTop / height);
+      top = el.scrollTop;
+      const first = Math.floor(top / height);
       const inside = first >= window[0] && Math.min(items.length, first + most) <= window[1];
       if (!inside) draw();
     },
     { signal },
   );
-  // A list that is not in the page yet cannot be scrolled: it is when it has come to stand there.
-  let wanted: number | null = null;
-  const scroll = (top: number) => {
-    el.scrollTop = top;
-    wanted = el.isConnected ? null : top;
+  const scroll = () => {
+    if (!signal.aborted) el.scrollTop = top;
   };
-  const arrived = new ResizeObserver(() => {
-    if (wanted === null || !el.clientHeight) return;
-    scroll(wanted);
-    draw();
-  });
+  const go = (next: number) => {
+    top = Math.max(0, Math.min(next, (items.length - Math.min(items.length, most)) * height));
+    afterDrawing(scroll);
+  };
+  // A list that is not in the page cannot be scrolled: it is when it has come to stand there.
+  const arrived = new ResizeObserver(scroll);
   arrived.observe(el);
-  signal.addEventListener("abort", () => arrived.disconnect());
+  signal.addEventListener("abort", () => {
+    arrived.disconnect();
+    cancelFrame(scroll);
+  });
   return {
     el,
     set(next, now = -1) {
@@ -92,13 +97,14 @@ export function rows<T>(
       const room = Math.min(items.length, most) * height;
       el.style.height = `${room}px`;
       el.setAttribute("aria-rowcount", String(items.length));
-      if (moved) scroll(now < 0 ? 0 : Math.max(0, (now + 0.5) * height - room / 2));
+      if (moved) go(now < 0 ? 0 : (now + 0.5) * height - room / 2);
       draw();
     },
     reveal(index) {
-      const [top, room] = [index * height, Math.min(items.length, most) * height];
-      if (index < 0 || (top >= el.scrollTop && top + height <= el.scrollTop + room)) return;
-      scroll(Math.max(0, top + height / 2 - room / 2));
+      const room = Math.min(items.length, most) * height;
+      const at = index * height;
+      if (index < 0 || (at >= top && at + height <= top + room)) return;
+      go(at + height / 2 - room / 2);
       draw();
     },
   };

@@ -2,6 +2,7 @@
 
 import { announce } from "../presence.ts";
 import type { WidgetModel } from "../types.ts";
+import { Alternatives } from "./alternatives.ts";
 import { Links } from "./links.ts";
 import { type Moment, visit, watchMoments } from "./moments.ts";
 import { type Bytes, byteLength, unpack } from "./packing.ts";
@@ -17,6 +18,8 @@ export interface Loaded {
   timeline: Timeline;
   player: Player;
   links: Links;
+  /** The candidate that the reader has chosen. */
+  alternatives: Alternatives;
 }
 
 export class Session {
@@ -132,7 +135,8 @@ export class Session {
     watchMoments(go, end.signal);
     player.watch(() => this.tellSoon(player), end.signal);
     links.watch(() => this.save({ picked: [...links.picked] }, "picked"), end.signal);
-    return { timeline, player, links };
+    const alternatives = new Alternatives((name) => this.piece(name), timeline, links, end.signal);
+    return { timeline, player, links, alternatives };
   }
 
   /** Python learns where the player has come to rest, so that a reload, and a saved notebook, find it there. */

@@ -69,4 +69,38 @@ describe("pattern analysis", () => {
     expect(lit()).toEqual(["(2)"]);
     expect(texts("li[data-lit] .fnb-system-text")).toHaveLength(3); // the rows that follow from it
   });
+
+  it("can be predicted: what contradicts, and what is fixed", async () => {
+    one = await show(analysis, "apartment-house", {});
+    const stage = one.timeline.data.stages.find((each) => each.stage === "analysis" && each.axis === "x");
+    one.go(stage?.first ?? 0); // before anything is told
+    const quiz = one.view.quiz;
+    if (!quiz) throw new Error("no quiz");
+    quiz.ask(true);
+    one.go(one.player.position);
+    expect(texts(".fnb-pair").length).toBe(8);
+    expect(one.view.el.querySelector("[data-conflict], [data-against], li[data-resolved]")).toBeNull();
+    expect(texts(".fnb-system-text")).toEqual([]);
+    const tick = (label: string) =>
+      [...one.view.el.querySelectorAll(".fnb-analysis-choice")]
+        .find((each) => each.textContent === label)
+        ?.querySelector("input")
+        ?.dispatchEvent(new Event("change"));
+    tick("(4) contradicts those before");
+    one.go(one.player.position);
+    tick("(5) contradicts those before");
+    one.go(one.player.position);
+    tick("|f| is fixed");
+    const { right, wrong, missed } = quiz.check();
+    one.go(one.player.position);
+    expect(right).toEqual([target.equation("x", 3), target.variable("x", "unsized |f|")]);
+    expect(wrong).toEqual([target.equation("x", 4)]);
+    expect(missed).toEqual([target.equation("x", 7)]);
+    const said = texts(".fnb-analysis-choice[data-verdict]").join("|");
+    expect(said).toContain("(5) contradicts those beforeIt holds together with those before it.");
+    expect(said).toContain("|f| is fixed|f| = 3.6");
+    quiz.ask(false);
+    one.go(one.player.position);
+    expect(texts(".fnb-pair")).toEqual([]); // the moment is what it was
+  });
 });

@@ -2,6 +2,7 @@
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { Alternatives } from "../../src/solver/alternatives.ts";
 import { Links } from "../../src/solver/links.ts";
 import { unpack } from "../../src/solver/packing.ts";
 import { Player } from "../../src/solver/player.ts";
@@ -53,6 +54,7 @@ export async function show(kind: ViewKind, design: string, traits: Record<string
   const pieces: Record<string, unknown> = {};
   for (const name of kind.needs) pieces[name] = await unpack(pieceOf(design, name));
   const session = { live: true } as unknown as Session;
+  const alternatives = new Alternatives((name) => unpack(pieceOf(design, name)), timeline, links, end.signal);
   let view: View | null = null;
   const refresh = () => {
     view?.show(player.position);
@@ -63,12 +65,14 @@ export async function show(kind: ViewKind, design: string, traits: Record<string
     timeline,
     player,
     links,
+    alternatives,
     session,
     model: new FakeModel(traits),
     pieces,
     signal: end.signal,
     refresh,
   });
+  alternatives.watch(refresh, end.signal);
   document.body.append(view.el);
   refresh();
   const shown = view;

@@ -134,6 +134,7 @@ describe("the words", () => {
     one.links.pick([target.word("x", "Mx", `f A ${"B D ".repeat(20)}B A f'`)]);
     one.view.light?.();
     expect(section("Mx").querySelector(".fnb-word[data-chosen] .fnb-word-text")?.textContent).toBe("fA(BD)20BAf′");
+    await new Promise(requestAnimationFrame);
     expect(list.scrollTop).toBeGreaterThan(0);
   });
 

@@ -163,7 +163,7 @@ export function asSolved(path: PathNote, boundaries: number[], placed: readonly 
 }
 
 /** Sizes of letters and pieces: those of the solver's alignment where nothing was moved, else as near as they can be. */
-function sizesOf(path: PathNote, columns: readonly Column[]): number[][][] {
+export function sizesOf(path: PathNote, columns: readonly Column[]): number[][][] {
   const total = path.bands.map((band, b) =>
     band.letters.map((letter, n) => {
       if (letter.size !== null) return letter.size;

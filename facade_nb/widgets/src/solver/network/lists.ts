@@ -1,6 +1,6 @@
 // What stands beside the network: the columns that leave the node that is looked at, and the question's choices.
 
-import { h } from "../../dom.ts";
+import { h, keyed, mark, type Row, setText } from "../../dom.ts";
 import { formatNumber } from "../../fields.ts";
 import type { LetterNote } from "../letters.ts";
 import { linked, target } from "../links.ts";
@@ -28,50 +28,49 @@ export function columnText(subject: Subject, column: readonly (readonly number[]
 const name = (letter: LetterNote | undefined): string =>
   letter ? (letter.symbol.length > 2 ? `⟨${letter.symbol}⟩` : letter.symbol) + (letter.mirrored ? "′" : "") : "";
 
-/** The columns that leave a node, those that may come next first. */
-export function leavingList(subject: Subject, places: readonly number[], arcs: readonly Arc[]): HTMLElement {
-  const permitted = arcs.filter((arc) => !arc.constraint);
-  const forbidden = arcs.filter((arc) => arc.constraint);
-  const shown = [...permitted.slice(0, MOST), ...forbidden.slice(0, MOST)];
-  const rests = subject.bands.map((band, b) => restOf(band, places[b] ?? 0));
-  return h(
-    "div",
-    { class: "fnb-net-leaving" },
-    h(
-      "h4",
-      {},
-      "At ",
-      h("code", {}, rests.map((rest) => (rest.length > 14 ? `${rest.slice(0, 13)}…` : rest)).join(" / ")),
-      h("span", { class: "fnb-muted" }, ` ${permitted.length} edges permitted, ${forbidden.length} forbidden`),
-    ),
-    h(
-      "ul",
-      {},
-      ...shown.map((arc) =>
-        h(
-          "li",
-          {
-            class: "fnb-net-edge",
-            tabindex: 0,
-            "data-constraint": arc.constraint || null,
-            "data-path": arc.kind === "path",
-            ...linked([arc.key]),
-          },
-          columnText(subject, arc.column, arc.to),
-          h("span", { class: "fnb-net-omega" }, arc.omega === null ? "" : `ω ${formatNumber(arc.omega, 2)}`),
-          h("span", { class: "fnb-net-why" }, arc.constraint ? `✕ ${arc.text}` : arc.text),
-        ),
-      ),
-    ),
-    arcs.length > shown.length ? h("p", { class: "fnb-muted" }, `… ${arcs.length - shown.length} more`) : null,
-  );
+/** The columns that leave a node, those that may come next first. From step to step most of them stay. */
+export class LeavingList {
+  private readonly at = h("code");
+  private readonly count = h("span", { class: "fnb-muted" });
+  private readonly list = h("ul");
+  private readonly more = h("p", { class: "fnb-muted" });
+  readonly el = h("div", { class: "fnb-net-leaving" }, h("h4", {}, "At ", this.at, this.count), this.list, this.more);
+  private subject: Subject | null = null;
+  private readonly rows = keyed<Arc>(this.list, nameOf, (arc) => this.row(arc));
+
+  show(subject: Subject, places: readonly number[], arcs: readonly Arc[]): void {
+    if (subject !== this.subject) this.rows([]); // another network's columns have the same names, but other letters
+    this.subject = subject;
+    const permitted = arcs.filter((arc) => !arc.constraint);
+    const forbidden = arcs.filter((arc) => arc.constraint);
+    const shown = [...permitted.slice(0, MOST), ...forbidden.slice(0, MOST)];
+    const rests = subject.bands.map((band, b) => restOf(band, places[b] ?? 0));
+    setText(this.at, rests.map((rest) => (rest.length > 14 ? `${rest.slice(0, 13)}…` : rest)).join(" / "));
+    setText(this.count, ` ${permitted.length} edges permitted, ${forbidden.length} forbidden`);
+    setText(this.more, arcs.length > shown.length ? `… ${arcs.length - shown.length} more` : "");
+    this.rows(shown);
+  }
+
+  private row(arc: Arc): Row<Arc> {
+    const subject = this.subject as Subject;
+    const el = h(
+      "li",
+      { class: "fnb-net-edge", tabindex: 0, "data-constraint": arc.constraint || null, ...linked([arc.key]) },
+      columnText(subject, arc.column, arc.to),
+      h("span", { class: "fnb-net-omega" }, arc.omega === null ? "" : `ω ${formatNumber(arc.omega, 2)}`),
+      h("span", { class: "fnb-net-why" }, arc.constraint ? `✕ ${arc.text}` : arc.text),
+    );
+    return { el, update: ({ kind }) => mark(el, "data-path", kind === "path") };
+  }
 }
+
+const nameOf = (arc: Arc): string => `${arc.key}>${arc.to.join()}|${arc.constraint}|${arc.text}|${arc.omega}`;
 
 /** The letters of a network's words that some targets light, as band:number. */
 export function litLetters(subject: Subject, keys: ReadonlySet<string>): Set<string> {
   const found = new Set<string>();
   if (!keys.size) return found;
-  const layers = subject.path?.layers ?? [];
+  const layers = subject.path?.layers ?? subject.layers ?? [];
   for (const [b, band] of subject.bands.entries())
     for (const [n, letter] of band.letters.entries()) {
       const own = [

@@ -201,6 +201,7 @@ class Painter {
 
   private highlights(): void {
     const { c, scene, marks, look } = this;
+    if (!marks.lit.size && !marks.picked.size && !marks.hovered) return;
     for (const arc of scene.arcs) {
       const own = marks.lit.has(arc.key) || marks.picked.has(arc.key) || arc === marks.hovered;
       if (!own) continue;

@@ -1,6 +1,7 @@
 // A canvas that can be panned and zoomed: by wheel (Ctrl, or while it has the focus), by dragging, by keys and buttons.
 
 import { h } from "../../dom.ts";
+import { afterDrawing, cancelFrame } from "../frames.ts";
 
 export interface Camera {
   /** The point of the drawing at the canvas's upper left corner, and pixels per unit. */
@@ -33,7 +34,6 @@ export class Plane {
   camera: Camera = { x: 0, y: 0, scale: 1 };
   private width = 0;
   private height = 0;
-  private due = 0;
   private moved = false;
   private readonly context: CanvasRenderingContext2D | null;
 
@@ -66,7 +66,7 @@ export class Plane {
       observer.observe(this.canvas);
       signal.addEventListener("abort", () => observer.disconnect());
     }
-    signal.addEventListener("abort", () => cancelAnimationFrame(this.due));
+    signal.addEventListener("abort", () => cancelFrame(this.repaint));
   }
 
   /** Show the whole drawing. */
@@ -76,14 +76,12 @@ export class Plane {
     this.invalidate();
   }
 
-  /** Draw again, once, in the next frame. */
+  /** Draw again, once, at the end of this frame or of the next. */
   invalidate(): void {
-    if (!this.context || this.signal.aborted) return;
-    this.due ||= requestAnimationFrame(() => {
-      this.due = 0;
-      this.paint();
-    });
+    if (this.context && !this.signal.aborted) afterDrawing(this.repaint);
   }
+
+  private readonly repaint = (): void => this.paint();
 
   /** The drawing has another extent now: show all of it, unless the reader has moved it. */
   settle(): void {

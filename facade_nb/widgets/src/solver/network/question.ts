@@ -29,8 +29,8 @@ export function choicesOf(story: Story, subject: Subject, base: () => Base, posi
   if (next !== undefined && path >= 0) {
     const [until, least] = [data.steps.at[next] ?? 0, data.steps.bound[next] ?? 0];
     const told = story.told(subject, until - 1);
-    const gone = new Set(told.taken.map((step) => data.steps.path[step]));
-    const open = told.weighed.filter(
+    const gone = new Set(Array.from(told.taken, (step) => data.steps.path[step]));
+    const open = Array.from(told.weighed).filter(
       (step) => !gone.has(data.steps.path[step] ?? -1) && story.reasonOf(step) !== "dropped",
     );
     const choices = open
@@ -43,7 +43,7 @@ export function choicesOf(story: Story, subject: Subject, base: () => Base, posi
         const why = right
           ? `No alignment that goes on so costs less than J = ${formatNumber(bound)} m: the least of all.`
           : `J ≥ ${formatNumber(bound)} m this way; another edge promises ${formatNumber(least)} m.`;
-        return { arc: { ...stepArc(story, subject, step, "choice"), text: "" }, right, why };
+        return { arc: { ...stepArc(story, subject, step, "weighed"), kind: "choice", text: "" }, right, why };
       });
     if (choices.some(({ right }) => right) && choices.length > 1) return choices;
   }

@@ -295,8 +295,24 @@ function arcsOf(
   return arcs;
 }
 
-/** A step of the search as an arc. */
-export function stepArc(story: Story, subject: Subject, step: number, kind: ArcKind): Arc {
+/** A step of the search as an arc; the same arc whenever it is asked for. */
+export function stepArc(story: Story, subject: Subject, step: number, kind: "weighed" | "refused"): Arc {
+  let known = arcsOfSteps.get(story);
+  if (!known) {
+    known = new Map();
+    arcsOfSteps.set(story, known);
+  }
+  let arc = known.get(step);
+  if (!arc) {
+    arc = makeArc(story, subject, step, kind);
+    known.set(step, arc);
+  }
+  return arc;
+}
+
+const arcsOfSteps = new WeakMap<Story, Map<number, Arc>>();
+
+function makeArc(story: Story, subject: Subject, step: number, kind: "weighed" | "refused"): Arc {
   const from = story.placesOf(step);
   const column = story.columnOf(step);
   const omega = story.data.steps.omega[step] ?? Number.NaN;
@@ -372,11 +388,14 @@ export function leaving(story: Story, subject: Subject, base: Base, told: Told, 
     return own.sort((x, y) => rankOf(y) - rankOf(x) || (x.omega ?? 9e9) - (y.omega ?? 9e9));
   }
   const arcs = [
-    ...told.weighed.filter((step) => story.isAt(step, places)).map((step) => stepArc(story, subject, step, "weighed")),
-    ...told.refused.filter((step) => story.isAt(step, places)).map((step) => stepArc(story, subject, step, "refused")),
+    ...stepsAt(story, told.weighed, places).map((step) => stepArc(story, subject, step, "weighed")),
+    ...stepsAt(story, told.refused, places).map((step) => stepArc(story, subject, step, "refused")),
   ];
   const distinct = new Map(arcs.map((arc) => [arc.key + arc.to.join(), arc]));
   return [...distinct.values()].sort((x, y) => rankOf(y) - rankOf(x) || (x.omega ?? 9e9) - (y.omega ?? 9e9));
 }
+
+const stepsAt = (story: Story, steps: Int32Array, places: readonly number[]): number[] =>
+  Array.from(steps.filter((step) => story.isAt(step, places)));
 
 const rankOf = (arc: Arc): number => (arc.constraint ? 0 : arc.text ? 1 : 2);

@@ -1,5 +1,6 @@
 // The networks of a trace, and what the search has done in one of them at a moment.
 
+import type { Alternative } from "../alternatives.ts";
 import type { Axis, Timeline } from "../timeline.ts";
 import { played } from "../timeline.ts";
 import type { BandNote } from "../weighing.ts";
@@ -78,8 +79,20 @@ export interface MergerNote {
   nodes?: [number, number[][]][];
 }
 
+/** A complete path that was priced; `path` is the number of its last edge. */
+export interface PricedNote {
+  at: number;
+  axis: Axis;
+  network: number;
+  path: number | null;
+  cost: number | null;
+  columns: number;
+  unsized: Record<string, number> | null;
+}
+
 export interface NetworkData {
   networks: NetworkNote[];
+  priced: PricedNote[];
   steps: Steps;
   regions: RegionNote[];
   merged: MergerNote[];
@@ -104,16 +117,20 @@ export interface Subject {
   group: number;
   first: number;
   path: PathNote | null;
-  /** Its steps, by their numbers. */
-  steps: number[];
-  at: number[];
+  /** Layers of its rows, where no path says them. */
+  layers?: readonly string[];
+  /** Its steps, by their numbers, and where in the trace each is told. */
+  steps: Int32Array;
+  at: Int32Array;
+  /** The same of each kind: what is told up to a moment is the beginning of such a list, and is not listed again. */
+  kinds: { steps: Int32Array; at: Int32Array }[];
 }
 
 /** What the search has done in a network up to a moment; steps by their numbers. */
 export interface Told {
-  taken: number[];
-  weighed: number[];
-  refused: number[];
+  taken: Int32Array;
+  weighed: Int32Array;
+  refused: Int32Array;
   /** The node that was taken up last; the step that is told right now. */
   current: number | undefined;
   now: number | undefined;
@@ -162,20 +179,42 @@ export class Story {
           group: -1,
           first: path.at,
           path,
-          steps: [],
-          at: [],
+          ...this.stepsOf(-1, -1),
         });
   }
 
-  private stepsOf(network: number, group: number): { steps: number[]; at: number[] } {
-    const steps: number[] = [];
-    const at: number[] = [];
+  private stepsOf(network: number, group: number): Pick<Subject, "steps" | "at" | "kinds"> {
+    const found: number[] = [];
     for (let n = 0; n < this.steps.at.length; n++)
-      if (this.steps.network[n] === network && this.steps.group[n] === group) {
-        steps.push(n);
-        at.push(this.steps.at[n] ?? 0);
-      }
-    return { steps, at };
+      if (this.steps.network[n] === network && this.steps.group[n] === group) found.push(n);
+    const dated = (list: number[]) => ({
+      steps: Int32Array.from(list),
+      at: Int32Array.from(list, (n) => this.steps.at[n] ?? 0),
+    });
+    const kinds = [TAKEN, WEIGHED, REFUSED].map((kind) => dated(found.filter((n) => this.steps.kind[n] === kind)));
+    return { ...dated(found), kinds };
+  }
+
+  /** The networks of a candidate that is not the layout: with what the search did in them, where that is told. */
+  subjectsOf({ note, groups }: Alternative): Subject[] {
+    return groups.map(({ path, aligned, network }, n) => {
+      const told = this.data.networks[network];
+      return {
+        key: `${note.axis}:candidate ${note.number}:${n}`,
+        axis: note.axis,
+        name: path.group,
+        bands: path.bands,
+        canvas: path.canvas,
+        tolerance: path.tolerance,
+        search: told?.search ?? this.timeline.data.search,
+        network: told ? told.network : -1,
+        group: told ? path.number : -1,
+        first: note.at,
+        path: aligned ? path : null,
+        layers: path.layers,
+        ...this.stepsOf(told ? network : -1, path.number),
+      };
+    });
   }
 
   /** The network that is spoken of at a position; where several are chosen, the largest of the axis. */
@@ -199,18 +238,14 @@ export class Story {
 
   /** What is told of a network at a position. */
   told(subject: Subject, position: number): Told {
-    const made: Told = { taken: [], weighed: [], refused: [], current: undefined, now: undefined };
+    const upTo = (kind: number): Int32Array => {
+      const own = subject.kinds[kind] as Subject["kinds"][number];
+      return own.steps.subarray(0, played(own.at, position));
+    };
+    const [taken, weighed, refused] = [upTo(TAKEN), upTo(WEIGHED), upTo(REFUSED)];
     const seen = played(subject.at, position);
-    for (let k = 0; k < seen; k++) {
-      const n = subject.steps[k] as number;
-      const kind = this.steps.kind[n];
-      if (kind === TAKEN) made.taken.push(n);
-      else if (kind === WEIGHED) made.weighed.push(n);
-      else if (kind === REFUSED) made.refused.push(n);
-    }
-    made.current = made.taken.at(-1);
-    if (seen && subject.at[seen - 1] === position) made.now = subject.steps[seen - 1];
-    return made;
+    const now = seen && subject.at[seen - 1] === position ? subject.steps[seen - 1] : undefined;
+    return { taken, weighed, refused, current: taken.at(-1), now };
   }
 
   placesOf(step: number): number[] {

@@ -6,6 +6,7 @@ import { formatNumber } from "../../fields.ts";
 import { asSolved, atPreferred, type Cuts, columnsOf, cutsOf, type Drawn } from "../align/matrix.ts";
 import { columnsTable } from "../align/table.ts";
 import { Trial } from "../align/trial.ts";
+import type { Alternative } from "../alternatives.ts";
 import { AxisChoice } from "../axes.ts";
 import type { PathNote } from "../network/story.ts";
 import { Placing, type PlacingData } from "../placing.ts";
@@ -39,12 +40,14 @@ class AlignmentView implements View {
   /** The reader's own alignments, by group. */
   private readonly tried = new Map<PathNote, Cuts>();
   private sizes: Sizes = "auto";
+  /** Groups of the chosen candidate that the solver did not align. */
+  private unaligned: ReadonlySet<PathNote> = new Set();
   private by = "";
 
   constructor(private readonly context: ViewContext) {
     this.data = context.pieces.alignment as AlignmentData;
     this.placing = new Placing(context.pieces.placing as PlacingData, context.timeline.data.chosen);
-    this.choice = new AxisChoice(context.timeline, context.refresh);
+    this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     const sizes: [Sizes, string][] = [
       ["auto", "As far as it is played"],
       ["preferred", "At preferred sizes, before sizing"],
@@ -68,14 +71,20 @@ class AlignmentView implements View {
 
   show(position: number): void {
     const axis = this.choice.at(position);
-    const paths = this.data.paths.filter((path) => path.axis === axis && path.at <= position);
-    const solved = paths.filter((path) => this.isPlaced(path, position));
+    const other = this.context.alternatives.at(position, axis);
+    this.unaligned = new Set(other?.groups.flatMap(({ path, aligned }) => (aligned ? [] : [path])));
+    const paths = other
+      ? other.groups.map(({ path }) => path)
+      : this.data.paths.filter((path) => path.axis === axis && path.at <= position);
+    const said = other ? `${other.name}. ${other.fate} ${whatIsShown(other)}` : this.context.alternatives.trouble;
+    const solved = other ? [] : paths.filter((path) => this.isPlaced(path, position));
     for (const [name, tab] of this.tabs) mark(tab, "aria-pressed", String(name === this.sizes));
     const shown = this.sizes !== "auto" ? this.sizes : solved.length ? "solved" : "preferred";
     for (const [name, tab] of this.tabs) mark(tab, "data-shown", name === shown);
     const now = paths.find((path) => path.at === position)?.group ?? "";
     const by = [
       axis,
+      said,
       this.sizes,
       now,
       ...paths.map((path) => path.group),
@@ -97,6 +106,7 @@ class AlignmentView implements View {
       return;
     }
     this.el.replaceChildren(
+      ...(said ? [h("p", { class: "fnb-alternative", role: "status" }, said)] : []),
       ...paths.map((path) => this.section(path, axis, solved.includes(path), path.group === now)),
     );
     if (!focused) return;
@@ -113,7 +123,11 @@ class AlignmentView implements View {
   private section(path: PathNote, axis: Axis, placed: boolean, now: boolean): HTMLElement {
     const tried = this.tried.get(path);
     const cuts = tried ?? cutsOf(path);
-    const solved = !tried && (this.sizes === "solved" || (this.sizes === "auto" && placed)) && this.isPlaced(path, 1e9);
+    const solved =
+      !tried &&
+      this.data.paths.includes(path) &&
+      (this.sizes === "solved" || (this.sizes === "auto" && placed)) &&
+      this.isPlaced(path, 1e9);
     const drawn = solved ? this.solved(path) : atPreferred(path, cuts, this.data.placements);
     const verdicts = judge(this.group(path), columnsOf(cuts));
     const own = judge(this.group(path), columnsOf(cutsOf(path))) ?? [];
@@ -140,7 +154,12 @@ class AlignmentView implements View {
           { class: "fnb-muted" },
           ` ${counted(path.columns.length, "column")}, ${counted(path.bands.length, "word")}; `,
         ),
-        h("span", { class: "fnb-muted" }, solved ? "at solved sizes" : "at preferred sizes"),
+        h(
+          "span",
+          { class: "fnb-muted" },
+          solved ? "at solved sizes" : "at preferred sizes",
+          this.unaligned.has(path) ? ", not aligned by the solver" : null,
+        ),
         tried ? this.reset(path) : null,
       ),
       table,
@@ -225,6 +244,14 @@ class AlignmentView implements View {
     }
     return made;
   }
+}
+
+function whatIsShown({ aligned, groups }: Alternative): string {
+  if (aligned) return "These are its columns, at preferred sizes: sizes are told of the layout only.";
+  const some = groups.some((own) => own.aligned);
+  return some
+    ? "Groups that were aligned are shown so; of the others no columns are told: their words stand uncut. Cut them with +, and drag."
+    : "No columns of it are told: its words stand uncut. Cut them with +, drag, and see what that breaks.";
 }
 
 const counted = (n: number, what: string): string => `${n} ${what}${n === 1 ? "" : "s"}`;

@@ -4,6 +4,7 @@
 import { h, mark, setText } from "../../dom.ts";
 import { AxisChoice } from "../axes.ts";
 import { linked, target } from "../links.ts";
+import { Quiz, type Truth } from "../quiz.ts";
 import { equation, type Term, term, variables } from "../terms.ts";
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -82,6 +83,7 @@ export const analysis: ViewKind = {
 class AnalysisView implements View {
   readonly el = h("div", { class: "fnb-analysis" });
   readonly controls: HTMLElement[];
+  readonly quiz: Quiz;
   private readonly told: Told[];
   private readonly choice: AxisChoice;
   private readonly note = h("p", { class: "fnb-empty" });
@@ -89,21 +91,28 @@ class AnalysisView implements View {
   private readonly systems = h("div", { class: "fnb-systems" });
   private by = "";
 
-  constructor(context: ViewContext) {
+  constructor(private readonly context: ViewContext) {
     this.told = (context.pieces.analysis as { events: Told[] }).events;
-    this.choice = new AxisChoice(context.timeline, context.refresh);
+    this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.controls = [this.choice.el];
     this.el.append(this.note, this.pairs, this.systems);
+    this.quiz = new Quiz(
+      "Which pairs contradict those before them? Which counters and sizes do the others fix? Tick them.",
+      () => this.truths(),
+    );
   }
 
   show(position: number): void {
     const axis = this.choice.at(position);
-    const seen = this.told.filter((event) => event.axis === axis && event.at <= position);
-    const now = seen.at(-1)?.at === position;
-    const by = `${axis}|${seen.length}|${now}`;
+    // A prediction is made of all pairs: the answer is what comes after them.
+    const seen = this.told.filter((event) => event.axis === axis && (this.quiz.on || event.at <= position));
+    const now = !this.quiz.on && seen.at(-1)?.at === position;
+    const by = `${axis}|${seen.length}|${now}|${this.quiz.stamp}`;
     if (by === this.by) return;
     this.by = by;
-    const conflicts = seen.filter((event): event is Inconsistent => event.event === "PairInconsistent");
+    const conflicts = this.quiz.hides
+      ? []
+      : seen.filter((event): event is Inconsistent => event.event === "PairInconsistent");
     const compared = seen.filter((event): event is Compared => event.event === "PatternsCompared");
     const others = seen.filter((event): event is NotAnalysed => event.event === "PatternNotAnalysed");
     this.pairs.replaceChildren(
@@ -175,6 +184,7 @@ class AnalysisView implements View {
           : null,
       ),
     );
+    if (this.quiz.on && one.text) el.append(this.box(pairKey(one), `(${number + 1}) contradicts those before`));
     if (conflict) {
       const mild = conflict.strength === "preferred" ? " That is no fault: sizes may give way a little." : "";
       el.append(
@@ -210,6 +220,48 @@ class AnalysisView implements View {
     const title = one.system === "counters" ? "Counters" : "Unsized symbols";
     const conflict = conflicts.find((own) => own.system === one.system);
     const numbers = (list: readonly number[]) => list.map((n) => `(${n + 1})`).join(", ");
+    if (this.quiz.on && asked(one).length) {
+      const boxes = asked(one).map((name) => this.box(variableKey(one, name), `${name} is fixed`));
+      if (this.quiz.hides)
+        return h("section", { class: "fnb-system", "data-system": one.system }, h("h4", {}, title), ...boxes);
+      return h(
+        "section",
+        { class: "fnb-system", "data-system": one.system },
+        h("h4", {}, title),
+        ...boxes,
+        this.rows(one),
+      );
+    }
+    const list = this.rows(one);
+    const free = one.free.map((name) => {
+      const { counters, symbols } = variables([name]);
+      const keys = [...counters.map((each) => target.counter(each)), ...symbols.map((each) => target.symbol(each))];
+      return h("span", { class: "fnb-free", ...linked(keys) }, name);
+    });
+    return h(
+      "section",
+      { class: "fnb-system", "data-system": one.system, "data-now": now },
+      h(
+        "h4",
+        {},
+        title,
+        h("span", { class: "fnb-muted" }, one.equations.length ? ` from ${numbers(one.equations)}` : ""),
+      ),
+      one.reduced.length
+        ? list
+        : h(
+            "p",
+            { class: "fnb-muted" },
+            one.equations.length ? "No row is left that can hold." : "No equation is about them.",
+          ),
+      free.length ? h("p", { class: "fnb-system-free" }, "free: ", ...free) : null,
+      conflict ? h("p", { class: "fnb-pair-conflict" }, `(${conflict.equation + 1}) cannot hold.`) : null,
+    );
+  }
+
+  /** The rows of a solved system, each with the equations that it follows from. */
+  private rows(one: Reduced): HTMLElement {
+    const numbers = (list: readonly number[]) => list.map((n) => `(${n + 1})`).join(", ");
     const rows = one.reduced.map((row) => {
       const named = variables([row.pivot, ...Object.keys(row.coefficients)]);
       const text = h("span", { class: "fnb-system-text" });
@@ -226,29 +278,58 @@ class AnalysisView implements View {
         h("span", { class: "fnb-muted" }, `from ${numbers(row.sources)}`),
       );
     });
-    const free = one.free.map((name) => {
-      const { counters, symbols } = variables([name]);
-      const keys = [...counters.map((each) => target.counter(each)), ...symbols.map((each) => target.symbol(each))];
-      return h("span", { class: "fnb-free", ...linked(keys) }, name);
-    });
+    return h("ul", {}, ...rows);
+  }
+
+  /** What can be ticked, and, once it is checked, how it stands. */
+  private box(key: string, label: string): HTMLElement {
+    const { state, why } = this.quiz.verdict(key);
+    const box = h("input", { type: "checkbox" });
+    box.checked = this.quiz.has(key);
+    box.disabled = this.quiz.done;
+    box.addEventListener("change", () => this.quiz.choose(key));
     return h(
-      "section",
-      { class: "fnb-system", "data-system": one.system, "data-now": now },
-      h(
-        "h4",
-        {},
-        title,
-        h("span", { class: "fnb-muted" }, one.equations.length ? ` from ${numbers(one.equations)}` : ""),
-      ),
-      rows.length
-        ? h("ul", {}, ...rows)
-        : h(
-            "p",
-            { class: "fnb-muted" },
-            one.equations.length ? "No row is left that can hold." : "No equation is about them.",
-          ),
-      free.length ? h("p", { class: "fnb-system-free" }, "free: ", ...free) : null,
-      conflict ? h("p", { class: "fnb-pair-conflict" }, `(${conflict.equation + 1}) cannot hold.`) : null,
+      "label",
+      { class: "fnb-analysis-choice", "data-verdict": state },
+      box,
+      h("b", {}, label),
+      h("span", {}, why),
     );
   }
+
+  private truths(): ReadonlyMap<string, Truth> {
+    const axis = this.choice.at(this.context.player.position);
+    const told = this.told.filter((event) => event.axis === axis);
+    const conflicts = told.filter((event): event is Inconsistent => event.event === "PairInconsistent");
+    const found = new Map<string, Truth>();
+    for (const one of told) {
+      if (one.event === "PatternsCompared" && one.text) {
+        const conflict = conflicts.find((own) => own.equation === one.number);
+        found.set(pairKey(one), {
+          right: conflict !== undefined,
+          why: conflict
+            ? "No numbers keep it together with those before it."
+            : "It holds together with those before it.",
+        });
+      }
+      if (one.event !== "SystemReduced") continue;
+      for (const name of asked(one)) {
+        const row = one.reduced.find((own) => own.pivot === name);
+        const why = row ? row.text : "No equation says what it is: it stays free.";
+        const fixed = name in one.resolved;
+        found.set(variableKey(one, name), {
+          right: fixed,
+          why: fixed || !row ? why : `${why}: it follows from others, which are free.`,
+        });
+      }
+    }
+    return found;
+  }
 }
+
+/** The variables that a system is asked for: that of the sizes has the counters, too, but they are the other's. */
+const asked = ({ system, variables: all }: Reduced): string[] =>
+  system === "counters" ? all : all.filter((name) => name.startsWith("|"));
+
+const pairKey = ({ axis, number }: Compared): string => target.equation(axis, number);
+const variableKey = ({ axis, system }: Reduced, name: string): string => target.variable(axis, `${system} ${name}`);

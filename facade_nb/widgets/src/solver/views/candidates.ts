@@ -3,6 +3,7 @@
 
 import { h, mark, setText } from "../../dom.ts";
 import { formatNumber } from "../../fields.ts";
+import type { CandidateNote as Candidate } from "../alternatives.ts";
 import { AxisChoice } from "../axes.ts";
 import { filter } from "../filter.ts";
 import { parsed, spelled } from "../letters.ts";
@@ -11,24 +12,6 @@ import { Quiz, type Truth } from "../quiz.ts";
 import { type Rows, rows } from "../rows.ts";
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
-
-interface Candidate {
-  event: "CandidateJudged";
-  at: number;
-  axis: Axis;
-  number: number;
-  words: Record<string, string>;
-  counters: Record<string, number>;
-  bound: number;
-  floor: number | null;
-  fate: string;
-  cost: number | null;
-  omega: number | null;
-  columns: number | null;
-  deviation: number | null;
-  tolerance: number;
-  networks: number[];
-}
 
 const HEIGHT = 27;
 const MOST = 14;
@@ -141,7 +124,7 @@ class CandidatesView implements View {
   constructor(private readonly context: ViewContext) {
     const { events } = context.pieces.candidates as { events: Candidate[] };
     this.told = { x: events.filter((each) => each.axis === "x"), y: events.filter((each) => each.axis === "y") };
-    this.choice = new AxisChoice(context.timeline, context.refresh);
+    this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.typed.addEventListener("input", context.refresh);
     this.controls = [this.choice.el, this.typed];
     this.list = rows<Candidate>(

@@ -5,7 +5,9 @@ import { h, mark, setText, svg } from "../../dom.ts";
 import { type Box, boxOf, type Drawing, parseDrawing } from "../../drawing.ts";
 import { icon } from "../../icons.ts";
 import { themeOf } from "../../theme.ts";
+import type { Alternative } from "../alternatives.ts";
 import { linked, target } from "../links.ts";
+import { type Rebuilt, rebuilt } from "../placed.ts";
 import { type PlacedLetter, Placing, type PlacingData } from "../placing.ts";
 import { type Axis, played } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -32,6 +34,8 @@ class FacadeView implements View {
   private readonly placing: Placing;
   private readonly sheet = h("div", { class: "fnb-traced-sheet" });
   private readonly note = h("p", { class: "fnb-traced-note" });
+  private readonly other = svg("g", { class: "fnb-traced-other" });
+  private copies: Rebuilt[] = [];
   private readonly strips = svg("g");
   private readonly marks = svg("g");
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
@@ -73,19 +77,31 @@ class FacadeView implements View {
   show(position: number): void {
     this.dress();
     const drawn = played(this.data.shapes, position);
-    const by = [this.theme, drawn, played(this.placed, position)].join("|");
+    const { alternatives } = this.context;
+    const other = alternatives.at(position, alternatives.axis ?? "x");
+    const by = [this.theme, drawn, played(this.placed, position), other?.name].join("|");
     if (by === this.by) return;
     this.by = by;
     for (const [n, shape] of this.shapes.entries()) mark(shape, "data-later", n >= drawn);
     // Lines and shadows are those of all shapes of a layer together: they come with the last shape.
     const done = drawn === this.data.shapes.length && drawn > 0;
     for (const element of this.finish) mark(element, "data-later", !done);
-    this.drawStrips(position, drawn > 0);
-    setText(this.note, this.say(position, drawn));
+    mark(this.el, "data-other", other !== null);
+    for (const element of [...this.shapes, ...this.finish]) mark(element, "data-hidden", other !== null);
+    this.copies = other ? rebuilt(other, this.placing.shapes, this.shapes, this.drawing as Drawing) : [];
+    this.other.replaceChildren(...this.copies.map(({ el }) => el));
+    this.drawStrips(position, drawn > 0 || other !== null);
+    setText(this.note, other ? this.sayOther(other) : this.say(position, drawn));
   }
 
   light(): void {
     const { lit, picked } = this.context.links;
+    if (this.el.hasAttribute("data-other")) {
+      const of = (keys: ReadonlySet<string>, name: string) =>
+        this.copies.filter((own) => own.keys.some((key) => keys.has(key))).map(({ box }) => this.rect(name, box));
+      this.marks.replaceChildren(...of(picked, "fnb-traced-pick"), ...of(lit, "fnb-traced-lit"));
+      return;
+    }
     this.marks.replaceChildren(...this.outlines(picked, "fnb-traced-pick"), ...this.outlines(lit, "fnb-traced-lit"));
   }
 
@@ -122,7 +138,7 @@ class FacadeView implements View {
       height: height * scale,
     });
     picture.prepend(frame);
-    picture.append(this.strips, this.marks);
+    picture.append(this.other, this.strips, this.marks);
     this.sheet.replaceChildren(picture);
   }
 
@@ -137,6 +153,13 @@ class FacadeView implements View {
           own.boundaries.map((value) => this.rect("fnb-traced-cut", this.band(own.axis, value, value))),
         );
     this.strips.replaceChildren(...shown, ...cuts);
+  }
+
+  private sayOther(other: Alternative): string {
+    const how = other.aligned
+      ? "Its letters stand in its columns at preferred sizes"
+      : "Its letters stand at preferred sizes, end to end where no columns are told";
+    return `${other.name}, not the layout. ${other.fate} ${how}: sizes are told of the layout only.`;
   }
 
   private say(position: number, drawn: number): string {

@@ -4,8 +4,9 @@
 
 import { h, mark, setText } from "../../dom.ts";
 import { formatNumber } from "../../fields.ts";
+import type { Alternative } from "../alternatives.ts";
 import { target } from "../links.ts";
-import { columnText, leavingList, litLetters } from "../network/lists.ts";
+import { columnText, LeavingList, litLetters } from "../network/lists.ts";
 import { ASPECT, boundsOf, curveOf, type Look, MARGIN, paint, pointOf } from "../network/paint.ts";
 import { Plane, type Point } from "../network/plane.ts";
 import { type Choice, choicesOf, keyOf, nameOf, question } from "../network/question.ts";
@@ -36,6 +37,7 @@ class NetworkView implements View {
   private readonly cuts: HTMLInputElement;
   private readonly forbidden: HTMLInputElement;
   private readonly status = h("p", { class: "fnb-net-status", role: "status" });
+  private readonly leaving = new LeavingList();
   private readonly beside = h("div", { class: "fnb-net-beside" });
   private readonly below = h("div", { class: "fnb-net-below" });
   private readonly legend = h("p", { class: "fnb-net-legend" });
@@ -50,6 +52,12 @@ class NetworkView implements View {
   private looked: Look | null = null;
   private by = "";
   private belowBy = "";
+  private readonly said = h("p", { class: "fnb-alternative", role: "status", hidden: true });
+  private shownOther: Alternative | null = null;
+  private others: Subject[] = [];
+  private legendBy = "";
+  private optionsBy = "";
+  private ratio = "";
   private pickedNow = "";
 
   constructor(private readonly context: ViewContext) {
@@ -64,13 +72,9 @@ class NetworkView implements View {
     const forbidden = check("forbidden", "Edges that a constraint forbids", true);
     this.cuts = cuts.input;
     this.forbidden = forbidden.input;
-    this.select.append(
-      h("option", { value: "" }, "auto"),
-      ...this.story.subjects.map((own) => h("option", { value: own.key }, labelOf(own))),
-    );
     this.select.addEventListener("change", () => {
       this.chosen = this.select.value;
-      this.context.links.pick([]);
+      this.context.links.release();
       context.refresh();
     });
     this.pairs = h("span", { class: "fnb-field" }, "words", this.downs, "×", this.rights);
@@ -116,7 +120,7 @@ class NetworkView implements View {
       h("div", { class: "fnb-net-main" }, this.plane.el, this.legend, this.status),
       this.beside,
     );
-    this.el = h("div", { class: "fnb-network" }, this.note);
+    this.el = h("div", { class: "fnb-network" }, this.said, this.note);
     this.quiz = new Quiz("Which edge is next?", () => this.truths(), true);
     const observer = new MutationObserver(() => {
       this.looked = null;
@@ -125,15 +129,18 @@ class NetworkView implements View {
     observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
     context.signal.addEventListener("abort", () => observer.disconnect());
     requestAnimationFrame(() => {
-      this.looked = null;
+      this.looked = null; // in the page it has a theme
       this.plane.invalidate();
     });
   }
 
   show(position: number): void {
-    const subject = this.story.subjects.find((own) => own.key === this.chosen) ?? this.story.subjectAt(position);
+    const other = this.alternative(position);
+    const subject = other
+      ? (this.others.find((own) => own.key === this.chosen) ?? largestOf(this.others))
+      : (this.story.subjects.find((own) => own.key === this.chosen) ?? this.story.subjectAt(position));
     if (!subject || subject.first > position) {
-      this.el.replaceChildren(this.note); // nothing of another moment is left behind
+      this.el.replaceChildren(this.said, this.note); // nothing of another moment is left behind
       const none = "The trace tells of no network: there was no layout before one was made.";
       setText(this.note, subject ? "No network is opened yet: play on, or go to the stage Alignment." : none);
       this.below.replaceChildren();
@@ -142,7 +149,7 @@ class NetworkView implements View {
       this.pairs.hidden = true;
       return;
     }
-    if (this.note.parentNode === this.el) this.el.replaceChildren(this.body, this.below);
+    if (this.note.parentNode === this.el) this.el.replaceChildren(this.said, this.body, this.below);
     const picked = this.pickedIn(subject);
     this.told = this.story.told(subject, position);
     const base = this.base(subject, this.cuts.checked);
@@ -170,6 +177,34 @@ class NetworkView implements View {
     this.shape();
     if (fresh) this.plane.fit();
     else this.plane.settle();
+  }
+
+  /** The candidate that is chosen and is not the layout; its networks are then those that can be looked at. */
+  private alternative(position: number): Alternative | null {
+    const { alternatives, timeline } = this.context;
+    const own = alternatives.at(position, alternatives.axis ?? timeline.axisAt(position));
+    if (own !== this.shownOther || !this.select.options.length) {
+      this.shownOther = own;
+      this.others = own ? this.story.subjectsOf(own) : [];
+      const list = own ? this.others : this.story.subjects;
+      this.select.replaceChildren(
+        h("option", { value: "" }, "auto"),
+        ...list.map((each) => h("option", { value: each.key }, labelOf(each))),
+      );
+      if (!list.some((each) => each.key === this.chosen)) this.chosen = "";
+      this.select.value = this.chosen;
+    }
+    setText(this.said, own ? `${own.name}. ${own.fate} ${this.whatIsShown(own)}` : alternatives.trouble);
+    this.said.hidden = !this.said.textContent;
+    return own;
+  }
+
+  private whatIsShown({ groups }: Alternative): string {
+    if (groups.every(({ aligned }) => aligned)) return "The paths are those of its own alignment.";
+    const told = groups.some(({ network }) => network >= 0);
+    return told
+      ? "What the search did in its networks is shown as far as the trace tells it; where none is told, the lattice as it would have been."
+      : "No network of it is told: the lattice is what it would have been, without a path.";
   }
 
   light(): void {
@@ -227,9 +262,13 @@ class NetworkView implements View {
       ...(scene.arcs.some((arc) => arc.constraint) ? ([["forbidden", "forbidden"]] as [string, string][]) : []),
       ...(told.taken.length ? ([["taken", "taken up"]] as [string, string][]) : []),
     ];
-    this.legend.replaceChildren(
-      ...legend.map(([kind, text]) => h("span", {}, h("i", { class: `fnb-net-key fnb-net-key-${kind}` }), text)),
-    );
+    const legendBy = legend.join("|");
+    if (legendBy !== this.legendBy) {
+      this.legendBy = legendBy;
+      this.legend.replaceChildren(
+        ...legend.map(([kind, text]) => h("span", {}, h("i", { class: `fnb-net-key fnb-net-key-${kind}` }), text)),
+      );
+    }
     if (this.quiz.on) {
       const searching = this.story.next(subject, position, TAKEN) !== undefined;
       this.beside.replaceChildren(question(subject, this.choices(position), searching, this.quiz));
@@ -238,7 +277,8 @@ class NetworkView implements View {
       const arcs = leaving(this.story, subject, base, told, focus);
       const onPath = new Set(steps.map((arc) => arc.key));
       const marked = arcs.map((arc) => (onPath.has(arc.key) ? { ...arc, kind: "path" as const } : arc));
-      this.beside.replaceChildren(leavingList(subject, focus, marked));
+      this.leaving.show(subject, focus, marked);
+      if (this.leaving.el.parentNode !== this.beside) this.beside.replaceChildren(this.leaving.el);
     }
     const chosen = subject.path && subject.path.at <= position && !this.quiz.hides;
     const merged = this.story.data.merged.findLast(
@@ -260,10 +300,13 @@ class NetworkView implements View {
 
   private options(subject: Subject): void {
     const pair = this.pairOf(subject);
+    const by = [subject.key, pair].join();
+    if (by === this.optionsBy) return;
+    this.optionsBy = by;
     for (const [side, select] of [this.downs, this.rights].entries()) {
       select.replaceChildren(
         ...subject.bands.map((band, b) => {
-          const name = subject.path?.layers[band.rows[0] ?? 0] ?? `word ${b + 1}`;
+          const name = (subject.path?.layers ?? subject.layers)?.[band.rows[0] ?? 0] ?? `word ${b + 1}`;
           return h("option", { value: b, selected: b === pair[side] }, name);
         }),
       );
@@ -295,8 +338,10 @@ class NetworkView implements View {
   /** Room for the rows, and no more. */
   private shape(): void {
     const { left, right, top, bottom } = boundsOf(this.scene as Scene);
-    const ratio = (bottom - top) / (right - left);
-    this.plane.el.style.setProperty("--fnb-net-ratio", ratio.toFixed(3));
+    const ratio = ((bottom - top) / (right - left)).toFixed(3);
+    if (ratio === this.ratio) return;
+    this.ratio = ratio;
+    this.plane.el.style.setProperty("--fnb-net-ratio", ratio);
   }
 
   /** The node of this network that the reader has picked. */
@@ -361,7 +406,7 @@ class NetworkView implements View {
     const node = this.nodeAt(at);
     if (node) this.context.links.toggle([nodeKey(scene.subject, node)]);
     else if (arc) this.context.links.toggle([arc.key]);
-    else this.context.links.pick([]);
+    else this.context.links.release();
   }
 
   private key(event: KeyboardEvent): boolean {
@@ -384,7 +429,8 @@ class NetworkView implements View {
     };
     go(a, move[0]);
     go(b, move[1]);
-    this.context.links.pick([nodeKey(scene.subject, places)]);
+    this.context.links.release();
+    this.context.links.toggle([nodeKey(scene.subject, places)]);
     this.plane.reveal(pointOf(scene, places));
     return true;
   }
@@ -464,6 +510,9 @@ class NetworkView implements View {
 
 const labelOf = (subject: Subject): string =>
   `${subject.axis}: ${subject.name}${subject.path || subject.network < 0 ? "" : ` (network ${subject.network})`}`;
+
+const largestOf = (list: readonly Subject[]): Subject | undefined =>
+  list.reduce<Subject | undefined>((a, b) => (a && sizeOf(a) >= sizeOf(b) ? a : b), undefined);
 
 /** The band, but the first, with the longest word. */
 function longest(subject: Subject): number {

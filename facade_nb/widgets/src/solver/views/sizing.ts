@@ -1,7 +1,7 @@
 // Sizing: the least-squares system as a matrix with the equation of every row, its objective, the active set step by step,
 // and its multipliers as forces on the façade, before and after (the paper's 5.3, the supplement's Figure 7).
 
-import { h, mark } from "../../dom.ts";
+import { h, mark, setText } from "../../dom.ts";
 import { formatNumber } from "../../fields.ts";
 import { AxisChoice } from "../axes.ts";
 import { hueOf } from "../letters.ts";
@@ -57,6 +57,7 @@ class SizingView implements View {
   private readonly table: HTMLElement;
   private readonly tabs: [Tab, HTMLButtonElement][];
   private readonly body: HTMLElement;
+  private readonly said = h("p", { class: "fnb-alternative", role: "status", hidden: true });
   private tab: Tab = "all";
   private system: System | null = null;
   private moment: Moment | null = null;
@@ -76,7 +77,7 @@ class SizingView implements View {
           paths.filter((path) => path.axis === axis),
         );
     }
-    this.choice = new AxisChoice(context.timeline, context.refresh);
+    this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.controls = [this.choice.el];
     this.tabs = TABS.map(([name, text, title]) => {
       const tab = h("button", { type: "button", class: "fnb-tab", title }, text);
@@ -118,7 +119,7 @@ class SizingView implements View {
       this.table,
       this.written,
     );
-    this.el = h("div", { class: "fnb-sizing" }, this.note);
+    this.el = h("div", { class: "fnb-sizing" }, this.said, this.note);
   }
 
   show(position: number): void {
@@ -126,6 +127,12 @@ class SizingView implements View {
     for (const [name, tab] of this.tabs) mark(tab, "aria-pressed", String(name === this.tab));
     const system = this.systems[axis];
     const moment = system?.at(position);
+    const other = this.context.alternatives.at(position, axis);
+    const said = other
+      ? `${other.name}. ${other.fate} Sizes of it are not told: this is the system of the layout.`
+      : this.context.alternatives.trouble;
+    setText(this.said, said);
+    this.said.hidden = !said;
     const by = [axis, this.tab, moment?.posed, moment?.step?.at, moment?.solved?.at, this.now(system, position)].join();
     if (by === this.by) return;
     this.by = by;
@@ -133,13 +140,13 @@ class SizingView implements View {
       this.note.textContent = system
         ? "The system is not posed yet: play on, or go to the stage Sizing."
         : "This axis has no least-squares system: there was no alignment to size.";
-      this.el.replaceChildren(this.note);
+      this.el.replaceChildren(this.said, this.note);
       return;
     }
     this.system = system;
     this.moment = moment;
     this.rowsBy = [axis, moment.step?.at, moment.solved?.at].join();
-    this.el.replaceChildren(this.body);
+    if (this.body.parentNode !== this.el) this.el.replaceChildren(this.said, this.body);
     this.sum.replaceChildren(...this.summary(system, moment));
     this.picture.replaceChildren(forces(system, moment, this.context.timeline.data.symbols));
     this.terms.replaceChildren(this.objective(system, moment));

@@ -87,6 +87,8 @@ class WordsView implements View {
   private mu: number | null = null;
   private sample: number | null;
   private sections = new Map<string, Section>();
+  /** The sections of both axes: long tables stay as they are while the other axis is spoken of. */
+  private readonly built: Partial<Record<Axis, Map<string, Section>>> = {};
   private readonly note = h("p", { class: "fnb-empty" });
   private readonly tuples = h("div", { class: "fnb-tuples" });
   private axis: Axis | null = null;
@@ -98,7 +100,7 @@ class WordsView implements View {
   constructor(private readonly context: ViewContext) {
     const { events } = context.pieces.words as { events: (Posed | Told)[] };
     this.stories = { x: new Story(events, "x"), y: new Story(events, "y") };
-    this.choice = new AxisChoice(context.timeline, context.refresh);
+    this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.mu = context.model.get<number | null>("tolerance") ?? null;
     this.sample = context.model.get<number | null>("step") ?? null;
     this.step.value = formatNumber(this.sample);
@@ -193,7 +195,15 @@ class WordsView implements View {
     this.axis = axis;
     this.tuplesBy = null;
     const { timeline } = this.context;
-    this.sections = new Map();
+    const before = this.built[axis];
+    this.sections = before ?? new Map();
+    this.built[axis] = this.sections;
+    const swap = () =>
+      this.el.replaceChildren(this.note, ...[...this.sections.values()].map((section) => section.el), this.tuples);
+    if (before) {
+      swap();
+      return;
+    }
     const order = inOrder(story.posed?.groups ?? []);
     const canvas = story.posed?.canvas ?? timeline.data.canvas[axis];
     const most = canvas + Math.max(...story.rounds.map((round) => round.tolerance), 0);
@@ -203,7 +213,7 @@ class WordsView implements View {
       const info = timeline.data.patterns.find((pattern) => pattern.name === name);
       if (info) this.sections.set(name, new Section(n + 1, info, axis, canvas, longest, this.context, this.quiz));
     }
-    this.el.replaceChildren(this.note, ...[...this.sections.values()].map((section) => section.el), this.tuples);
+    swap();
   }
 
   private told(axis: Axis, story: Story, round: Round | undefined, started: boolean): string {
@@ -255,6 +265,7 @@ class Section {
   private taken: string | null = null;
   private unsized: string[] = [];
   private columns = "";
+  private headed = "";
   private by: string | null = null;
   /** Changes with the verdicts and the question. */
   stamp = "";
@@ -334,6 +345,9 @@ class Section {
     const choices = !!own?.words.some((word) => word.event.choices.length);
     const names = [...this.info.counters, ...this.unsized.map((name) => `|${name}|`), ...(choices ? ["choice"] : [])];
     this.columns = `${names.map((name) => (name === "choice" ? "64px" : "28px")).join(" ")} minmax(0, 1fr)`;
+    const by = [names, own?.low, own?.high, this.quiz.hides].join("|");
+    if (by === this.headed) return;
+    this.headed = by;
     this.table.style.setProperty("--fnb-columns", this.columns);
     const index = subscript(this.number);
     const scale = h(
