@@ -339,16 +339,20 @@ def test_keys_and_pointer_move_about(live: Live) -> None:
         last, at = image, now
         return [before, now]
 
-    box = canvas.bounding_box()
-    assert box
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    def middle() -> tuple[float, float]:
+        canvas.scroll_into_view_if_needed()
+        box = canvas.bounding_box()
+        assert box
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
     # The wheel belongs to the page until the picture has the focus.
-    page.mouse.move(x, y)
+    page.mouse.move(*middle())
     page.mouse.wheel(0, -300)
     assert np.array_equal(seen(lab), last)
     assert lab.python(looks) == at
 
+    x, y = middle()  # the page may have scrolled
+    page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x - 60, y, steps=4)
     page.mouse.up()
