@@ -62,15 +62,34 @@ def test_messages_of_the_page() -> None:
     model = TextureModel(RED)
     channel = TextureChannel.of(model)
     scene = channel.scene
-    channel._receive(channel, {"op": "text", "text": "S -> Skip(0)", "client": "a", "seq": 3}, [])
+    channel._receive(
+        channel, {"op": "set", "name": "text", "value": "S -> Skip(0)", "client": "a", "seq": 3}, []
+    )
     assert (model.text, channel.text) == ("S -> Skip(0)", "S -> Skip(0)")
     assert channel.ack == {"client": "a", "seq": 3}
     assert channel.scene != scene
-    channel._receive(channel, {"op": "set", "name": "hour", "value": 22}, [])
+    channel._receive(channel, {"op": "set", "name": "hour", "value": 22, "client": "a", "seq": 4}, [])
     assert model.hour == 22
+    channel._receive(channel, {"op": "set", "name": "hour", "value": 25, "client": "a", "seq": 5}, [])
+    assert (model.hour, channel.hour, channel.ack["seq"]) == (22, 22, 5)  # refused, and answered
+    assert "hour: expected 0 to 24" in channel.trouble
+    channel._receive(channel, {"op": "set", "name": "hour", "value": 8, "client": "a", "seq": 6}, [])
+    assert channel.trouble == ""
     channel._receive(channel, {"op": "pick", "point": [1, 1], "ray": None}, [])
     assert [step["operator"] for step in channel.steps] == ["Skip"]
     assert channel.trouble == ""
+
+
+def test_a_page_that_cannot_draw_is_sent_pictures() -> None:
+    model = TextureModel(RED, size=(4, 3), lit=False)
+    channel = TextureChannel.of(model)
+    assert channel.still == b""
+    channel._receive(channel, {"op": "still"}, [])
+    first = channel.still
+    assert first.startswith(b"\x89PNG")
+    model.enter("S -> Mat(Color, 0, 0, 1, 0, 1)")
+    assert channel.still.startswith(b"\x89PNG")
+    assert channel.still != first
 
 
 def test_views_share_a_channel_and_have_a_static_form() -> None:

@@ -37,7 +37,7 @@ def shader(
     seeds: int = MAX_SEEDS,
     defines: tuple[str, ...] = (),
 ) -> str:
-    """The source of a shader: ``sight.frag``, ``points.frag``, ``whole.vert``.
+    """The source of a shader: ``sight.frag``, ``points.frag``, ``smooth.frag``, ``whole.vert``.
 
     Parameters
     ----------

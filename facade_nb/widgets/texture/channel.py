@@ -11,10 +11,12 @@ from traitlets import Bool, Bytes, Dict, Float, List, TraitError, Unicode
 from ..bundled import Bundled, Message
 from .model import TextureModel, told
 from .packet import derivation, light_piece, scene_piece, tiles_piece
+from .still import still
 
 __all__ = ["TextureChannel"]
 
 _PLAIN = ("size", "seed", "hour", "lit")
+_SEEN = ("grammar", *_PLAIN)
 
 
 def _same_all(model: TextureModel) -> dict[str, Any]:
@@ -27,7 +29,7 @@ def _same_all(model: TextureModel) -> dict[str, Any]:
         "lit": model.lit,
         "point": list(model.point or ()),
         "ray": list(model.ray or ()),
-        "steps": derivation(model.derivation),
+        "steps": derivation(model.derivation, model.places),
     }
 
 
@@ -38,10 +40,11 @@ class TextureChannel(Bundled):
 
     text = Unicode().tag(sync=True)
     faults = List(Dict()).tag(sync=True)
-    ack = Dict(help="Client and number of the last text that was read.").tag(sync=True)
+    ack = Dict(help="Client and number of the last value that was taken.").tag(sync=True)
     scene = Bytes().tag(sync=True)
     tiles = Bytes().tag(sync=True)
     light = Bytes().tag(sync=True)
+    still = Bytes(help="A picture in PNG, for a page that cannot draw.").tag(sync=True)
     size = List(Float()).tag(sync=True)
     seed = List(Float()).tag(sync=True)
     hour = Float().tag(sync=True)
@@ -53,6 +56,7 @@ class TextureChannel(Bundled):
     def __init__(self, model: TextureModel) -> None:
         self.model = model
         self._tiles: tuple[str, ...] | None = None
+        self._stills = False  # whether a page needs the still picture to follow
         super().__init__(**_same_all(model))
         self._refill()
         model.observe(self._on_model)
@@ -71,6 +75,11 @@ class TextureChannel(Bundled):
             self.model.unobserve(self._on_model)
         super().close()
 
+    def draw_still(self) -> bytes:
+        """The still picture, drawn now: see `still`."""
+        self.still = still(self.model)
+        return self.still
+
     def _refill(self) -> None:
         grammar = self.model.grammar
         self.light = light_piece()
@@ -86,7 +95,8 @@ class TextureChannel(Bundled):
 
     def _empty(self) -> None:
         self._tiles = None
-        self.scene = self.tiles = self.light = b""
+        self._stills = False
+        self.scene = self.tiles = self.light = self.still = b""
 
     def _on_model(self, change: Any) -> None:
         with self.hold_sync():
@@ -94,23 +104,34 @@ class TextureChannel(Bundled):
                 self._refill()
             for name, value in _same_all(self.model).items():
                 setattr(self, name, value)
+            if self._stills and change["name"] in _SEEN:
+                self.draw_still()
 
     def _answer(self, message: Message) -> None:
         try:
             with self.hold_sync():
                 op = message.get("op")
-                if op == "text":
-                    self.model.enter(str(message["text"]))
-                    self.ack = {"client": message["client"], "seq": message["seq"]}
+                if op == "set":
+                    self.trouble = ""
+                    try:
+                        self._set(message["name"], message["value"])
+                    finally:  # what was refused is answered, too: the page shows what the model has
+                        self.ack = {"client": message["client"], "seq": message["seq"]}
                 elif op == "pick":
                     self.model.pick(message["point"], message.get("ray"))
-                elif op == "set" and message["name"] in _PLAIN:
-                    value = message["value"]
-                    setattr(self.model, message["name"], tuple(value) if isinstance(value, list) else value)
+                elif op == "still":
+                    self._stills = True
+                    self.draw_still()
         except TraitError as error:
             self.trouble = str(error)
         except Exception:  # as above
             self.trouble = traceback.format_exc()
+
+    def _set(self, name: str, value: Any) -> None:
+        if name == "text":
+            self.model.enter(str(value))
+        elif name in _PLAIN:
+            setattr(self.model, name, tuple(value) if isinstance(value, list) else value)
 
 
 _channels: WeakKeyDictionary[TextureModel, TextureChannel] = WeakKeyDictionary()

@@ -12,6 +12,7 @@ from ...design.errors import Fault
 from ...render import Grammar
 from ...render.texture.atlas import Tiles
 from ...render.texture.steps import Step
+from .places import Plane, planes
 
 __all__ = ["TextureModel"]
 
@@ -48,6 +49,8 @@ class TextureModel(HasTraits):
         The pixel that is looked into: metres on the façade, direction from the eye; None: none.
     derivation
         How it came about, step by step.
+    places
+        For each step, the plane its scope stands on: the façade, or a face of a room.
     """
 
     text = Unicode()
@@ -93,10 +96,12 @@ class TextureModel(HasTraits):
         inside = self.point is not None and all(
             0 <= at <= end for at, end in zip(self.point, self.size, strict=True)
         )
-        if self.grammar is None or not inside:
-            self.derivation = ()
-            return
-        self.derivation = self.grammar.steps(self.point, self.size, self.seed, ray=self.ray)
+        steps: tuple[Step, ...] = ()
+        self.places: tuple[Plane, ...] = ()
+        if self.grammar is not None and inside:
+            steps = self.grammar.steps(self.point, self.size, self.seed, ray=self.ray)
+            self.places = tuple(planes(self.grammar, steps))
+        self.derivation = steps
 
     @validate("size")
     def _check_size(self, proposal: Any) -> Any:

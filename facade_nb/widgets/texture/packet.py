@@ -15,6 +15,7 @@ from ...render.texture.operators import Operator
 from ...render.texture.shaders import room, shader
 from ...render.texture.steps import Chosen, Divided, Entered, Layered, Painted, Passed, Stacked, Step
 from ..visible.packing import pack
+from .places import Plane
 
 __all__ = ["HOURS", "derivation", "grammar_table", "light_piece", "scene_piece", "step_text", "tiles_piece"]
 
@@ -35,6 +36,7 @@ def scene_piece(grammar: Grammar) -> bytes:
             "texture": np.frombuffer(texture.tobytes(), np.uint8),
             "start": list(question.records[question.start].place),
             "fragment": shader("sight.frag", "es", frames=frames, seeds=seeds, defines=("MIPS",)),
+            "smooth": shader("smooth.frag", "es", frames=frames, seeds=seeds, defines=("MIPS", "EDGES")),
             "report": grammar.report(),
             "table": grammar_table(grammar),
         }
@@ -109,22 +111,30 @@ def _number(value: float) -> str:
     return f"{value:.4g}".replace("-", "−")
 
 
-def derivation(steps: Sequence[Step]) -> list[dict[str, Any]]:
-    """The steps of a pixel as the front end has them."""
+def derivation(steps: Sequence[Step], places: Sequence[Plane]) -> list[dict[str, Any]]:
+    """The steps of a pixel as the front end has them: `corners` and `spot` are places in space, metres."""
     return [
         {
             "rule": step.name,
             "operator": step.operator,
             "text": step_text(step),
             "scope": list(step.scope),
+            "corners": _corners(plane, step.scope),
+            "spot": list(plane.at(*step.point)),
             "faces": list(step.faces),
             "layers": [list(layer) for layer in step.layers],
             "seeds": [list(corner) for corner in step.seeds],
             "records": [list(record) for record in step.records],
             "color": list(step.value) if isinstance(step, Painted) else None,
         }
-        for step in steps
+        for step, plane in zip(steps, places, strict=True)
     ]
+
+
+def _corners(plane: Plane, scope: tuple[float, float, float, float]) -> list[list[float]]:
+    left, bottom, right, top = scope
+    around = ((left, bottom), (right, bottom), (right, top), (left, top))
+    return [list(plane.at(*corner)) for corner in around]
 
 
 def step_text(step: Step) -> str:

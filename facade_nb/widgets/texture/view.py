@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from collections.abc import Iterable
 from html import escape
 from math import cos, radians, sin, tan
@@ -10,23 +9,23 @@ from typing import Any, ClassVar
 
 from anywidget import AnyWidget
 from ipywidgets import Widget, widget_serialization
-from traitlets import Bool, Float, Instance, List, Unicode
+from traitlets import Bool, Enum, Float, Instance, List, Unicode
 
 from ...render import Grammar
-from ...render.texture.picture import png, texture_pixels
 from ...render.texture.view import Sight
 from ..bundled import bundle
 from .channel import TextureChannel
 from .model import TextureModel
 from .packet import grammar_table, step_text
+from .still import image
 
 __all__ = ["GrammarEditor", "GrammarTable", "PixelInspector", "TextureStudio", "TextureView"]
 
-_LARGEST = 400_000
-"""Bytes of the picture up to which a saved notebook carries it."""
-
 ANGLE = 50.0
 """Width of the view, degrees."""
+
+
+ANTIALIAS = ("adaptive", "none")
 
 
 def _table(rows: Iterable[Iterable[str]]) -> str:
@@ -68,15 +67,7 @@ class _TextureWidget(AnyWidget):
 
     def to_html(self) -> str:
         """The static form: a picture for pages where no widget can run; empty where there is none."""
-        model = self.model
-        if not self._pictured or model.grammar is None:
-            return ""
-        width = 360
-        height = max(1, min(360, round(width * model.size[1] / model.size[0])))
-        pixels = texture_pixels(model.grammar, size=model.size, seed=model.seed, pixels=(width, height))
-        data = b64encode(png(pixels)).decode("ascii")
-        alt = escape(f"Façade of {model.size[0]:g} × {model.size[1]:g} m drawn by a texture grammar")
-        return f'<img alt="{alt}" src="data:image/png;base64,{data}">'
+        return image(self.model, self.channel.draw_still()) if self._pictured else ""
 
     def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
         """The live view and, for pages where none can run, the static form."""
@@ -84,7 +75,7 @@ class _TextureWidget(AnyWidget):
         made = super()._repr_mimebundle_(**options)
         if made is not None:
             static = self.to_html()
-            if static and len(static) <= _LARGEST:
+            if static:
                 made[0]["text/html"] = static
         return made
 
@@ -104,6 +95,8 @@ class TextureView(_TextureWidget):
         Straight on, without perspective.
     controls
         Whether sliders are shown.
+    antialias
+        What the picture at rest becomes: ``adaptive``, more samples at boundaries, as offscreen; or ``none``.
     """
 
     _shows = "view"
@@ -115,6 +108,7 @@ class TextureView(_TextureWidget):
     target = List(Float()).tag(sync=True)
     flat = Bool(True).tag(sync=True)
     controls = Bool(True).tag(sync=True)
+    antialias = Enum(ANTIALIAS, "adaptive").tag(sync=True)
 
     def sight(self, pixels: tuple[int, int]) -> Sight:
         """What a picture of so many pixels shows, as the browser draws it."""

@@ -253,7 +253,7 @@ class TestSizesOfTiles:
 
 class TestBackends:
     @pytest.mark.parametrize("profile", list(PROFILES))
-    @pytest.mark.parametrize("name", ["whole.vert", "sight.frag", "points.frag"])
+    @pytest.mark.parametrize("name", ["whole.vert", "sight.frag", "points.frag", "smooth.frag"])
     @pytest.mark.parametrize("defines", [(), ("MIPS", "EDGES", "COLOR_ONLY", "COUNT_FETCHES")])
     def test_one_source_compiles_as_desktop_gl_and_webgl2(
         self, profile: str, name: str, defines: tuple[str, ...]

@@ -34,7 +34,7 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
     gutter.scrollTop = area.scrollTop;
   };
   area.addEventListener("input", () => {
-    session.type(area.value);
+    session.set("text", area.value);
     number();
   });
   area.addEventListener("scroll", () => {

@@ -1,11 +1,21 @@
 // How the pixel that was clicked came about, step by step.
 
-import { h, mark } from "../dom.ts";
+import { h, mark, setText } from "../dom.ts";
 import type { Session } from "./session.ts";
+import type { Step } from "./types.ts";
+
+/** The scope and the seed stack of a step, in words. */
+export function about({ scope, seeds, faces }: Step): string {
+  const [left, bottom, right, top] = scope.map((value) => String(Number(value.toFixed(2))));
+  const on = faces.length ? ` on the ${faces.at(-1)} of the room` : "";
+  const stack = seeds.length ? seeds.map((corner) => corner.join(", ")).join(" · ") : "empty";
+  return `Scope ${left} to ${right} × ${bottom} to ${top} m${on}; seed stack: ${stack}`;
+}
 
 export function inspector(session: Session, signal: AbortSignal): HTMLElement {
   const head = h("div", { class: "fnb-tex-hint", role: "status" });
   const list = h("ol", { class: "fnb-tex-steps" });
+  const detail = h("div", { class: "fnb-tex-detail" });
   let shown: unknown = null;
   list.addEventListener("keydown", (event) => {
     const by = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
@@ -49,10 +59,15 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
     [...list.children].forEach((row, k) => {
       mark(row, "aria-current", k === session.step ? "step" : null);
     });
-    head.textContent =
+    const now = steps[session.step];
+    setText(detail, now ? about(now) : "");
+    detail.hidden = !now;
+    setText(
+      head,
       point && steps.length
         ? `At ${point.map((v) => v.toFixed(2)).join(", ")} m: ${steps.length} steps`
-        : "Click the façade, or press Enter on it, to see how a pixel comes about.";
+        : "Click the façade, or press Enter on it, to see how a pixel comes about.",
+    );
   }, signal);
-  return h("section", { class: "fnb-tex-inspector", "aria-label": "Pixel inspector" }, head, list);
+  return h("section", { class: "fnb-tex-inspector", "aria-label": "Pixel inspector" }, head, list, detail);
 }

@@ -51,12 +51,18 @@ interface Target {
   height: number;
 }
 
+interface Begun {
+  program: WebGLProgram;
+  shaders: WebGLShader[];
+  checked: boolean;
+}
+
 const PARTS = ["seen_color", "seen_normal", "seen_specular"] as const;
 
 export class Renderer {
   readonly canvas = document.createElement("canvas");
   private gl: WebGL2RenderingContext | null = null;
-  private programs = new Map<string, WebGLProgram>();
+  private programs = new Map<string, Begun>();
   private textures = new Map<object, WebGLTexture[]>();
   private target: Target | null = null;
   private readonly watchers = new Set<() => void>();
@@ -105,15 +111,74 @@ export class Renderer {
     extension.restoreContext();
   }
 
+  /** Why nothing can be drawn here; empty if it can. */
+  get whyNot(): string {
+    try {
+      this.context();
+      return "";
+    } catch (error) {
+      return error instanceof Error ? error.message : String(error);
+    }
+  }
+
+  /** Whether the shader of the smooth picture is there; if not, it is on its way, which does not stall the page. */
+  smoothReady({ common, scene }: Job): boolean {
+    const gl = this.context();
+    if (gl.isContextLost()) return true;
+    return this.ready(gl, this.begun(gl, common.vertex, scene.smooth));
+  }
+
   /**
    * Draw the rows from `low` to `high`, from the bottom, of a picture, and copy them, stretched over the same part of
-   * `to`. Returns false while the context is lost.
+   * `to`; with more samples at boundaries if it is to be smooth. Returns false while the context is lost.
    */
-  draw(job: Job, to: CanvasRenderingContext2D, width: number, height: number, low = 0, high = height): boolean {
+  draw(
+    job: Job,
+    to: CanvasRenderingContext2D,
+    width: number,
+    height: number,
+    low = 0,
+    high = height,
+    smooth = false,
+  ): boolean {
     const gl = this.context();
-    if (!gl || gl.isContextLost()) return false;
-    const { scene, tiles, common, sight } = job;
+    if (gl.isContextLost()) return false;
     const target = this.room(gl, width, height);
+    gl.viewport(0, 0, width, height);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(0, low, width, high - low);
+    if (smooth) {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+      const only = this.facade(gl, job, job.scene.smooth, width, height);
+      gl.uniform1f(gl.getUniformLocation(only, "lit"), job.light ? 1 : 0);
+      lighten(gl, only, job);
+      gl.drawArrays(gl.TRIANGLES, 0, 3);
+    } else {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, target.frame);
+      this.facade(gl, job, job.scene.fragment, width, height);
+      gl.drawArrays(gl.TRIANGLES, 0, 3);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+      const second = this.program(gl, job.common.vertex, job.light ? job.common.lit : job.common.plain);
+      gl.useProgram(second);
+      bind(gl, second, Object.fromEntries(PARTS.map((name, k) => [name, target.textures[k]])));
+      aim(gl, second, job.sight, width, height);
+      lighten(gl, second, job);
+      gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+    // Wait for it: only so is the time that a picture takes known, and a slow one does not pile up.
+    gl.readPixels(0, low, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    if (gl.isContextLost()) return false;
+
+    const [wide, tall] = [to.canvas.width, to.canvas.height];
+    const [y0, y1] = [((height - high) / height) * tall, ((height - low) / height) * tall];
+    to.clearRect(0, y0, wide, y1 - y0);
+    to.drawImage(this.canvas, 0, this.canvas.height - high, width, high - low, 0, y0, wide, y1 - y0);
+    return true;
+  }
+
+  /** Take a program that evaluates the grammar into use, with all that it is given. */
+  private facade(gl: WebGL2RenderingContext, job: Job, fragment: string, width: number, height: number): WebGLProgram {
+    const { scene, tiles, common, sight } = job;
     const own = (key: object, make: () => WebGLTexture[]) => {
       let found = this.textures.get(key);
       if (!found) {
@@ -143,54 +208,20 @@ export class Renderer {
       texture(gl, gl.RGBA32F, tiles.levels, tiles.count, gl.RGBA, gl.FLOAT, tiles.table),
     ]);
 
-    gl.viewport(0, 0, width, height);
-    gl.enable(gl.SCISSOR_TEST);
-    gl.scissor(0, low, width, high - low);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, target.frame);
-    const first = this.program(gl, common.vertex, scene.fragment);
-    gl.useProgram(first);
-    bind(gl, first, { grammar, noise, atlas, tile_table: table });
-    const [left, bottom, right, top] = sight.window;
-    const step: Pair = [(right - left) / width, (top - bottom) / height];
+    const program = this.program(gl, common.vertex, fragment);
+    gl.useProgram(program);
+    bind(gl, program, { grammar, noise, atlas, tile_table: table });
+    const step = aim(gl, program, sight, width, height);
     const seed = seedOf(job.seed);
-    const at = (name: string) => gl.getUniformLocation(first, name);
-    gl.uniform4f(at("window"), left, bottom, ...step);
+    const at = (name: string) => gl.getUniformLocation(program, name);
     gl.uniform2f(at("pixel_shift"), 0.5, 0.5);
-    gl.uniform4f(at("eye"), ...(sight.eye ?? ([0, 0, 0] as const)), sight.eye ? 1 : 0);
-    gl.uniform3f(at("across"), ...sight.right);
-    gl.uniform3f(at("forward"), ...sight.ahead);
     gl.uniform1f(at("spread"), sight.eye ? Math.min(...step) : 0);
     gl.uniform2f(at("facade_size"), ...job.size);
     gl.uniform2i(at("start_rule"), ...scene.start);
     gl.uniform1i(at("grammar_width"), scene.width);
     gl.uniform2ui(at("seed_whole"), ...seed.whole);
     gl.uniform2f(at("seed_rest"), ...seed.rest);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
-
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    const second = this.program(gl, common.vertex, job.light ? common.lit : common.plain);
-    gl.useProgram(second);
-    bind(gl, second, Object.fromEntries(PARTS.map((name, k) => [name, target.textures[k]])));
-    const on = (name: string) => gl.getUniformLocation(second, name);
-    gl.uniform4f(on("window"), left, bottom, ...step);
-    gl.uniform4f(on("eye"), ...(sight.eye ?? ([0, 0, 0] as const)), sight.eye ? 1 : 0);
-    gl.uniform3f(on("across"), ...sight.right);
-    gl.uniform3f(on("forward"), ...sight.ahead);
-    for (const [name, value] of Object.entries(job.light ?? {})) {
-      if (typeof value === "number") gl.uniform1f(on(name), value);
-      else if (value.length === 2) gl.uniform2fv(on(name), value);
-      else gl.uniform3fv(on(name), value);
-    }
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
-    // Wait for it: only so is the time that a picture takes known, and a slow one does not pile up.
-    gl.readPixels(0, low, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    if (gl.isContextLost()) return false;
-
-    const [wide, tall] = [to.canvas.width, to.canvas.height];
-    const [y0, y1] = [((height - high) / height) * tall, ((height - low) / height) * tall];
-    to.clearRect(0, y0, wide, y1 - y0);
-    to.drawImage(this.canvas, 0, this.canvas.height - high, width, high - low, 0, y0, wide, y1 - y0);
-    return true;
+    return program;
   }
 
   /** Drop a grammar's or a set's textures. */
@@ -199,10 +230,10 @@ export class Renderer {
     this.textures.delete(key);
   }
 
-  private context(): WebGL2RenderingContext | null {
+  private context(): WebGL2RenderingContext {
     if (!this.gl) {
       this.gl = this.canvas.getContext("webgl2", { antialias: false, depth: false, alpha: true });
-      if (!this.gl) throw new Error("This browser has no WebGL2: the picture in the saved notebook still shows.");
+      if (!this.gl) throw new Error("This browser offers no WebGL2, with which the façade is drawn.");
       this.made += 1;
     }
     if (!this.gl.isContextLost() && !this.gl.getExtension("EXT_color_buffer_float"))
@@ -210,26 +241,42 @@ export class Renderer {
     return this.gl;
   }
 
-  private program(gl: WebGL2RenderingContext, vertex: string, fragment: string): WebGLProgram {
-    const found = this.programs.get(fragment);
+  /** A program that may still be compiled beside the page. */
+  private begun(gl: WebGL2RenderingContext, vertex: string, fragment: string): Begun {
+    let found = this.programs.get(fragment);
     if (found) return found;
     const program = gl.createProgram();
-    for (const [kind, source] of [
-      [gl.VERTEX_SHADER, vertex],
-      [gl.FRAGMENT_SHADER, fragment],
-    ] as const) {
+    const shaders = (
+      [
+        [gl.VERTEX_SHADER, vertex],
+        [gl.FRAGMENT_SHADER, fragment],
+      ] as const
+    ).map(([kind, source]) => {
       const shader = gl.createShader(kind) as WebGLShader;
       gl.shaderSource(shader, source);
       gl.compileShader(shader);
-      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost())
-        throw new Error(`The shader does not compile: ${gl.getShaderInfoLog(shader)}`);
       gl.attachShader(program, shader);
-    }
+      return shader;
+    });
     gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
-      throw new Error(`The shader does not link: ${gl.getProgramInfoLog(program)}`);
-    this.programs.set(fragment, program);
-    return program;
+    found = { program, shaders, checked: false };
+    this.programs.set(fragment, found);
+    return found;
+  }
+
+  private ready(gl: WebGL2RenderingContext, { program, checked }: Begun): boolean {
+    const parallel = gl.getExtension("KHR_parallel_shader_compile");
+    return checked || !parallel || gl.getProgramParameter(program, parallel.COMPLETION_STATUS_KHR) !== false;
+  }
+
+  private program(gl: WebGL2RenderingContext, vertex: string, fragment: string): WebGLProgram {
+    const found = this.begun(gl, vertex, fragment);
+    if (!found.checked && !gl.isContextLost() && !gl.getProgramParameter(found.program, gl.LINK_STATUS)) {
+      const told = [...found.shaders.map((one) => gl.getShaderInfoLog(one)), gl.getProgramInfoLog(found.program)];
+      throw new Error(`The shader does not compile: ${told.filter(Boolean).join("\n")}`);
+    }
+    found.checked = true;
+    return found.program;
   }
 
   /** Room for a picture: it only ever grows. */
@@ -288,6 +335,28 @@ function texture(
   for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
   for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
   return own;
+}
+
+/** Tell a program where it looks; returns what a pixel covers across and up. */
+function aim(gl: WebGL2RenderingContext, program: WebGLProgram, sight: Sight, width: number, height: number): Pair {
+  const [left, bottom, right, top] = sight.window;
+  const step: Pair = [(right - left) / width, (top - bottom) / height];
+  const at = (name: string) => gl.getUniformLocation(program, name);
+  gl.uniform4f(at("window"), left, bottom, ...step);
+  gl.uniform4f(at("eye"), ...(sight.eye ?? ([0, 0, 0] as const)), sight.eye ? 1 : 0);
+  gl.uniform3f(at("across"), ...sight.right);
+  gl.uniform3f(at("forward"), ...sight.ahead);
+  return step;
+}
+
+/** Tell a program the light of the hour. */
+function lighten(gl: WebGL2RenderingContext, program: WebGLProgram, { light }: Job): void {
+  for (const [name, value] of Object.entries(light ?? {})) {
+    const at = gl.getUniformLocation(program, name);
+    if (typeof value === "number") gl.uniform1f(at, value);
+    else if (value.length === 2) gl.uniform2fv(at, value);
+    else gl.uniform3fv(at, value);
+  }
 }
 
 function bind(

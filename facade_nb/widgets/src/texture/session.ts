@@ -1,17 +1,19 @@
-// What the views of one texture model on a page share: the grammar unpacked, and what is typed but not yet answered.
+// What the views of one texture model on a page share: the grammar unpacked, and what was entered but is not yet answered.
 
+import { oneFor, Shared } from "../shared.ts";
 import { type Bytes, byteLength, unpack } from "../solver/packing.ts";
-import type { Fault, WidgetModel } from "../types.ts";
+import type { Fault } from "../types.ts";
 import { renderer } from "./renderer.ts";
 import type { Common, Pair, Scene, Step, Tiles, Triple } from "./types.ts";
 
-const sessions = new WeakMap<WidgetModel, Session>();
-
-const PLAIN = ["text", "faults", "ack", "size", "seed", "hour", "lit", "point", "ray", "steps", "trouble"] as const;
+const PLAIN = ["text", "faults", "size", "seed", "hour", "lit", "point", "ray", "still", "trouble"] as const;
 const PACKED = ["scene", "tiles", "light"] as const;
 
-export class Session {
-  readonly client = Math.random().toString(36).slice(2);
+type Entered = "text" | "size" | "seed" | "hour" | "lit";
+
+export class Session extends Shared {
+  static readonly of = oneFor((channel) => new Session(channel));
+
   scene: Scene | null = null;
   tiles: Tiles | null = null;
   common: Common | null = null;
@@ -19,38 +21,25 @@ export class Session {
   step = 0;
   private seq = 0;
   private acknowledged = 0;
-  private waiting: string | null = null;
+  /** What was entered and is not yet sent; what is sent and not yet answered. Views show these. */
+  private readonly waiting = new Map<Entered, unknown>();
+  private readonly sent = new Map<Entered, unknown>();
   private unpacking = 0;
-  private readonly views = new Set<() => void>();
 
-  private constructor(private readonly channel: WidgetModel) {}
-
-  static of(channel: WidgetModel): Session {
-    let session = sessions.get(channel);
-    if (!session) {
-      session = new Session(channel);
-      sessions.set(channel, session);
-    }
-    return session;
-  }
-
-  get live(): boolean {
-    return this.channel.comm_live !== false;
-  }
   get size(): Pair {
-    return this.channel.get<Pair>("size");
+    return this.value<Pair>("size");
   }
   get seed(): Pair {
-    return this.channel.get<Pair>("seed");
+    return this.value<Pair>("seed");
   }
   get hour(): number {
-    return this.channel.get<number>("hour");
+    return this.value<number>("hour");
   }
   get lit(): boolean {
-    return this.channel.get<boolean>("lit");
+    return this.value<boolean>("lit");
   }
   get text(): string {
-    return this.channel.get<string>("text");
+    return this.value<string>("text");
   }
   get faults(): Fault[] {
     return this.channel.get<Fault[]>("faults");
@@ -62,38 +51,40 @@ export class Session {
     const point = this.channel.get<number[]>("point");
     return point.length === 2 ? (point as Pair) : null;
   }
-  get trouble(): string {
-    return this.channel.get<string>("trouble");
+  /** A picture in PNG, where one was drawn for pages that cannot draw. */
+  get still(): Uint8Array<ArrayBuffer> | null {
+    const bytes = this.channel.get<Bytes>("still");
+    if (!byteLength(bytes)) return null;
+    return bytes instanceof ArrayBuffer
+      ? new Uint8Array(bytes)
+      : new Uint8Array(bytes.buffer as ArrayBuffer, bytes.byteOffset, bytes.byteLength);
   }
   /** Whether a text is on its way: the field must not be written to. */
   get typing(): boolean {
-    return this.waiting !== null || this.acknowledged < this.seq;
+    return this.waiting.has("text") || this.sent.has("text");
   }
 
-  /** Hold the session for a view until the signal ends; `update` is called after every change. */
-  hold(update: () => void, signal: AbortSignal): void {
-    if (this.views.size === 0) this.begin();
-    this.views.add(update);
-    signal.addEventListener("abort", () => {
-      this.views.delete(update);
-      if (this.views.size === 0) this.end();
-    });
+  override hold(update: () => void, signal: AbortSignal): void {
+    super.hold(update, signal);
     update();
   }
 
-  /** Send what was typed: at once, or when the answer to the last text has come. */
-  type(text: string): void {
-    this.waiting = text;
-    this.flush();
-  }
-
-  set(name: "size" | "seed" | "hour" | "lit", value: unknown): void {
-    this.channel.set({ [name]: value });
-    this.send({ op: "set", name, value });
+  /** Take a value: it is shown at once, and sent at once or when the answer to what was sent before has come. */
+  set(name: Entered, value: unknown): void {
+    if (this.live) {
+      this.waiting.set(name, value);
+      this.flush();
+    } else this.channel.set({ [name]: value });
+    this.tell();
   }
 
   pick(point: Pair | null, ray: Triple | null = null): void {
     this.send({ op: "pick", point, ray });
+  }
+
+  /** Have Python draw a still picture, now and after every change. */
+  askStill(): void {
+    this.send({ op: "still" });
   }
 
   look(step: number): void {
@@ -101,18 +92,26 @@ export class Session {
     this.tell();
   }
 
+  private value<T>(name: Entered): T {
+    for (const own of [this.waiting, this.sent]) if (own.has(name)) return own.get(name) as T;
+    return this.channel.get<T>(name);
+  }
+
+  /** One value is on its way at a time; of several for one name only the last is sent. */
   private flush(): void {
-    if (this.waiting === null || this.acknowledged < this.seq || !this.live) return;
+    const [next] = this.waiting;
+    if (!next || this.acknowledged < this.seq || !this.live) return;
+    const [name, value] = next;
+    this.waiting.delete(name);
+    this.sent.set(name, value);
     this.seq += 1;
-    this.send({ op: "text", text: this.waiting, client: this.client, seq: this.seq });
-    this.waiting = null;
+    this.send({ op: "set", name, value, client: this.client, seq: this.seq });
   }
 
   private send(message: Record<string, unknown>): void {
     if (this.live) this.channel.send(message);
   }
 
-  private readonly onPlain = (): void => this.tell();
   private readonly onSteps = (): void => {
     this.step = Math.max(0, this.steps.length - 1);
     this.tell();
@@ -121,29 +120,26 @@ export class Session {
     const ack = this.channel.get<{ client?: string; seq?: number }>("ack");
     if (ack.client !== this.client) return;
     this.acknowledged = Math.max(this.acknowledged, ack.seq ?? 0);
+    if (this.acknowledged >= this.seq) this.sent.clear();
     this.flush();
     this.tell();
   };
-  private readonly onPacked = (): void => void this.unpack();
 
-  private begin(): void {
-    for (const name of PLAIN) this.channel.on(`change:${name}`, this.onPlain);
-    for (const name of PACKED) this.channel.on(`change:${name}`, this.onPacked);
-    this.channel.on("change:steps", this.onSteps);
-    this.channel.on("change:ack", this.onAck);
-    this.send({ op: "view", client: this.client, here: true });
+  protected begin(): void {
+    for (const name of PLAIN) this.listen(name, () => this.tell());
+    for (const name of PACKED) this.listen(name, () => void this.unpack());
+    this.listen("steps", this.onSteps);
+    this.listen("ack", this.onAck);
     this.step = Math.max(0, this.steps.length - 1);
     void this.unpack();
   }
 
-  private end(): void {
-    for (const name of PLAIN) this.channel.off(`change:${name}`, this.onPlain);
-    for (const name of PACKED) this.channel.off(`change:${name}`, this.onPacked);
-    this.channel.off("change:steps", this.onSteps);
-    this.channel.off("change:ack", this.onAck);
+  protected end(): void {
     for (const own of [this.scene, this.tiles]) if (own) renderer().release(own);
     this.scene = this.tiles = this.common = null;
-    this.send({ op: "view", client: this.client, here: false });
+    this.acknowledged = this.seq;
+    this.sent.clear();
+    this.waiting.clear();
   }
 
   /** Scene and tiles belong together: they are taken over at once, when both are unpacked. */
@@ -179,9 +175,5 @@ export class Session {
       this.unpacked.set(name, found);
     }
     return found.value as Promise<T>;
-  }
-
-  private tell(): void {
-    for (const update of [...this.views]) update();
   }
 }

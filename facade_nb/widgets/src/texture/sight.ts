@@ -71,16 +71,37 @@ export function meet(sight: Sight, across: number, down: number): { point: Pair;
   return { point: [eye[0] + ray[0] * reach, eye[1] + ray[1] * reach], ray };
 }
 
-/** Where a point of the façade stands in the picture (0 to 1 from its upper left); null behind the eye. */
-export function project(sight: Sight, [x, y]: Pair): Pair | null {
-  const [left, bottom, right, top] = sight.window;
-  let [u, v] = [x, y];
-  const { eye } = sight;
-  if (eye) {
-    const depth = (x - eye[0]) * sight.ahead[0] - eye[2] * sight.ahead[2];
-    if (depth < 1e-3) return null;
-    u = ((x - eye[0]) * sight.right[0] - eye[2] * sight.right[2]) / depth;
-    v = (y - eye[1]) / depth;
-  }
-  return [(u - left) / (right - left), 1 - (v - bottom) / (top - bottom)];
+const NEAR = 1e-3; // metres in front of the eye
+
+/** How far ahead of the eye a place is, and where it stands across and up, times that; 1 where there is no eye. */
+function seen({ eye, right, ahead }: Sight, [x, y, z]: Triple): Triple {
+  if (!eye) return [x, y, 1];
+  const [dx, dy, dz] = [x - eye[0], y - eye[1], z - eye[2]];
+  return [dx * right[0] + dz * right[2], dy, dx * ahead[0] + dz * ahead[2]];
+}
+
+function placed({ window: [left, bottom, right, top] }: Sight, [u, v, depth]: Triple): Pair {
+  return [(u / depth - left) / (right - left), 1 - (v / depth - bottom) / (top - bottom)];
+}
+
+/** Where a place stands in the picture (0 to 1 from its upper left); null behind the eye. */
+export function project(sight: Sight, place: Triple): Pair | null {
+  const found = seen(sight, place);
+  return found[2] < NEAR ? null : placed(sight, found);
+}
+
+/** As `project`, of a polygon: what is behind the eye is cut off. */
+export function outline(sight: Sight, corners: Triple[]): Pair[] {
+  const found = corners.map((corner) => seen(sight, corner));
+  return found.flatMap((at, k) => {
+    const before = found[(k + found.length - 1) % found.length] as Triple;
+    const kept: Pair[] = [];
+    if (at[2] < NEAR !== before[2] < NEAR) {
+      const part = (NEAR - before[2]) / (at[2] - before[2]);
+      const cut = before.map((value, i) => value + part * ((at[i] as number) - value)) as Triple;
+      kept.push(placed(sight, cut));
+    }
+    if (at[2] >= NEAR) kept.push(placed(sight, at));
+    return kept;
+  });
 }

@@ -21,6 +21,8 @@ export interface Scene {
   texture: Uint8Array;
   start: Pair;
   fragment: string;
+  /** As `fragment` and the light together, with more samples at boundaries. */
+  smooth: string;
   report: string;
   table: TableRule[];
 }
@@ -51,6 +53,9 @@ export interface Step {
   operator: string;
   text: string;
   scope: [number, number, number, number];
+  /** The scope's corners and the pixel's place in space, metres: z is out of the façade, rooms lie below 0. */
+  corners: Triple[];
+  spot: Triple;
   faces: string[];
   layers: Pair[];
   seeds: Pair[];

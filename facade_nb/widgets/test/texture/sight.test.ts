@@ -1,8 +1,10 @@
 import { expect, test } from "vitest";
+import { timeOf } from "../../src/texture/controls.ts";
 import { offsetOf } from "../../src/texture/editor.ts";
-import { coarser } from "../../src/texture/picture.ts";
+import { coarser, rowsFor } from "../../src/texture/painting.ts";
 import { lightAt, seedOf } from "../../src/texture/renderer.ts";
-import { type Look, meet, project, sightOf } from "../../src/texture/sight.ts";
+import { type Look, meet, outline, project, sightOf } from "../../src/texture/sight.ts";
+import type { Pair, Triple } from "../../src/texture/types.ts";
 
 const LOOK: Look = { turn: 30, rise: -10, distance: 8, target: [4, 3], flat: false };
 
@@ -15,13 +17,57 @@ test("what a pixel meets is projected to that pixel", () => {
       [0.8, 0.1],
     ] as const) {
       const found = meet(sight, across, down);
-      const place = project(sight, found?.point ?? [0, 0]);
+      const place = project(sight, [...(found?.point ?? [0, 0]), 0] as Triple);
       expect(place?.[0]).toBeCloseTo(across, 9);
       expect(place?.[1]).toBeCloseTo(down, 9);
     }
     expect(meet(sight, 0.5, 0.5)?.point[0]).toBeCloseTo(4, 9);
     expect(meet(sight, 0.5, 0.5)?.point[1]).toBeCloseTo(3, 9);
   }
+});
+
+test("a place behind the façade stands where its ray meets the façade", () => {
+  const sight = sightOf(LOOK, [12, 9], 1.5);
+  const { point, ray } = meet(sight, 0.3, 0.6) as { point: Pair; ray: Triple };
+  for (const far of [0.5, 2]) {
+    const place = project(sight, [point[0] + far * ray[0], point[1] + far * ray[1], far * ray[2]]);
+    expect(place?.[0]).toBeCloseTo(0.3, 9);
+    expect(place?.[1]).toBeCloseTo(0.6, 9);
+  }
+  // Straight on, rooms lie behind their windows.
+  const flat = sightOf({ ...LOOK, flat: true }, [12, 9], 1.5);
+  expect(project(flat, [5, 2, -2])).toEqual(project(flat, [5, 2, 0]));
+});
+
+test("what is behind the eye is cut off an outline", () => {
+  const sight = sightOf({ ...LOOK, turn: 75, rise: 0, distance: 1 }, [12, 9], 1.5);
+  const facade: Triple[] = [
+    [0, 0, 0],
+    [12, 0, 0],
+    [12, 9, 0],
+    [0, 9, 0],
+  ];
+  expect(facade.map((corner) => project(sight, corner) === null)).toEqual([false, true, true, false]);
+  const points = outline(sight, facade);
+  expect(points).toHaveLength(4);
+  for (const corner of [facade[0], facade[3]] as Triple[]) expect(points).toContainEqual(project(sight, corner));
+  for (const [x, y] of points) expect(Number.isFinite(x) && Number.isFinite(y)).toBe(true);
+  expect(
+    outline(
+      sight,
+      facade.map(([x, y]) => [x, y, 50]),
+    ),
+  ).toEqual([]);
+});
+
+test("an hour is a time", () => {
+  expect([0, 9.5, 11.999, 24].map(timeOf)).toEqual(["0:00", "9:30", "12:00", "24:00"]);
+});
+
+test("bands keep to their time, and grow only little by little", () => {
+  expect(rowsFor(45, 20, 90)).toBe(10);
+  expect(rowsFor(45, 20, 1)).toBe(80);
+  expect(rowsFor(30, 1, 500)).toBe(1);
 });
 
 test("a seed is whole steps, wrapped, and a rest", () => {

@@ -1,0 +1,63 @@
+// What the views of one channel on a page share. It begins with the first view that holds it, and ends with the last.
+
+import { announce } from "./presence.ts";
+import type { WidgetModel } from "./types.ts";
+
+export abstract class Shared {
+  readonly client = Math.random().toString(36).slice(2);
+  protected readonly views = new Set<() => void>();
+  private present = new AbortController();
+
+  protected constructor(protected readonly channel: WidgetModel) {}
+
+  /** False in a saved notebook without a kernel. */
+  get live(): boolean {
+    return this.channel.comm_live !== false;
+  }
+
+  get trouble(): string {
+    return this.channel.get<string>("trouble");
+  }
+
+  /** Hold it for a view until the signal ends; `update` is called when something has changed. */
+  hold(update: () => void, signal: AbortSignal): void {
+    if (this.views.size === 0) {
+      this.present = new AbortController();
+      announce(this.channel, this.client, this.present.signal);
+      this.begin();
+    }
+    this.views.add(update);
+    signal.addEventListener("abort", () => {
+      this.views.delete(update);
+      if (this.views.size > 0) return;
+      this.end();
+      this.present.abort();
+    });
+  }
+
+  /** Be called when a trait changes, as long as there are views. */
+  protected listen(name: string, call: () => void): void {
+    this.channel.on(`change:${name}`, call);
+    this.present.signal.addEventListener("abort", () => this.channel.off(`change:${name}`, call));
+  }
+
+  protected tell(): void {
+    for (const update of [...this.views]) update();
+  }
+
+  protected abstract begin(): void;
+  protected abstract end(): void;
+}
+
+/** The one `S` of a channel, made when first asked for. */
+export function oneFor<S>(make: (channel: WidgetModel) => S): (channel: WidgetModel) => S {
+  const made = new WeakMap<WidgetModel, S>();
+  return (channel) => {
+    let found = made.get(channel);
+    if (!found) {
+      found = make(channel);
+      made.set(channel, found);
+    }
+    return found;
+  };
+}

@@ -1,0 +1,43 @@
+// What is shown where the browser cannot draw: why, what would help, and a still picture that Python has drawn.
+
+import { h, setText } from "../dom.ts";
+import type { Session } from "./session.ts";
+
+export function stillPicture(session: Session, whyNot: string, signal: AbortSignal): HTMLElement {
+  const image = h("img", { class: "fnb-tex-still", hidden: true });
+  const note = h("p", {});
+  const stage = h(
+    "div",
+    { class: "fnb-tex-stage fnb-tex-without", role: "group", "aria-label": "Still picture of the façade" },
+    h("div", { class: "fnb-tex-why", role: "alert" }, h("strong", {}, whyNot), note),
+    image,
+  );
+  let shown: DataView | ArrayBuffer | Uint8Array | null = null;
+  let address = "";
+  const forget = () => URL.revokeObjectURL(address);
+  session.hold(() => {
+    const { still } = session;
+    const [w, t] = session.size;
+    image.alt = `Façade, ${w} by ${t} metres, straight on`;
+    image.hidden = !still;
+    setText(note, help(session.live, !!still));
+    if (!still || still.buffer === shown) return;
+    shown = still.buffer;
+    forget();
+    address = URL.createObjectURL(new Blob([still], { type: "image/png" }));
+    image.src = address;
+  }, signal);
+  session.askStill();
+  signal.addEventListener("abort", forget);
+  return stage;
+}
+
+function help(live: boolean, pictured: boolean): string {
+  const cure =
+    "To look around, switch on hardware acceleration in the browser's settings, or open the page in a current Chrome, " +
+    "Edge, Firefox or Safari.";
+  if (!pictured) return cure + (live ? "" : " Run the notebook for a still picture.");
+  return live
+    ? `Python draws a still picture, which follows what you change. ${cure}`
+    : `This is a still picture. ${cure}`;
+}
