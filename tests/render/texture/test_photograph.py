@@ -56,6 +56,29 @@ def test_rays_meet_the_nearest_facade_from_its_front() -> None:
     assert len(set(hits.facade)) > 4
 
 
+def test_what_stands_near_is_looked_at_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Stretches of a few rays leave out façades that they cannot meet; the answers stay."""
+    from facade_nb.render.texture import facades as module
+
+    generator = np.random.default_rng(3)
+    facades = [
+        house for k in range(6) for house in box(PLAIN, 3, 4 + k, 3, at=(5 * k - 12, -k), turn=9 * k, roof=1)
+    ]
+    eye, sun = np.float32([1, 2, 14]), np.float32([0.5, 0.4, -0.76])
+    rays = (generator.uniform(-1, 1, (3000, 3)) * (1.2, 0.5, 0) - (0, 0, 1)).astype(np.float32)
+    rays = rays[np.lexsort((rays[:, 1], np.round(rays[:, 0], 1)))]
+    whole = meet(facades, eye, rays)
+    points = (eye + rays * np.where(np.isfinite(whole.distance), whole.distance, 15)[:, None]).astype(
+        np.float32
+    )
+    free = sees(facades, points, sun, whole.facade)
+    monkeypatch.setattr(module, "STRETCH", 16)
+    parts = meet(facades, eye, rays)
+    assert (parts.facade == whole.facade).all() and len(set(whole.facade)) > 10
+    assert parts.places == pytest.approx(whole.places, abs=1e-5)
+    assert (sees(facades, points, sun, whole.facade) == free).all() and 0.1 < free.mean() < 0.9
+
+
 def test_a_house_stands_before_the_sun() -> None:
     wall = [Facade(PLAIN, (4.0, 3.0), (0.0, 0.0, 0.0))]
     sun = np.float32([0, 1, -1]) / np.sqrt(2)  # behind the wall, 45 degrees high
