@@ -19,7 +19,7 @@ from ..camera import Camera, View
 from ..daylight import floats
 from ..developing import binned, developed
 from ..surfaces import linear
-from .daytime import Daytime, light
+from .daytime import STREET_LAMP, Daytime, light
 from .evaluating import OPAQUE
 from .facades import Facade, Hits, meet, sees, stretches
 from .grammar import Grammar
@@ -237,7 +237,7 @@ def _add_ground(seen: Floats, facades: Sequence[Facade], eye: Floats, rays: Floa
     close = _close(facades, points)
     slabs = _slabs(points, distance[at] * 0.002)
     albedo = linear(floats([0.60, 0.585, 0.56])) * slabs[:, None]
-    lamp = daytime.lamps * 0.10 * floats([1.0, 0.70, 0.40])
+    lamp = daytime.lamps * 0.10 * floats(STREET_LAMP)
     sun = (daytime.towards[1] * free)[:, None] * floats(daytime.sun)
     lit = albedo * (sun + close[:, None] * (0.9 * floats(daytime.sky) + lamp))
     haze = np.clip((distance[at] - 40) / 400, 0, 1)[:, None] ** 0.7
