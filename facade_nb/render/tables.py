@@ -54,7 +54,9 @@ def with_tables(text: str, tables: Mapping[str, str]) -> str:
         head, start, rest = text.partition(f"<!-- {name} -->\n")
         _, end, tail = rest.partition(f"<!-- /{name} -->")
         if not end:
-            raise ValueError(f"expected <!-- {name} --> and <!-- /{name} --> in the page; found no such place")
+            raise ValueError(
+                f"expected <!-- {name} --> and <!-- /{name} --> in the page; found no such place"
+            )
         text = f"{head}{start}{table}\n{end}{tail}"
     return text
 

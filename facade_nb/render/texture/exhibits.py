@@ -188,15 +188,17 @@ def _tenth() -> tuple[tuple[View, ...], ...]:
     along = Camera(azimuth=-62, height=1.8, angle=62, fill=1.0)
     near = Camera(azimuth=-24, height=6.0, angle=44, fill=1.0)
     return (
-        (View((1300, 620), seed=(4.6, 2.1), hour=9.0, camera=far, street=True),),
+        (View((1300, 620), seed=(10.6, 2.4), hour=9.0, camera=far, street=True),),
         (
-            View((645, 520), seed=(4.6, 2.1), hour=11.0, camera=along, frame=(3, 0, 40, 12), street=True),
-            View((645, 520), seed=(4.6, 2.1), hour=9.5, camera=near, frame=(2.6, 4.4, 8.0, 8.4), street=True),
+            View((645, 520), seed=(10.6, 2.4), hour=11.0, camera=along, frame=(3, 0, 40, 12), street=True),
+            View(
+                (645, 520), seed=(10.6, 2.4), hour=9.5, camera=near, frame=(2.6, 4.4, 8.0, 8.4), street=True
+            ),
         ),
         (
-            View((645, 520), seed=(4.6, 2.1), hour=21.0, camera=along, frame=(3, 0, 40, 12), street=True),
+            View((645, 520), seed=(10.6, 2.4), hour=21.0, camera=along, frame=(3, 0, 40, 12), street=True),
             View(
-                (645, 520), seed=(4.6, 2.1), hour=21.2, camera=near, frame=(2.6, 4.4, 8.0, 8.4), street=True
+                (645, 520), seed=(10.6, 2.4), hour=21.2, camera=near, frame=(2.6, 4.4, 8.0, 8.4), street=True
             ),
         ),
     )

@@ -149,6 +149,9 @@ def _world(facade: Facade, x: float, y: float) -> NDArray[np.float64]:
 _FOOT = 9.0
 """Metres from a wall beyond which it no longer darkens the ground (by less than one of 255)."""
 
+_PAVEMENT, _KERB = 3.2, 0.16
+"""Width of the pavement and of its kerb, metres."""
+
 _THROUGH = 4
 """How many façades, one behind the other, are looked through where they are transparent."""
 
@@ -226,7 +229,7 @@ def _backdrop(facades: Sequence[Facade], eye: Floats, rays: Floats, daytime: Day
 
 
 def _add_ground(seen: Floats, facades: Sequence[Facade], eye: Floats, rays: Floats, daytime: Daytime) -> None:
-    """The ground: pavement in front of the façades, fading into the haze."""
+    """The ground, fading into the haze: slabs; before houses a pavement of them, a kerb, and asphalt beyond."""
     down = np.minimum(rays[:, 1], np.float32(-1e-6))
     distance = np.where(rays[:, 1] < 0, -eye[1] / down, np.inf).astype(np.float32)
     at = np.flatnonzero(distance < 4000)
@@ -234,9 +237,15 @@ def _add_ground(seen: Floats, facades: Sequence[Facade], eye: Floats, rays: Floa
         return
     points = eye + distance[at, None] * rays[at]
     free = sees(facades, points, floats(daytime.towards)).astype(np.float32)
-    close = _close(facades, points)
-    slabs = _slabs(points, distance[at] * 0.002)
-    albedo = linear(floats([0.60, 0.585, 0.56])) * slabs[:, None]
+    close, away = _close(facades, points)
+    blur = distance[at] * 0.002
+    if len(facades) == 1:
+        away = np.zeros_like(away)  # a façade alone stands on a square
+    paved = _step_down(away, _PAVEMENT, blur)[:, None]
+    kerb = _step_down(away, _PAVEMENT + _KERB, blur)[:, None] - paved
+    slabs = _slabs(points, blur)[:, None]
+    albedo = slabs * paved * linear(floats([0.60, 0.585, 0.56])) + kerb * linear(floats([0.68, 0.67, 0.65]))
+    albedo += (1 - paved - kerb) * linear(floats([0.44, 0.44, 0.45]))
     lamp = daytime.lamps * 0.10 * floats(STREET_LAMP)
     sun = (daytime.towards[1] * free)[:, None] * floats(daytime.sun)
     lit = albedo * (sun + close[:, None] * (0.9 * floats(daytime.sky) + lamp))
@@ -244,9 +253,13 @@ def _add_ground(seen: Floats, facades: Sequence[Facade], eye: Floats, rays: Floa
     seen[at] = lit + (floats(daytime.horizon) - lit) * haze
 
 
-def _close(facades: Sequence[Facade], points: Floats) -> Floats:
-    """How much of the sky ground points (n, 3) have: the foot of a wall takes some from the ground before it."""
+def _close(facades: Sequence[Facade], points: Floats) -> tuple[Floats, Floats]:
+    """What walls do to ground points (n, 3): how much of the sky they leave, and how far the nearest one is, metres.
+
+    The foot of a wall takes some sky from the ground before it. Walls beyond `_FOOT` are infinitely far.
+    """
     close = np.ones(len(points), np.float32)
+    nearest = np.full(len(points), np.inf, np.float32)
     walls = [one for one in facades if one.up[1] > 0.99 and one.origin[1] < 0.5]
     middles = np.array([_world(one, one.size[0] / 2, 0) for one in walls]).reshape(-1, 3)
     reach = np.array([one.size[0] / 2 for one in walls]) + _FOOT
@@ -257,9 +270,16 @@ def _close(facades: Sequence[Facade], points: Floats) -> Floats:
         for k in np.flatnonzero(np.hypot(apart[:, 0], apart[:, 2]) < reach):
             local = (own - floats(walls[k].origin)) @ walls[k].axes.T
             aside = np.maximum(np.maximum(-local[:, 0], local[:, 0] - walls[k].size[0]), 0)
-            away = np.where(local[:, 2] > 0, np.hypot(aside, local[:, 2]), 50)
-            close[part] *= 1 - 0.42 * np.exp(-away / 1.1)
-    return close
+            away = np.hypot(aside, local[:, 2])
+            nearest[part] = np.minimum(nearest[part], away)
+            close[part] *= 1 - 0.42 * np.exp(-np.where(local[:, 2] > 0, away, 50) / 1.1)
+    return close, nearest
+
+
+def _step_down(values: Floats, at: float, blur: Floats) -> Floats:
+    """1 below a value, 0 above it, with a slope as wide as a pixel: (n,)."""
+    result: Floats = np.clip((at - values) / np.maximum(blur, np.float32(1e-3)) + np.float32(0.5), 0, 1)
+    return result
 
 
 def _slabs(points: Floats, blur: Floats) -> Floats:

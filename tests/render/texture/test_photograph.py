@@ -309,3 +309,24 @@ def test_faults_are_told() -> None:
         photograph([])
     with pytest.raises(ValueError, match=r"expected at least one pixel and sample; found \(0, 4\), 2"):
         photograph([Facade(PLAIN, (1.0, 1.0))], Photo(pixels=(0, 4)))
+
+
+def test_houses_have_a_pavement_and_a_facade_alone_a_square() -> None:
+    """Straight down before a wall: slabs, then the lighter kerb, then darker asphalt; without houses, slabs alone."""
+    from facade_nb.render.texture.photograph import _KERB, _PAVEMENT, _add_ground
+
+    reach = np.float32([1.5, _PAVEMENT + _KERB / 2, 6.0])
+    rays = np.stack([np.full(3, 0.3), np.full(3, -5.0), reach], axis=1).astype(np.float32)
+    house = box(PLAIN, 20, 6, 8)
+    wall = house[0]
+    eye = (np.float32(wall.origin) + np.float32([10, 5, 0])).astype(np.float32)
+
+    def seen(facades: list[Facade]) -> np.ndarray:
+        found = np.zeros((3, 3), np.float32)
+        _add_ground(found, facades, eye, rays, Daytime.at(12.0))
+        return found.mean(axis=1)
+
+    slab, kerb, road = seen(house)
+    assert kerb > 1.1 * slab > 1.4 * road
+    square = seen([wall])
+    assert square.min() > 0.7 * square.max()  # one may be in a joint
