@@ -353,7 +353,7 @@ class TestBackends:
         from facade_nb.render.texture import gl
 
         monkeypatch.setattr(gl, "find_osmesa", lambda: None)
-        painter = GlPainter("osmesa", gl._no_osmesa, gl._make_osmesa)
+        painter = GlPainter("osmesa", gl._no_osmesa, gl._make_osmesa, gl._INSTALL_OSMESA)
         assert (
             not painter.available and "apt-get install --no-install-recommends libosmesa6" in painter.why_not
         )
@@ -364,8 +364,11 @@ class TestBackends:
         def refuse() -> None:
             raise RuntimeError("no driver")
 
-        assert "can be made (no driver)" in GlPainter("egl", lambda: "", refuse).why_not
-        monkeypatch.setitem(PAINTERS, "egl", GlPainter("egl", lambda: "", refuse))
+        egl = GlPainter("egl", lambda: "", refuse, gl._INSTALL_EGL)
+        assert (
+            "can be made (no driver)" in egl.why_not and "recommends libegl1 libgl1-mesa-dri" in egl.why_not
+        )
+        monkeypatch.setitem(PAINTERS, "egl", egl)
         assert choose_painter().name == "cpu"
 
     def test_egl_agrees(self) -> None:
