@@ -179,13 +179,13 @@ def _tenth() -> tuple[tuple[View, ...], ...]:
         (
             View((645, 520), seed=(10.6, 2.4), hour=11.0, camera=along, frame=(3, 0, 40, 12), street=True),
             View(
-                (645, 520), seed=(10.6, 2.4), hour=9.5, camera=near, frame=(2.6, 4.4, 8.0, 8.4), street=True
+                (645, 520), seed=(10.6, 2.4), hour=9.5, camera=near, frame=(5.4, 4.4, 10.8, 8.4), street=True
             ),
         ),
         (
             View((645, 520), seed=(10.6, 2.4), hour=21.0, camera=along, frame=(3, 0, 40, 12), street=True),
             View(
-                (645, 520), seed=(10.6, 2.4), hour=21.2, camera=near, frame=(2.6, 4.4, 8.0, 8.4), street=True
+                (645, 520), seed=(10.6, 2.4), hour=21.2, camera=near, frame=(5.4, 4.4, 10.8, 8.4), street=True
             ),
         ),
     )

@@ -120,7 +120,7 @@ def save_picture(pixels: NDArray[np.uint8], path: str | Path) -> None:
 
     stream = BytesIO()
     if str(path).lower().endswith((".jpg", ".jpeg")):
-        Image.fromarray(pixels).save(stream, "JPEG", quality=88, optimize=True)
+        Image.fromarray(pixels).save(stream, "JPEG", quality=88, optimize=True, progressive=True)
     else:
         Image.fromarray(pixels).save(stream, "PNG")
     write_atomically(path, stream.getvalue())
