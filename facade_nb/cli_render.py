@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import os
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -24,7 +25,8 @@ __all__ = ["add_render", "joined", "render_command"]
 _BACKENDS = ("cpu", "osmesa", "egl")
 _ANTIALIAS = ("none", "adaptive", "supersample")
 _MOST_PIXELS = 1 << 26
-_LISTS = ("--seed", "--eye", "--target")
+_NUMBERS = ("--size", "--pixels", "--seed", "--eye", "--target", "--angle", "--hour")
+_DIGITS = frozenset("0123456789.")
 
 
 def add_render(commands: Any) -> None:
@@ -65,7 +67,7 @@ def joined(arguments: Sequence[str]) -> list[str]:
     """``--seed -1,2`` as ``--seed=-1,2``, which argparse would take for an option of its own."""
     found: list[str] = []
     for argument in arguments:
-        if found and found[-1] in _LISTS and argument[:1] == "-" and argument[1:2].isdigit():
+        if found and found[-1] in _NUMBERS and argument[:1] == "-" and argument[1:2] in _DIGITS:
             found[-1] += f"={argument}"
         else:
             found.append(argument)
@@ -76,6 +78,8 @@ def render_command(options: argparse.Namespace) -> int:
     """Run the command; returns the exit status."""
     if not (options.out or options.rules):
         options.parser.error("nothing to write: give --out or --rules")
+    if options.out and options.rules and os.path.realpath(options.out) == os.path.realpath(options.rules):
+        options.parser.error("--out and --rules: expected two files; found one")
     from .render.backends import BackendError
     from .render.texture.painters import choose_painter
     from .render.texture.picture import render_texture, rules_seen

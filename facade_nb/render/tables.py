@@ -1,15 +1,19 @@
-"""The tables of docs/rendering.md, from the registries: ``python -m facade_nb.render.tables docs/rendering.md``."""
+"""The tables of docs/rendering.md, from the registries: ``python -m facade_nb.render.tables docs/rendering.md``.
+
+`with_tables` is for the tables of other pages as well.
+"""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 from ..design.files import write_atomically
 from .geometry import GEOMETRIES
 from .materials import DEFAULT_MATERIAL, MATERIALS
 
-__all__ = ["geometry_table", "material_table", "refresh"]
+__all__ = ["geometry_table", "material_table", "refresh", "with_tables"]
 
 
 def geometry_table() -> str:
@@ -38,13 +42,28 @@ def material_table() -> str:
     return "\n".join(rows)
 
 
-def refresh(text: str) -> str:
-    """The page with its tables, between their markers, made anew."""
-    for marker, table in (("geometries", geometry_table()), ("materials", material_table())):
-        head, start, rest = text.partition(f"<!-- {marker} -->\n")
-        _, end, tail = rest.partition(f"<!-- /{marker} -->")
+def with_tables(text: str, tables: Mapping[str, str]) -> str:
+    """A page with its tables made anew: each stands between ``<!-- name -->`` and ``<!-- /name -->``.
+
+    Raises
+    ------
+    ValueError
+        For a page that lacks a table's place.
+    """
+    for name, table in tables.items():
+        head, start, rest = text.partition(f"<!-- {name} -->\n")
+        _, end, tail = rest.partition(f"<!-- /{name} -->")
+        if not end:
+            raise ValueError(
+                f"expected <!-- {name} --> and <!-- /{name} --> in the page; found no such place"
+            )
         text = f"{head}{start}{table}\n{end}{tail}"
     return text
+
+
+def refresh(text: str) -> str:
+    """docs/rendering.md with its tables made anew."""
+    return with_tables(text, {"geometries": geometry_table(), "materials": material_table()})
 
 
 if __name__ == "__main__":

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from facade_nb.render.tables import geometry_table, material_table
+import pytest
+
+from facade_nb.render.tables import geometry_table, material_table, refresh, with_tables
 
 PAGE = Path(__file__).parents[2] / "docs" / "rendering.md"
 
 
 def test_the_page_has_the_tables_of_the_code() -> None:
     text = PAGE.read_text(encoding="utf-8")
-    for table in (geometry_table(), material_table()):
-        assert table in text, "run: python -m facade_nb.render.tables docs/rendering.md"
+    assert refresh(text) == text, "run: python -m facade_nb.render.tables docs/rendering.md"
+    assert geometry_table() in text and material_table() in text
+
+
+def test_a_page_without_a_place_for_a_table() -> None:
+    with pytest.raises(ValueError, match="expected <!-- tiles --> and <!-- /tiles --> in the page"):
+        with_tables("# A page\n<!-- tiles -->\n", {"tiles": "| a |"})
 
 
 def test_the_pictures_of_the_page_exist() -> None:

@@ -60,9 +60,10 @@ def smoothed(
 def _outline(sight: Sight) -> NDArray[np.bool_]:
     """Pixels next to the façade's outline (n,): one is on it where another beside it is not."""
     width, height = sight.pixels
-    if sight.eye is None and sight.window == (0.0, 0.0, *sight.size):
+    if sight.eye is None and sight.window == (0.0, 0.0, *sight.size):  # it fills the picture
         return np.zeros(width * height, bool)
-    inside = sight.looks().inside.reshape(height, width)
+    around = sight.crop(-1, -1, width + 2, height + 2)
+    inside = around.looks().inside.reshape(height + 2, width + 2)
     edge = np.zeros_like(inside)
     for axis in (0, 1):
         change = np.diff(inside, axis=axis)
@@ -70,7 +71,7 @@ def _outline(sight: Sight) -> NDArray[np.bool_]:
         ahead[axis], behind[axis] = slice(1, None), slice(None, -1)
         edge[tuple(ahead)] |= change
         edge[tuple(behind)] |= change
-    return edge.ravel()
+    return edge[1:-1, 1:-1].ravel()
 
 
 def _mean(

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Batch", "Floats"]
+__all__ = ["Batch", "Floats", "joined"]
 
 Floats = NDArray[np.float32]
 Steps = NDArray[np.int32]
@@ -60,6 +62,11 @@ class Batch:
     def __len__(self) -> int:
         return len(self.index)
 
+    @property
+    def way(self) -> tuple[int, int, tuple[int, ...], tuple[tuple[int, int], ...]]:
+        """What points need to have in common to go on as one batch, but for the rule."""
+        return len(self.seeds), self.shift, self.faces, self.layers
+
     def take(self, chosen: NDArray[Any]) -> Batch:
         """Some of the points: a mask or indices into the batch."""
 
@@ -91,3 +98,32 @@ class Batch:
         if axis == 0:
             return replace(self, left=low, right=high)
         return replace(self, bottom=low, top=high)
+
+
+def joined(batches: Sequence[Batch]) -> Batch:
+    """Points that have come to the same rule on the same way, but through other parts, as one batch."""
+    first = batches[0]
+
+    def of(each: Callable[[Batch], NDArray[Any]]) -> NDArray[Any]:
+        return np.concatenate([np.broadcast_to(each(batch), len(batch)) for batch in batches])
+
+    return Batch(
+        of(lambda batch: batch.index),
+        of(lambda batch: batch.x),
+        of(lambda batch: batch.y),
+        of(lambda batch: batch.left),
+        of(lambda batch: batch.bottom),
+        of(lambda batch: batch.right),
+        of(lambda batch: batch.top),
+        (of(lambda batch: batch.ray[0]), of(lambda batch: batch.ray[1]), of(lambda batch: batch.ray[2])),
+        of(lambda batch: batch.footprint),
+        tuple((of(partial(_seed, k, 0)), of(partial(_seed, k, 1))) for k in range(len(first.seeds))),
+        first.shift,
+        first.faces,
+        first.layers,
+    )
+
+
+def _seed(k: int, axis: int, batch: Batch) -> Steps:
+    """One coordinate of a corner on the seed stack."""
+    return batch.seeds[k][axis]

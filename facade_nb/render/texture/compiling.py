@@ -12,6 +12,7 @@ from math import isfinite
 
 from ...design.errors import Fault, nearest
 from ...design.text import fault_at
+from .limits import MAX_HALF
 from .operators import OPERATORS, POLICIES, USAGES, Kind, Operator, Param
 from .program import Rule, Source, Value
 from .syntax import (
@@ -31,7 +32,6 @@ from .syntax import (
 __all__ = ["Compiled", "compile_text"]
 
 MAX_RULES = 20_000
-_LARGEST = 65504.0  # of the 16-bit floats
 _SMALLEST = 6e-8
 _MAX_COPIES = 64  # of one rule inside each other
 
@@ -58,11 +58,12 @@ _Bound = float | Source | _Key | _Word
 
 @dataclass(slots=True)
 class _Space:
-    """A namespace: its settings and rules, and what a copy of it has changed."""
+    """A namespace: its rules and settings, the values that a copy has changed, and those worked out so far."""
 
     rules: dict[str, RuleText] = field(default_factory=dict)
     settings: dict[str, Setting] = field(default_factory=dict)
     changed: dict[str, _Bound] = field(default_factory=dict)
+    known: dict[str, _Bound] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +197,7 @@ class _Compiler:
                         )
                         self.unread |= {name}
                     else:
-                        copy = _Space(dict(source.rules), dict(source.settings), dict(source.changed))
+                        copy = _Space(dict(source.rules), dict(source.settings))
                         self.spaces[name] = copy
                         self.order += [(name, rule) for rule in copy.rules.values()]
                         copies.append(statement)
@@ -228,9 +229,10 @@ class _Compiler:
                     )
 
     def _change(self, copies: Iterable[Copy]) -> None:
-        """Set what copies of namespaces change."""
+        """Set what copies of namespaces change; a copy of a copy has the changes of both."""
         for copy in copies:
             space = self.spaces[copy.name]
+            space.changed |= self.spaces[copy.source].changed
             seen: set[str] = set()
             for argument in copy.arguments:
                 if argument.name not in space.settings:
@@ -252,8 +254,9 @@ class _Compiler:
     def _setting(self, space: str, name: str, offset: int) -> _Bound | None:
         """The value of a setting: looked up in its namespace; settings may use each other, but not in a circle."""
         home = self.spaces[space]
-        if name in home.changed:
-            return home.changed[name]
+        for values in (home.changed, home.known):
+            if name in values:
+                return values[name]
         if (space, name) in self.settling:
             self.fault(offset, f"the setting {name!r} needs itself for its own value")
             return None
@@ -263,7 +266,7 @@ class _Compiler:
         finally:
             self.settling.pop()
         if value is not None:
-            home.changed[name] = value
+            home.known[name] = value
         return value
 
     def _value(self, expression: Expression, scope: _Scope) -> _Bound | None:
@@ -368,6 +371,11 @@ class _Compiler:
         for space in places:
             if name.text in self.spaces[space].rules:
                 return space, self.spaces[space].rules[name.text]
+        settings = any(name.text in self.spaces[space].settings for space in places)
+        if settings and not name.space:
+            if name.arguments is not None:
+                self.fault(name.offset, f"{name.text!r} is a setting: it takes no values in parentheses")
+            return None  # else its value has had a fault of its own
         if name.text not in self.unread:
             known = [rule for space in dict.fromkeys(places) for rule in self.spaces[space].rules]
             known += [*scope.parameters, *self.spaces[scope.space].settings] if not name.space else []
@@ -534,9 +542,9 @@ def _checked(param: Param, value: _Bound, index: Mapping[_Key, int]) -> tuple[Va
         case Kind.LEVEL, float() if value >= 0 and value == int(value) and value < 2**24:
             return int(value), ""
         case ((Kind.SIZE | Kind.WEIGHT | Kind.NUMBER), float()) if (
-            not isfinite(value) or abs(value) > _LARGEST
+            not isfinite(value) or abs(value) > MAX_HALF
         ):
-            return None, f"a number that 16 bits can hold, at most {_LARGEST:g}"
+            return None, f"a number that 16 bits can hold, at most {MAX_HALF:g}"
         case ((Kind.SIZE | Kind.WEIGHT), float()) if 0 < value < _SMALLEST:
             return None, f"a number that 16 bits can hold, at least {_SMALLEST:g}"
         case Kind.SIZE, float() if value > 0:

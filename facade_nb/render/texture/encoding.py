@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .limits import MAX_EXACT
+from .limits import MAX_EXACT, MAX_HALF
 from .operators import BY_CODE, Kind, Operator, Param
 from .program import Rule, Source, Value, tile_names
 
@@ -68,7 +68,8 @@ class Encoding:
             f"of a texture of {width} × {height} with 4 channels of {self.bits} bits"
         )
         if self.bits == 32:
-            text += f": it holds numbers above {MAX_EXACT}, up to which 16 bits are exact"
+            text += f": it has whole numbers above {MAX_EXACT}, up to which 16 bits are exact,"
+            text += f" or sums above {MAX_HALF:g}"
         return text
 
 
@@ -80,8 +81,10 @@ def encode(rules: Sequence[Rule]) -> Encoding:
     numbers = {tile: k for k, tile in enumerate(tiles, 1)}
     records = [list(_records(rule, positions, numbers)) for rule in rules]
     height = positions[-1][1] + 1 if positions else 1
-    wide = max(width, height, *(_largest(rule, numbers) for rule in rules)) if rules else 1
-    texture = np.zeros((height, width, 4), np.float16 if wide <= MAX_EXACT else np.float32)
+    whole = max(width, height, *(_largest(rule, numbers) for rule in rules)) if rules else 1
+    sums = max((abs(value) for channels in records for value in channels), default=0.0)
+    narrow = whole <= MAX_EXACT and sums <= MAX_HALF
+    texture = np.zeros((height, width, 4), np.float16 if narrow else np.float32)
     for (x, y), channels in zip(positions, records, strict=True):
         texture[y, x : x + len(channels) // 4] = np.reshape(channels, (-1, 4))
     texture.setflags(write=False)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .atlas import Atlas
-from .batch import Batch, Floats
+from .batch import Batch, Floats, joined
 from .encoding import Record
 from .limits import MAX_STEPS
 from .noise import Seed, look_up, steps_of
@@ -171,7 +171,7 @@ class _Run:
         """Take points from a rule to their terminals, but for layers further below."""
         waiting = [(rule, batch)]
         while waiting:
-            rule, batch = waiting.pop()
+            rule, batch = self._next(waiting)
             batch = self._count(batch)
             if not len(batch):
                 continue
@@ -195,6 +195,15 @@ class _Run:
                     waiting += self._intrusion(rule, record, batch)
                 case _:
                     self._material(rule, record, batch)
+
+    def _next(self, waiting: list[tuple[int, Batch]]) -> tuple[int, Batch]:
+        """A rule and the points at it. Recursion would part them ever more, so those that meet again are joined."""
+        if not self.question.recurs:
+            return waiting.pop()
+        rule, batch = waiting.pop(0)
+        same = [k for k, (other, met) in enumerate(waiting) if other == rule and met.way == batch.way]
+        batches = [waiting.pop(k)[1] for k in reversed(same)]
+        return rule, joined([batch, *batches]) if batches else batch
 
     def _count(self, batch: Batch) -> Batch:
         """The points that may take one more step: a point that has taken too many, or has no scope left, ends."""

@@ -96,43 +96,30 @@ class Exhibit:
 
 def street(grammar: Grammar, seed: tuple[float, float] = (0.0, 0.0)) -> list[Facade]:
     """Houses on both sides of a street, from a grammar with the rules `Side` and `Roof`."""
-    facades: list[Facade] = []
     widths = (17.5, 13.0, 15.5, 18.5, 12.5, 16.0, 14.0)
     heights = (15.0, 18.3, 11.7, 15.0, 18.3, 11.7, 15.0)
-    x = -62.0
-    for k, (width, height) in enumerate(zip(widths, heights, strict=True)):
-        place = (x + width / 2, 0.0)
-        facades += box(
-            grammar,
-            width,
-            height,
-            11.0,
-            at=place,
-            seed=(seed[0] + 31.7 * k, seed[1] + 5.3 * k),
-            roof=3.6,
-            side="Side",
-            gable="Gable",
-            cover="Roof",
-        )
-        x += width
-    x = -62.0
-    for k, (width, height) in enumerate(zip(widths[::-1], heights[::-1], strict=True)):
-        place = (x + width / 2, 17.0)
-        seeds = (seed[0] - 23.1 * k, seed[1] + 7.9 * k + 40)
-        facades += box(
-            grammar,
-            width,
-            height,
-            11.0,
-            at=place,
-            turn=180.0,
-            seed=seeds,
-            roof=3.6,
-            side="Side",
-            gable="Gable",
-            cover="Roof",
-        )
-        x += width
+    rows = (
+        (widths, heights, 0.0, 0.0, (31.7, 5.3), 0.0),
+        (widths[::-1], heights[::-1], 17.0, 180.0, (-23.1, 7.9), 40.0),
+    )
+    facades: list[Facade] = []
+    for wide, high, z, turn, (seed_x, seed_y), more in rows:
+        x = -62.0
+        for k, (width, height) in enumerate(zip(wide, high, strict=True)):
+            facades += box(
+                grammar,
+                width,
+                height,
+                11.0,
+                at=(x + width / 2, z),
+                turn=turn,
+                seed=(seed[0] + seed_x * k, seed[1] + seed_y * k + more),
+                roof=3.6,
+                side="Side",
+                gable="Gable",
+                cover="Roof",
+            )
+            x += width
     return facades
 
 
@@ -188,15 +175,17 @@ def _tenth() -> tuple[tuple[View, ...], ...]:
     along = Camera(azimuth=-62, height=1.8, angle=62, fill=1.0)
     near = Camera(azimuth=-24, height=6.0, angle=44, fill=1.0)
     return (
-        (View((1300, 620), seed=(4.6, 2.1), hour=9.0, camera=far, street=True),),
+        (View((1300, 620), seed=(10.6, 2.4), hour=9.0, camera=far, street=True),),
         (
-            View((645, 520), seed=(4.6, 2.1), hour=11.0, camera=along, frame=(3, 0, 40, 12), street=True),
-            View((645, 520), seed=(4.6, 2.1), hour=9.5, camera=near, frame=(2.6, 4.4, 8.0, 8.4), street=True),
+            View((645, 520), seed=(10.6, 2.4), hour=11.0, camera=along, frame=(3, 0, 40, 12), street=True),
+            View(
+                (645, 520), seed=(10.6, 2.4), hour=9.5, camera=near, frame=(5.4, 4.4, 10.8, 8.4), street=True
+            ),
         ),
         (
-            View((645, 520), seed=(4.6, 2.1), hour=21.0, camera=along, frame=(3, 0, 40, 12), street=True),
+            View((645, 520), seed=(10.6, 2.4), hour=21.0, camera=along, frame=(3, 0, 40, 12), street=True),
             View(
-                (645, 520), seed=(4.6, 2.1), hour=21.2, camera=near, frame=(2.6, 4.4, 8.0, 8.4), street=True
+                (645, 520), seed=(10.6, 2.4), hour=21.2, camera=near, frame=(5.4, 4.4, 10.8, 8.4), street=True
             ),
         ),
     )

@@ -43,10 +43,12 @@ class GlPainter:
         Says why there can be no context here; empty where there may be one.
     make
         Makes one: a `moderngl.Context`.
+    install
+        The command that installs what it needs on Debian or Ubuntu.
     """
 
-    def __init__(self, name: str, missing: Callable[[], str], make: Callable[[], Any]) -> None:
-        self.name, self._missing, self._make = name, missing, make
+    def __init__(self, name: str, missing: Callable[[], str], make: Callable[[], Any], install: str) -> None:
+        self.name, self._missing, self._make, self._install = name, missing, make, install
         self._lock = threading.RLock()
         self._atlases: dict[int, tuple[Atlas, dict[str, Any]]] = {}
         self._programs: dict[tuple[str, int, int, tuple[str, ...]], Any] = {}
@@ -70,7 +72,10 @@ class GlPainter:
             with self._lock:
                 self._context  # noqa: B018 (made here)
         except Exception as error:
-            return f"{self.name}: no OpenGL 3.3 context can be made ({error}); the backend 'cpu' works everywhere"
+            return (
+                f"{self.name}: no OpenGL 3.3 context can be made ({error}); a driver may be missing; on Debian or "
+                f"Ubuntu: {self._install}; the backend 'cpu' works everywhere"
+            )
         return ""
 
     @property
@@ -230,12 +235,15 @@ def _shot(
 # Platforms --------------------------------------------------------------------------------------------------
 
 
+_INSTALL_OSMESA = "sudo apt-get install --no-install-recommends libosmesa6 libgl1"
+_INSTALL_EGL = "sudo apt-get install --no-install-recommends libegl1 libgl1-mesa-dri"
+
+
 def _no_osmesa() -> str:
     if not sys.platform.startswith("linux"):
         return f"works on Linux only, and this is {sys.platform}; the backend 'cpu' works everywhere"
     if find_osmesa() is None:
-        install = "sudo apt-get install --no-install-recommends libosmesa6 libgl1"
-        return f"no OSMesa found; on Debian or Ubuntu: {install}"
+        return f"no OSMesa found; on Debian or Ubuntu: {_INSTALL_OSMESA}"
     return ""
 
 
@@ -255,7 +263,7 @@ def _no_egl() -> str:
             raise OSError
         ctypes.CDLL(name)
     except OSError:
-        return "no EGL found; on Debian or Ubuntu: sudo apt-get install --no-install-recommends libegl1 libgl1-mesa-dri"
+        return f"no EGL found; on Debian or Ubuntu: {_INSTALL_EGL}"
     return ""
 
 
@@ -266,5 +274,5 @@ def _make_egl() -> Any:
     return moderngl.create_context(standalone=True, require=330, **options)
 
 
-OSMESA = GlPainter("osmesa", _no_osmesa, _make_osmesa)
-EGL = GlPainter("egl", _no_egl, _make_egl)
+OSMESA = GlPainter("osmesa", _no_osmesa, _make_osmesa, _INSTALL_OSMESA)
+EGL = GlPainter("egl", _no_egl, _make_egl, _INSTALL_EGL)

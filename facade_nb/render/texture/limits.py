@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["MAX_EXACT", "MAX_FACES", "MAX_FRAMES", "MAX_SEEDS", "MAX_STEPS"]
+__all__ = ["MAX_EXACT", "MAX_FACES", "MAX_FRAMES", "MAX_HALF", "MAX_SEEDS", "MAX_STEPS"]
 
 MAX_FRAMES = 12
 """Layer operators inside each other, of which layers are still to come."""
@@ -18,3 +18,6 @@ MAX_STEPS = 1024
 
 MAX_EXACT = 2048
 """The largest whole number up to which a 16-bit float holds every one."""
+
+MAX_HALF = 65504.0
+"""The largest number that a 16-bit float holds."""

@@ -19,9 +19,9 @@ from ..camera import Camera, View
 from ..daylight import floats
 from ..developing import binned, developed
 from ..surfaces import linear
-from .daytime import Daytime, light
+from .daytime import STREET_LAMP, Daytime, light
 from .evaluating import OPAQUE
-from .facades import Facade, Hits, meet, sees
+from .facades import Facade, Hits, meet, sees, stretches
 from .grammar import Grammar
 from .painters import choose_painter
 from .picture import texture_pixels
@@ -82,9 +82,11 @@ def photograph(facades: Sequence[Facade], photo: Photo = Photo()) -> NDArray[np.
     daytime = Daytime.at(photo.hour)
     large = (photo.pixels[0] * photo.samples, photo.pixels[1] * photo.samples)
     view = photo.camera.look(_aimed(facades, photo), large)
-    rays = view.rays(large).reshape(-1, 3)
+    order = _blocks(large)
+    rays = view.rays(large).reshape(-1, 3)[order]
     painter = choose_painter(photo.backend)
-    seen = developed(_seen(facades, view, rays, daytime, large, painter), daytime.exposure)
+    seen = np.empty_like(rays)
+    seen[order] = developed(_seen(facades, view, rays, daytime, large, painter), daytime.exposure)
     small = binned(seen.reshape(large[1], large[0], 3), photo.samples)
     return (np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8)
 
@@ -118,10 +120,18 @@ def save_picture(pixels: NDArray[np.uint8], path: str | Path) -> None:
 
     stream = BytesIO()
     if str(path).lower().endswith((".jpg", ".jpeg")):
-        Image.fromarray(pixels).save(stream, "JPEG", quality=88, optimize=True)
+        Image.fromarray(pixels).save(stream, "JPEG", quality=88, optimize=True, progressive=True)
     else:
         Image.fromarray(pixels).save(stream, "PNG")
     write_atomically(path, stream.getvalue())
+
+
+def _blocks(pixels: tuple[int, int], side: int = 64) -> NDArray[np.intp]:
+    """Pixels block by block, so that those that stand together are near each other in the picture."""
+    width, height = pixels
+    column, row = np.arange(width) // side, np.arange(height) // side
+    block = (row[:, None] * (width // side + 1) + column).ravel().astype(np.int32)
+    return np.argsort(block, kind="stable")
 
 
 def _aimed(facades: Sequence[Facade], photo: Photo) -> NDArray[np.float64]:
@@ -135,6 +145,12 @@ def _aimed(facades: Sequence[Facade], photo: Photo) -> NDArray[np.float64]:
 def _world(facade: Facade, x: float, y: float) -> NDArray[np.float64]:
     return np.array(facade.origin) + x * np.array(facade.right) + y * np.array(facade.up)
 
+
+_FOOT = 9.0
+"""Metres from a wall beyond which it no longer darkens the ground (by less than one of 255)."""
+
+_PAVEMENT, _KERB = 3.2, 0.16
+"""Width of the pavement and of its kerb, metres."""
 
 _THROUGH = 4
 """How many façades, one behind the other, are looked through where they are transparent."""
@@ -213,7 +229,7 @@ def _backdrop(facades: Sequence[Facade], eye: Floats, rays: Floats, daytime: Day
 
 
 def _add_ground(seen: Floats, facades: Sequence[Facade], eye: Floats, rays: Floats, daytime: Daytime) -> None:
-    """The ground: pavement in front of the façades, fading into the haze."""
+    """The ground, fading into the haze: slabs; before houses a pavement of them, a kerb, and asphalt beyond."""
     down = np.minimum(rays[:, 1], np.float32(-1e-6))
     distance = np.where(rays[:, 1] < 0, -eye[1] / down, np.inf).astype(np.float32)
     at = np.flatnonzero(distance < 4000)
@@ -221,22 +237,49 @@ def _add_ground(seen: Floats, facades: Sequence[Facade], eye: Floats, rays: Floa
         return
     points = eye + distance[at, None] * rays[at]
     free = sees(facades, points, floats(daytime.towards)).astype(np.float32)
-    close = np.ones(len(at), np.float32)
-    for facade in facades:
-        if (
-            facade.up[1] > 0.99 and facade.origin[1] < 0.5
-        ):  # the foot of a wall takes light from the ground before it
-            local = (points - floats(facade.origin)) @ facade.axes.T
-            aside = np.maximum(np.maximum(-local[:, 0], local[:, 0] - facade.size[0]), 0)
-            away = np.where(local[:, 2] > 0, np.hypot(aside, local[:, 2]), 50)
-            close *= 1 - 0.42 * np.exp(-away / 1.1)
-    slabs = _slabs(points, distance[at] * 0.002)
-    albedo = linear(floats([0.60, 0.585, 0.56])) * slabs[:, None]
-    lamp = daytime.lamps * 0.10 * floats([1.0, 0.70, 0.40])
+    close, away = _close(facades, points)
+    blur = distance[at] * 0.002
+    if len(facades) == 1:
+        away = np.zeros_like(away)  # a façade alone stands on a square
+    paved = _step_down(away, _PAVEMENT, blur)[:, None]
+    kerb = _step_down(away, _PAVEMENT + _KERB, blur)[:, None] - paved
+    slabs = _slabs(points, blur)[:, None]
+    albedo = slabs * paved * linear(floats([0.60, 0.585, 0.56])) + kerb * linear(floats([0.68, 0.67, 0.65]))
+    albedo += (1 - paved - kerb) * linear(floats([0.44, 0.44, 0.45]))
+    lamp = daytime.lamps * 0.10 * floats(STREET_LAMP)
     sun = (daytime.towards[1] * free)[:, None] * floats(daytime.sun)
     lit = albedo * (sun + close[:, None] * (0.9 * floats(daytime.sky) + lamp))
     haze = np.clip((distance[at] - 40) / 400, 0, 1)[:, None] ** 0.7
     seen[at] = lit + (floats(daytime.horizon) - lit) * haze
+
+
+def _close(facades: Sequence[Facade], points: Floats) -> tuple[Floats, Floats]:
+    """What walls do to ground points (n, 3): how much of the sky they leave, and how far the nearest one is, metres.
+
+    The foot of a wall takes some sky from the ground before it. Walls beyond `_FOOT` are infinitely far.
+    """
+    close = np.ones(len(points), np.float32)
+    nearest = np.full(len(points), np.inf, np.float32)
+    walls = [one for one in facades if one.up[1] > 0.99 and one.origin[1] < 0.5]
+    middles = np.array([_world(one, one.size[0] / 2, 0) for one in walls]).reshape(-1, 3)
+    reach = np.array([one.size[0] / 2 for one in walls]) + _FOOT
+    for part in stretches(len(points)):
+        own = points[part]
+        low, high = own.min(axis=0), own.max(axis=0)
+        apart = np.maximum(np.maximum(low - middles, middles - high), 0)
+        for k in np.flatnonzero(np.hypot(apart[:, 0], apart[:, 2]) < reach):
+            local = (own - floats(walls[k].origin)) @ walls[k].axes.T
+            aside = np.maximum(np.maximum(-local[:, 0], local[:, 0] - walls[k].size[0]), 0)
+            away = np.hypot(aside, local[:, 2])
+            nearest[part] = np.minimum(nearest[part], away)
+            close[part] *= 1 - 0.42 * np.exp(-np.where(local[:, 2] > 0, away, 50) / 1.1)
+    return close, nearest
+
+
+def _step_down(values: Floats, at: float, blur: Floats) -> Floats:
+    """1 below a value, 0 above it, with a slope as wide as a pixel: (n,)."""
+    result: Floats = np.clip((at - values) / np.maximum(blur, np.float32(1e-3)) + np.float32(0.5), 0, 1)
+    return result
 
 
 def _slabs(points: Floats, blur: Floats) -> Floats:

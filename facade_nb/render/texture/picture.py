@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
 
@@ -23,6 +24,8 @@ __all__ = ["MAX_PIXELS", "png", "render_texture", "rules_seen", "texture_pixels"
 
 MAX_PIXELS = 1 << 26
 """The largest picture, in pixels."""
+
+_PART_PIXELS, _PART_SIDE = 1 << 20, 8192
 
 
 def render_texture(
@@ -115,8 +118,10 @@ def texture_pixels(
     painter: Painter = choose_painter(backend)
     if hour is not None:
         painter = Lit(painter, Daytime.at(hour))
-    color = smoothed(painter, question, sight, antialias)
-    return _bytes(color).reshape(sight.pixels[1], sight.pixels[0], 4)
+    image = np.empty((sight.pixels[1], sight.pixels[0], 4), np.uint8)
+    for where, part in _parts(sight):
+        image[where] = _bytes(smoothed(painter, question, part, antialias)).reshape(*image[where].shape)
+    return image
 
 
 def rules_seen(
@@ -133,8 +138,11 @@ def rules_seen(
     """(h, w) int32, row 0 at the top: the topmost terminal rule that gave colour at each pixel's centre; -1: none."""
     sight = _sight(size, pixels, camera)
     question = grammar.question(size, seed, start, tiles)
-    rule = choose_painter(backend).paint(question, sight, color_only=True).surface.rule
-    return rule.reshape(sight.pixels[1], sight.pixels[0])
+    painter = choose_painter(backend)
+    rules = np.empty((sight.pixels[1], sight.pixels[0]), np.int32)
+    for where, part in _parts(sight):
+        rules[where] = painter.paint(question, part, color_only=True).surface.rule.reshape(rules[where].shape)
+    return rules
 
 
 def png(image: NDArray[np.uint8]) -> bytes:
@@ -155,6 +163,18 @@ def _sight(size: tuple[float, float], pixels: tuple[int, int], camera: Camera | 
     if isinstance(camera, Sight):
         return camera
     return Sight.flat(size, pixels) if camera is None else Sight.through(camera, size, pixels)
+
+
+def _parts(sight: Sight) -> Iterator[tuple[tuple[slice, slice], Sight]]:
+    """A picture in parts that fit memory and what a graphics card draws at once, with their places in it."""
+    width, height = sight.pixels
+    across = min(width, _PART_SIDE)
+    up = max(1, min(_PART_SIDE, _PART_PIXELS // across))
+    for top in range(0, height, up):
+        for left in range(0, width, across):
+            wide, tall = min(across, width - left), min(up, height - top)
+            part = sight if (wide, tall) == (width, height) else sight.crop(left, top, wide, tall)
+            yield (slice(top, top + tall), slice(left, left + wide)), part
 
 
 def _bytes(color: NDArray[np.float32]) -> NDArray[np.uint8]:

@@ -46,7 +46,7 @@ __all__ = [
 _GRAMMAR = r"""
 start: (rule | setting | namespace | copy)*
 namespace: NAMESPACE NAME "{" (rule | setting)* "}" _end
-copy: NAMESPACE NAME "=" NAME named _end
+copy: NAMESPACE NAME "=" NAME [named] _end
 setting: NAME "=" expression _end
 rule: NAME parameters ARROW NAME arguments _end
 _end: ";"*
@@ -363,7 +363,7 @@ class _Build(Transformer[Token, Any]):
 
     def copy(self, items: list[Any]) -> Copy:
         _, name, source, arguments = items
-        return Copy(str(name), str(source), source.start_pos or 0, arguments, name.start_pos or 0)
+        return Copy(str(name), str(source), source.start_pos or 0, arguments or (), name.start_pos or 0)
 
     def parameters(self, items: list[Any]) -> tuple[Parameter, ...]:
         return tuple(item for item in items if item is not None)

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from ...design.files import write_atomically
+from ..tables import with_tables
 from .operators import OPERATORS, Kind, Operator
 
 __all__ = ["channel_table", "operator_table", "refresh"]
@@ -47,12 +48,8 @@ def _cell(pixel: tuple[str, ...] | list[str]) -> str:
 
 
 def refresh(text: str) -> str:
-    """The page with its tables, between their markers, made anew."""
-    for marker, table in (("operators", operator_table()), ("channels", channel_table())):
-        head, start, rest = text.partition(f"<!-- {marker} -->\n")
-        _, end, tail = rest.partition(f"<!-- /{marker} -->")
-        text = f"{head}{start}{table}\n{end}{tail}"
-    return text
+    """docs/texture.md with its tables made anew."""
+    return with_tables(text, {"operators": operator_table(), "channels": channel_table()})
 
 
 if __name__ == "__main__":

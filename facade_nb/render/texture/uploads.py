@@ -82,12 +82,11 @@ def uniforms(question: Question) -> dict[str, Any]:
 
 def sight_uniforms(sight: Sight) -> dict[str, Any]:
     """From where it is seen; for ``sight.frag``."""
-    width, height = sight.pixels
-    left, bottom, right, top = (np.float32(v) for v in sight.window)
-    step_x, step_y = (right - left) / np.float32(width), (top - bottom) / np.float32(height)
+    left, bottom = (np.float32(v) for v in sight.window[:2])
+    step_x, step_y = sight.step
     return {
         "window": (float(left), float(bottom), float(step_x), float(step_y)),
-        "pixel_shift": (0.5, 0.5),
+        "pixel_shift": (sight.corner[0] + 0.5, sight.corner[1] + 0.5),
         "eye": (*(sight.eye or (0.0, 0.0, 0.0)), float(sight.eye is not None)),
         "spread": 0.0 if sight.eye is None else float(min(step_x, step_y)),
         "across": sight.right,

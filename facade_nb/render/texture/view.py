@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,6 +56,10 @@ class Sight:
         Where the eye is; None: far away, in front.
     right, ahead
         The camera's axes; with an eye only. Up is up.
+    whole
+        Where this is a crop of a larger picture (see `crop`): that picture's pixels. The window is that of the whole.
+    corner
+        Column and row of the crop's lower left pixel in it, from its lower left corner.
     """
 
     size: tuple[float, float]
@@ -64,6 +68,8 @@ class Sight:
     eye: tuple[float, float, float] | None = None
     right: tuple[float, float, float] = (1.0, 0.0, 0.0)
     ahead: tuple[float, float, float] = (0.0, 0.0, -1.0)
+    whole: tuple[int, int] | None = None
+    corner: tuple[int, int] = (0, 0)
 
     @classmethod
     def flat(cls, size: tuple[float, float], pixels: tuple[int, int]) -> Sight:
@@ -107,6 +113,18 @@ class Sight:
         up = (target[1] - eye[1]) / reach
         return cls(size, pixels, (-half, up - tall, half, up + tall), eye, (-ahead[2], 0.0, ahead[0]), ahead)
 
+    def crop(self, left: int, top: int, width: int, height: int) -> Sight:
+        """A part of the picture, in pixels from its upper left corner: each shows what it shows in the whole."""
+        corner = (self.corner[0] + left, self.corner[1] + self.pixels[1] - top - height)
+        return replace(self, pixels=(width, height), whole=self.whole or self.pixels, corner=corner)
+
+    @property
+    def step(self) -> tuple[np.float32, np.float32]:
+        """What a pixel takes of the window, across and up."""
+        left, bottom, right, top = (np.float32(v) for v in self.window)
+        width, height = self.whole or self.pixels
+        return (right - left) / np.float32(width), (top - bottom) / np.float32(height)
+
     def looks(self, chosen: NDArray[np.intp] | None = None, shift: tuple[float, float] = (0.5, 0.5)) -> Looks:
         """What pixels look at: all, or those of the numbers `chosen` (row by row from the top).
 
@@ -114,10 +132,10 @@ class Sight:
         """
         width, height = self.pixels
         number = np.arange(width * height) if chosen is None else chosen
-        left, bottom, right, top = (np.float32(v) for v in self.window)
-        column = (number % width).astype(np.float32) + np.float32(shift[0])
-        row = (height - 1 - number // width).astype(np.float32) + np.float32(shift[1])
-        step_x, step_y = (right - left) / np.float32(width), (top - bottom) / np.float32(height)
+        left, bottom = (np.float32(v) for v in self.window[:2])
+        column = (self.corner[0] + number % width).astype(np.float32) + np.float32(shift[0])
+        row = (self.corner[1] + height - 1 - number // width).astype(np.float32) + np.float32(shift[1])
+        step_x, step_y = self.step
         u, v = left + column * step_x, bottom + row * step_y
         if self.eye is None:
             points, rays = np.stack([u, v], axis=1), None

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from pathlib import Path
 
 from ...design.files import write_atomically
+from ..tables import with_tables
 from .sheet import sheet, table
 from .tileset import TileSet
 
@@ -19,11 +19,8 @@ def main(folder: Path) -> None:
     print(picture)
     page = folder / "tiles.md"
     if page.exists():
-        text = page.read_text(encoding="utf-8")
-        marked = f"<!-- tiles -->\n{table()}<!-- /tiles -->"
-        write_atomically(
-            page, re.sub(r"<!-- tiles -->.*<!-- /tiles -->", lambda _: marked, text, flags=re.DOTALL)
-        )
+        text = with_tables(page.read_text(encoding="utf-8"), {"tiles": table().rstrip("\n")})
+        write_atomically(page, text)
         print(page)
 
 

@@ -13,6 +13,8 @@ from PIL import Image
 
 from facade_nb.cli import main
 from facade_nb.render import Grammar
+from facade_nb.render.texture import Sight, rules_seen
+from facade_nb.render.texture.picture import texture_pixels
 
 from .figure_12 import FIGURE_12
 
@@ -93,6 +95,35 @@ class TestDone:
         assert (seen[20] == 2).sum() == pytest.approx(2 * left, abs=1)
         assert seen[20, 19] == 2 and seen[20, 0] == -1 and seen[25, 39] == 3
 
+    @pytest.mark.parametrize("backend", ["cpu", "osmesa"])
+    def test_a_picture_wider_than_a_graphics_card_draws(
+        self, backend: str, grammar: Path, tmp_path: Path
+    ) -> None:
+        out, rules = tmp_path / "a.png", tmp_path / "a.npy"
+        words = ["--size", "4x2", "--pixels", "20000x2", "--backend", backend, "--out", out, "--rules", rules]
+        assert render(grammar, *words) == 0
+        assert np.load(rules)[1].tolist() == [2] * 5000 + [3] * 15000
+        image = np.asarray(Image.open(out))
+        assert image[1, [0, 4999, 5000, 19999]].tolist() == [[255, 0, 0, 255]] * 2 + [[0, 255, 0, 128]] * 2
+
+    @pytest.mark.parametrize("backend", ["cpu", "osmesa"])
+    @pytest.mark.parametrize("camera", [None, Sight.from_eye((1, 1.5, 3), (0, 1), (4, 2), (61, 43), 80)])
+    def test_a_picture_in_parts_is_the_picture(
+        self, backend: str, camera: Sight | None, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        from facade_nb.render.texture import picture
+
+        given = {"size": (4.0, 2.0), "pixels": (61, 43), "camera": camera, "backend": backend}
+        whole, rules = texture_pixels(Grammar.parse(TEXT), **given), rules_seen(Grammar.parse(TEXT), **given)
+        monkeypatch.setattr(picture, "_PART_PIXELS", 300)
+        monkeypatch.setattr(picture, "_PART_SIDE", 29)
+        assert (texture_pixels(Grammar.parse(TEXT), **given) == whole).all()
+        assert (rules_seen(Grammar.parse(TEXT), **given) == rules).all()
+
+    def test_signs_of_numbers(self, grammar: Path, tmp_path: Path) -> None:
+        words = ["--size", "4x2", "--pixels", "2x2", "--seed", "-.5,-1", "--out", tmp_path / "a.png"]
+        assert render(grammar, *words) == 0
+
     def test_tiles_of_a_folder(self, tmp_path: Path) -> None:
         folder = tmp_path / "tiles"
         folder.mkdir()
@@ -158,6 +189,8 @@ class TestInputAtFault:
             ["--out", "a.png"],
             ["--size", "12", "--out", "a.png"],
             ["--size", "0x9", "--out", "a.png"],
+            ["--size", "-12x9", "--out", "a.png"],
+            ["--size", "12x9", "--out", "a.png", "--rules", "./a.png"],
             ["--size", "nanx9", "--out", "a.png"],
             ["--size", "12x9", "--pixels", "8.5x6", "--out", "a.png"],
             ["--size", "12x9", "--pixels", "99999x99999", "--out", "a.png"],

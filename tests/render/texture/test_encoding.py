@@ -108,11 +108,20 @@ class TestSize:
         parts = ", ".join(["A"] * 2049)
         grammar = Grammar.parse(f"S -> RandUni(0, {parts})\nA -> Skip(0)")
         assert grammar.texture().dtype == np.float32
-        assert "channels of 32 bits: it holds numbers above 2048" in grammar.report()
+        assert "channels of 32 bits: it has whole numbers above 2048" in grammar.report()
         assert grammar.texture()[0, 0].tolist() == [6, 2049, 0, 0]
         assert decode(grammar.texture())[0].targets() == (1,) * 2049
         assert Grammar.parse("S -> Skip(3000)").texture().dtype == np.float32
         assert Grammar.parse("S -> Skip(2048)").texture().dtype == np.float16
+
+    @pytest.mark.parametrize("policy", ["Abs", "Rel"])
+    def test_sums_beyond_16_bits_take_32(self, policy: str) -> None:
+        grammar = Grammar.parse(
+            f"S -> SplitX({policy}, 40000, A, {policy}, 30000, B)\nA -> Skip(0)\nB -> Skip(0)"
+        )
+        assert grammar.texture().dtype == np.float32
+        assert sorted(grammar.texture()[0, 0].tolist()) == [0, 2, 3, 70000]
+        assert "sums above 65504" in grammar.report()
 
     def test_positions_are_exact_in_a_large_grammar(self) -> None:
         text = "\n".join(f"R{k} -> RandStack(R{k + 1})" for k in range(11))

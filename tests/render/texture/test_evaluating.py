@@ -268,6 +268,23 @@ class TestRecursion:
         steps = "S -> SplitX(Abs, 0.25, R, Abs, 0.25, G, Rel, 1, S)"
         assert rule_at(steps, (0.2, 1), (0.3, 1), (5.6, 1), (5.9, 1)) == ["R", "G", "R", "G"]
 
+    def test_points_that_recursion_parts_are_joined_again(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """Else each of the 2000 points would soon be a batch of its own, for 40 steps and more."""
+        from facade_nb.render.texture.evaluating import _Run
+
+        counted = []
+        real = _Run._count
+        monkeypatch.setattr(_Run, "_count", lambda run, batch: counted.append(1) or real(run, batch))
+        text = "S -> SplitX(Rel, 1, T, Rel, 1, U)\nT -> SplitY(Rel, 1, S, Rel, 1, S)\nU -> SplitY(Rel, 1, S, Rel, 1, V)"
+        text += "\nV -> RandStack(W)\nW -> RandUni(1, R, G)"
+        places = points(2000)
+        found = Grammar.parse(f"{text}\n{COLOURS}", stand_in()).evaluate(places, SIZE, (1, 2))
+        assert len(counted) < 3000
+        for k in range(0, 2000, 97):
+            alone = Grammar.parse(f"{text}\n{COLOURS}", stand_in()).evaluate(places[k : k + 1], SIZE, (1, 2))
+            assert alone.rule[0] == found.rule[k]
+        assert len(set(found.rule.tolist())) > 1
+
     def test_steps_are_bounded(self) -> None:
         tiny = "S -> SplitX(Abs, 0.001, R, Rel, 1, S)"
         assert rule_at(tiny, (0.5, 1), (5, 1)) == ["R", "-"]

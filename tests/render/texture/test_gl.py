@@ -16,17 +16,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from PIL import Image
 
 from facade_nb.render import Grammar
 from facade_nb.render.backends import BackendError
 from facade_nb.render.texture import OPERATORS, Surface
 from facade_nb.render.texture.evaluating import Question, evaluate
+from facade_nb.render.texture.facades import Facade, meet
 from facade_nb.render.texture.gl import EGL, OSMESA, GlPainter
 from facade_nb.render.texture.painters import PAINTERS, choose_painter
 from facade_nb.render.texture.picture import render_texture
 from facade_nb.render.texture.shaders import PROFILES, shader
 from facade_nb.render.texture.steps import Chosen, Painted, Passed, Step
 from facade_nb.render.texture.view import Looks, Sight
+from facade_nb.render.tiles import TileSet
 
 from .brute import answer
 from .figure_12 import FIGURE_12
@@ -250,6 +253,72 @@ class TestSizesOfTiles:
         mean = stand_in().image("wall1").astype(float).mean(axis=(0, 1)) / 255
         assert np.abs(shot.surface.color - mean).max() < 0.01
 
+    @pytest.mark.parametrize("backend", ["osmesa", "cpu"])
+    @pytest.mark.parametrize("source", ["Rep:{}, 0.3, 0.2, 1.5, -2.5", "Fit:{}, 0, 0, 1, 1"])
+    @pytest.mark.parametrize("side", [32, 128])
+    def test_neighbours_in_the_atlas_do_not_bleed(
+        self, side: int, source: str, backend: str, tmp_path: Path
+    ) -> None:
+        """Plain red beside plain green: at every size of the tiles, also along the wall, each stays what it is."""
+        plain = {"red": (255, 0, 0), "green": (0, 255, 0)}
+        for name, colour in plain.items():
+            Image.new("RGB", (side, side), colour).save(tmp_path / f"{name}.png")
+        tiles = TileSet.from_folder(tmp_path, builtin=False, size=side)
+        text = "S -> RepeatX(2, Two)\nTwo -> SplitX(Rel, 1, R, Rel, 1, G)\n"
+        text += f"R -> Mat(Color, {source.format('red')})\nG -> Mat(Color, {source.format('green')})"
+        size = (64.0, 40.0)
+        grammar = Grammar.parse(text, tiles)
+        question = grammar.question(size)
+        left, bottom, width, height = question.atlas.table[:, 0].T
+        assert (width == side).all() and (height == side).all()
+        assert left[0] == left[1] and abs(bottom[0] - bottom[1]) == side  # one upon the other, no gap between
+        wanted = np.zeros((2, 4), np.float32)
+        wanted[:, 3] = wanted[0, 0] = wanted[1, 1] = 1
+        levels: set[int] = set()
+        sights = [Sight.flat(size, (w, round(w / 1.6))) for w in (640, 320, 160, 80, 40, 16, 5)]
+        sights += [Sight.from_eye((-1.0, 9.0, z), (60.0, 9.0), size, (160, 90), 60) for z in (0.05, 0.3, 2.0)]
+        for sight in sights:
+            shot = PAINTERS[backend].paint(question, sight, mips=True)
+            seen = shot.surface.rule >= 0
+            assert seen.any()
+            part = (shot.surface.rule[seen] == grammar.index("G")).astype(int)
+            assert np.abs(shot.surface.color[seen] - wanted[part]).max() < 1e-6
+            texels = side * np.maximum(sight.looks().footprint, 1e-9) * (1.5 if "Rep" in source else 1)
+            levels |= set(np.floor(np.log2(np.maximum(texels, 1))).astype(int).tolist())
+        assert levels >= set(range(question.atlas.table.shape[1])), levels
+
+    def test_one_program_serves_every_facade(self) -> None:
+        """Size, start rule, seed and axes are inputs: façades that differ in all of them need no other shader."""
+        text = f"{FIGURE_12}\nOther -> RepeatX(1.1, WindowMat)\nRoom -> RepeatX(2, Box)\n"
+        text += "Box -> Intrusion(3, Wall1, Wall2, WindowMat2, Wall3, WindowMat3)"
+        grammar = Grammar.parse(text, stand_in())
+        OSMESA.paint_at(grammar.question((3, 3)), looks(0, (0, 0, -1), 9))
+        programs = dict(OSMESA._programs)
+        random = np.random.Generator(np.random.PCG64(3))
+        seen: set[int] = set()
+        for k, start in enumerate((None, "Other", "Room")):
+            size, seed, angle = (4.5 + 3 * k, 9.25 - 2 * k), (k + 0.5, 0.3 * k), 0.7 * k - 0.4
+            tangent = np.array([np.cos(angle), 0, -np.sin(angle)])
+            normal = np.array([np.sin(angle), 0, np.cos(angle)])
+            corner = random.uniform(-5, 5, 3)
+            points = random.random((300, 2)) * size
+            eye = corner + 3 * tangent + (0, 2, 0) + 5 * normal
+            rays = corner + points[:, :1] * tangent + points[:, 1:] * (0, 1, 0) - eye
+            facade = Facade(grammar, size, tuple(corner), tuple(tangent), seed=seed, start=start)
+            hits = meet([facade], eye.astype(np.float32), rays.astype(np.float32))
+            there = hits.facade == 0
+            local = rays.astype(np.float32) @ facade.axes.T
+            asked = Looks(hits.places, local, np.zeros(300, np.float32), 0.0, there)
+            found = OSMESA.paint_at(grammar.question(size, seed, start), asked).surface.rule
+            for point, ray, rule in zip(points[there], rays[there], found[there], strict=True):
+                own = (float(ray @ tangent), float(ray[1]), float(ray @ normal))
+                wanted = answer(grammar, stand_in(), tuple(point), size, seed, start, own)
+                assert rule == wanted.rule or wanted.margin < 1e-4
+            assert there.mean() > 0.99
+            seen |= set(found.tolist())
+        assert OSMESA._programs == programs
+        assert len(seen) > 5
+
 
 class TestBackends:
     @pytest.mark.parametrize("profile", list(PROFILES))
@@ -284,7 +353,7 @@ class TestBackends:
         from facade_nb.render.texture import gl
 
         monkeypatch.setattr(gl, "find_osmesa", lambda: None)
-        painter = GlPainter("osmesa", gl._no_osmesa, gl._make_osmesa)
+        painter = GlPainter("osmesa", gl._no_osmesa, gl._make_osmesa, gl._INSTALL_OSMESA)
         assert (
             not painter.available and "apt-get install --no-install-recommends libosmesa6" in painter.why_not
         )
@@ -295,8 +364,11 @@ class TestBackends:
         def refuse() -> None:
             raise RuntimeError("no driver")
 
-        assert "can be made (no driver)" in GlPainter("egl", lambda: "", refuse).why_not
-        monkeypatch.setitem(PAINTERS, "egl", GlPainter("egl", lambda: "", refuse))
+        egl = GlPainter("egl", lambda: "", refuse, gl._INSTALL_EGL)
+        assert (
+            "can be made (no driver)" in egl.why_not and "recommends libegl1 libgl1-mesa-dri" in egl.why_not
+        )
+        monkeypatch.setitem(PAINTERS, "egl", egl)
         assert choose_painter().name == "cpu"
 
     def test_egl_agrees(self) -> None:

@@ -129,6 +129,20 @@ class TestCopies:
         assert found["bank.S"].fixed == (4.0, 4)
         assert found["office.Window"].parts[1][2] == found["bank.Window"].parts[1][2] == 7
 
+    def test_a_copy_of_a_copy_has_the_changes_of_both(self) -> None:
+        text = """
+            namespace a { w = 1  h = w * 2
+              S -> RepeatX(w, B)
+              B -> RepeatY(h, Gap) }
+            namespace b = a(w = 5)
+            namespace c = b(h = 7)
+            namespace d = c
+            Gap -> Skip(0)
+        """
+        found = rules(text)
+        sizes = {name: (found[f"{name}.S"].fixed[0], found[f"{name}.B"].fixed[0]) for name in "abcd"}
+        assert sizes == {"a": (1, 2), "b": (5, 10), "c": (5, 7), "d": (5, 7)}
+
     def test_a_setting_may_be_a_rule_and_a_constant(self) -> None:
         text = """
             namespace n { wall = Red  how = Abs
@@ -234,6 +248,7 @@ FAULTS = {
         "namespace a { w = 1\n S -> Skip(w) }\nnamespace b = a(v = 1)", 3, 17, "the namespace 'a' has no setting 'v'",
     ),
     "a setting of itself": ("a = b\nb = a\nS -> Skip(0)", 1, 5, "needs itself"),
+    "values for a setting": ("w = 1\nS -> Layer(w(2))", 2, 12, "'w' is a setting: it takes no values"),
     "a division by 0": ("S -> Skip(1 / 0)", 1, 15, "expected a divisor other than 0"),
     "a number too large": (
         "S -> RepeatX(1e9, A)\nA -> Skip(0)",
@@ -248,6 +263,10 @@ class TestFaults:
         text, line, column, message = FAULTS[case]
         found = [fault for fault in told(text) if message in fault[2]]
         assert [(fault[0], fault[1]) for fault in found][:1] == [(line, column)], told(text)
+
+    @pytest.mark.parametrize("text", ["a = 1 / 0\nS -> Skip(a)", "namespace n { w = 1 / 0\n S -> Skip(w) }"])
+    def test_a_setting_at_fault_is_one_fault(self, text: str) -> None:
+        assert [message for _, _, message in told(text)] == ["expected a divisor other than 0"]
 
     def test_all_are_told_at_once(self) -> None:
         texts = [text for text, *_ in FAULTS.values() if text.startswith("S ->") and "\n" not in text]

@@ -56,6 +56,29 @@ def test_rays_meet_the_nearest_facade_from_its_front() -> None:
     assert len(set(hits.facade)) > 4
 
 
+def test_what_stands_near_is_looked_at_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Stretches of a few rays leave out façades that they cannot meet; the answers stay."""
+    from facade_nb.render.texture import facades as module
+
+    generator = np.random.default_rng(3)
+    facades = [
+        house for k in range(6) for house in box(PLAIN, 3, 4 + k, 3, at=(5 * k - 12, -k), turn=9 * k, roof=1)
+    ]
+    eye, sun = np.float32([1, 2, 14]), np.float32([0.5, 0.4, -0.76])
+    rays = (generator.uniform(-1, 1, (3000, 3)) * (1.2, 0.5, 0) - (0, 0, 1)).astype(np.float32)
+    rays = rays[np.lexsort((rays[:, 1], np.round(rays[:, 0], 1)))]
+    whole = meet(facades, eye, rays)
+    points = (eye + rays * np.where(np.isfinite(whole.distance), whole.distance, 15)[:, None]).astype(
+        np.float32
+    )
+    free = sees(facades, points, sun, whole.facade)
+    monkeypatch.setattr(module, "STRETCH", 16)
+    parts = meet(facades, eye, rays)
+    assert (parts.facade == whole.facade).all() and len(set(whole.facade)) > 10
+    assert parts.places == pytest.approx(whole.places, abs=1e-5)
+    assert (sees(facades, points, sun, whole.facade) == free).all() and 0.1 < free.mean() < 0.9
+
+
 def test_a_house_stands_before_the_sun() -> None:
     wall = [Facade(PLAIN, (4.0, 3.0), (0.0, 0.0, 0.0))]
     sun = np.float32([0, 1, -1]) / np.sqrt(2)  # behind the wall, 45 degrees high
@@ -286,3 +309,24 @@ def test_faults_are_told() -> None:
         photograph([])
     with pytest.raises(ValueError, match=r"expected at least one pixel and sample; found \(0, 4\), 2"):
         photograph([Facade(PLAIN, (1.0, 1.0))], Photo(pixels=(0, 4)))
+
+
+def test_houses_have_a_pavement_and_a_facade_alone_a_square() -> None:
+    """Straight down before a wall: slabs, then the lighter kerb, then darker asphalt; without houses, slabs alone."""
+    from facade_nb.render.texture.photograph import _KERB, _PAVEMENT, _add_ground
+
+    reach = np.float32([1.5, _PAVEMENT + _KERB / 2, 6.0])
+    rays = np.stack([np.full(3, 0.3), np.full(3, -5.0), reach], axis=1).astype(np.float32)
+    house = box(PLAIN, 20, 6, 8)
+    wall = house[0]
+    eye = (np.float32(wall.origin) + np.float32([10, 5, 0])).astype(np.float32)
+
+    def seen(facades: list[Facade]) -> np.ndarray:
+        found = np.zeros((3, 3), np.float32)
+        _add_ground(found, facades, eye, rays, Daytime.at(12.0))
+        return found.mean(axis=1)
+
+    slab, kerb, road = seen(house)
+    assert kerb > 1.1 * slab > 1.4 * road
+    square = seen([wall])
+    assert square.min() > 0.7 * square.max()  # one may be in a joint

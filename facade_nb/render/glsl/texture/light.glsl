@@ -18,7 +18,7 @@ vec3 light(vec4 color, vec4 normal, vec4 specular, vec3 ray, float sees_sun, flo
   vec3 outdoors = facing * sun
     + (0.62 + 0.38 * unit.y) * (1.0 - 0.28 * low) * sky
     + (0.5 - 0.5 * unit.y + 0.35 * low) * ground
-    + lamps.y * exp(-max(height - 2.5, 0.0) / 4.5) * vec3(1.0, 0.70, 0.40);
+    + lamps.y * exp(-max(height - 2.5, 0.0) / 4.5) * vec3(1.0, 0.77, 0.52);
   vec3 lamp = clamp(specular.rgb - outside, 0.0, 1.0) * lamps.x;
   vec3 lit = linear(clamp(color.rgb, 0.0, 1.0)) * (outside * outdoors + (1.0 - outside) * indoors + lamp);
   vec3 between = towards - ray / max(length(ray), 1e-6);
