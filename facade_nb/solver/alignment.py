@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from ..design.errors import NoLayout
-from .clock import Clock
 from .columns import Group, make_group
 from .ida import search_ida
 from .letters import Letter
@@ -20,6 +19,9 @@ __all__ = ["SEARCHES", "Alignment", "Element", "align", "alignment_of"]
 
 Element = tuple[Letter, ...]
 SEARCHES = ("best", "ida")
+
+_NODES = 100_000_000
+"""More paths than there is memory for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +101,7 @@ def align(
         rows, canvas, tolerance, Objective.paper() if objective is None else objective, cuts=cuts
     )
     try:
-        found = (search_ida if search == "ida" else search_best)([group], keep=1, check=Clock(None).check)
+        found = (search_ida if search == "ida" else search_best)([group], keep=1, nodes=_NODES)
     except Stopped:
         found = Found(cut=True)
     if found.cut:
