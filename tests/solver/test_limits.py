@@ -395,7 +395,7 @@ def test_a_layout_depends_on_one_axis_only_where_it_is_edited() -> None:
 
 def test_an_alignment_that_takes_too_much_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Words of placeholders under the paper's objective: where a piece stands costs nothing."""
-    monkeypatch.setattr(compiled, "_MOST", 2**24)
+    monkeypatch.setattr(compiled, "_MOST", 2**25)
     rows = [
         [Letter(s, 1.0 + 0.1 * k, transparent=t) for k, s in enumerate(text)]
         for text, t in (("ABABABABABAB", False), ("CzCoCzCoCz", True), ("DfDfDfDfDf", True))

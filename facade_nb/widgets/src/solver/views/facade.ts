@@ -171,8 +171,9 @@ class FacadeView implements View {
       : "Nothing is placed yet";
   }
 
-  private outlines(keys: ReadonlySet<string>, name: string): SVGElement[] {
-    if (!keys.size) return [];
+  private outlines(told: ReadonlySet<string>, name: string): SVGElement[] {
+    if (!told.size) return [];
+    const keys = this.ofTheLayout(told);
     const { position } = this.context.player;
     const own: SVGElement[] = [];
     const single = [...keys].some((key) => key.startsWith("shape:"));
@@ -199,6 +200,14 @@ class FacadeView implements View {
     );
     for (const each of hidden) own.push(this.rect(`${name} fnb-traced-letter`, this.strip(each)));
     return own;
+  }
+
+  /** The words of another candidate may be the layout's, too; they do not light as the layout's. */
+  private ofTheLayout(told: ReadonlySet<string>): ReadonlySet<string> {
+    const { chosen } = this.context.timeline.data;
+    const own = (["x", "y"] as const).map((axis) => target.candidate(axis, chosen[axis]?.number ?? -1));
+    const other = [...told].some((key) => key.startsWith("candidate:") && !own.includes(key));
+    return other ? new Set([...told].filter((key) => !key.startsWith("word:"))) : told;
   }
 
   private strip(own: PlacedLetter): Box {
