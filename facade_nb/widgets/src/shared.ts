@@ -8,7 +8,9 @@ export abstract class Shared {
   protected readonly views = new Set<() => void>();
   private present = new AbortController();
 
-  protected constructor(protected readonly channel: WidgetModel) {}
+  protected constructor(protected readonly channel: WidgetModel) {
+    keepBytes(channel);
+  }
 
   /** False in a saved notebook without a kernel. */
   get live(): boolean {
@@ -47,6 +49,17 @@ export abstract class Shared {
 
   protected abstract begin(): void;
   protected abstract end(): void;
+}
+
+/** A model is saved with a notebook by way of JSON, in which bytes are lost. anywidget's own model keeps them like this. */
+function keepBytes(channel: WidgetModel): void {
+  channel.serialize = (state) => {
+    for (const [name, value] of Object.entries(state)) {
+      const own = value as { toJSON?: () => unknown } | null;
+      state[name] = typeof own?.toJSON === "function" ? own.toJSON() : structuredClone(value);
+    }
+    return state;
+  };
 }
 
 /** The one `S` of a channel, made when first asked for. */

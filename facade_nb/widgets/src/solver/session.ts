@@ -1,7 +1,6 @@
 // What all views of one trace on a page share: its pieces, the player, the links. There is one session for a channel.
 
-import { announce } from "../presence.ts";
-import type { WidgetModel } from "../types.ts";
+import { oneFor, Shared } from "../shared.ts";
 import { Alternatives } from "./alternatives.ts";
 import { Links } from "./links.ts";
 import { type Moment, visit, watchMoments } from "./moments.ts";
@@ -10,8 +9,6 @@ import { Player } from "./player.ts";
 import { Timeline, type TimelineData } from "./timeline.ts";
 
 const SETTLED = 250; // milliseconds after which Python is told where the player stands
-
-const sessions = new WeakMap<WidgetModel, Session>();
 
 /** A trace that is loaded: another one comes where the model that is followed was solved again. */
 export interface Loaded {
@@ -22,46 +19,15 @@ export interface Loaded {
   alternatives: Alternatives;
 }
 
-export class Session {
-  readonly client = Math.random().toString(36).slice(2);
+export class Session extends Shared {
+  static readonly of = oneFor((channel) => new Session(channel));
+
   private readonly pieces = new Map<string, Promise<unknown>>();
-  private readonly views = new Set<() => void>();
   private loading: Promise<Loaded> | null = null;
   private loaded: AbortController | null = null;
-  private present = new AbortController();
   private telling = 0;
   /** The last position that came from Python or was told to it: -1 is the end. */
   private known = -1;
-
-  private constructor(private readonly channel: WidgetModel) {}
-
-  static of(channel: WidgetModel): Session {
-    let session = sessions.get(channel);
-    if (!session) {
-      session = new Session(channel);
-      sessions.set(channel, session);
-    }
-    return session;
-  }
-
-  /** False in a saved notebook without a kernel: what was loaded can be played all the same. */
-  get live(): boolean {
-    return this.channel.comm_live !== false;
-  }
-
-  get trouble(): string {
-    return this.channel.get<string>("trouble");
-  }
-
-  /** Hold the session for a view, until the signal ends; `reload` is called when another trace has come. */
-  hold(reload: () => void, signal: AbortSignal): void {
-    if (this.views.size === 0) this.begin();
-    this.views.add(reload);
-    signal.addEventListener("abort", () => {
-      this.views.delete(reload);
-      if (this.views.size === 0) this.end();
-    });
-  }
 
   /** Timeline, player and links of the present trace. */
   load(): Promise<Loaded> {
@@ -79,34 +45,24 @@ export class Session {
     return found as Promise<T>;
   }
 
-  private readonly onSerial = (): void => {
-    this.forget();
-    for (const reload of [...this.views]) reload();
-  };
-  private readonly onPosition = (): void => {
-    const position = this.channel.get<number>("position");
-    if (position === this.known) return;
-    this.known = position;
-    this.loading?.then(({ player, timeline }) => player.go(position < 0 ? timeline.last : position), ignore);
-  };
-  private readonly onPicked = (): void => {
-    this.loading?.then(({ links }) => links.pick(this.channel.get<string[]>("picked")), ignore);
-  };
-
-  private begin(): void {
-    this.channel.on("change:serial", this.onSerial);
-    this.channel.on("change:position", this.onPosition);
-    this.channel.on("change:picked", this.onPicked);
-    this.present = new AbortController();
-    announce(this.channel, this.client, this.present.signal);
+  protected begin(): void {
+    this.listen("serial", () => {
+      this.forget();
+      this.tell(); // another trace has come
+    });
+    this.listen("position", () => {
+      const position = this.channel.get<number>("position");
+      if (position === this.known) return;
+      this.known = position;
+      this.loading?.then(({ player, timeline }) => player.go(position < 0 ? timeline.last : position), ignore);
+    });
+    this.listen("picked", () => {
+      this.loading?.then(({ links }) => links.pick(this.channel.get<string[]>("picked")), ignore);
+    });
   }
 
-  private end(): void {
-    this.channel.off("change:serial", this.onSerial);
-    this.channel.off("change:position", this.onPosition);
-    this.channel.off("change:picked", this.onPicked);
+  protected end(): void {
     this.forget();
-    this.present.abort();
   }
 
   private forget(): void {
