@@ -62,7 +62,10 @@ export async function page(
   const chips = names.map((name) => {
     const kind = VIEWS[name];
     const button = chip(kind?.title ?? name, `Keep ${kind?.title ?? name} on the page`, () => {
-      kept = new Set(kept.has(name) ? [...kept].filter((other) => other !== name) : [...kept, name]);
+      const added = !kept.has(name);
+      kept = new Set(added ? [...kept, name] : [...kept].filter((other) => other !== name));
+      if (added)
+        queueMicrotask(() => made.get(name)?.then(() => slots.get(name)?.scrollIntoView({ block: "nearest" })));
     });
     return { name, button };
   });
