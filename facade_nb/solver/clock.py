@@ -20,6 +20,9 @@ Stage = Literal["words", "analysis", "candidates", "alignment", "attempt", "expl
 _MOMENT = 0.15
 """Seconds that merging may take when the search has used up its time."""
 
+_LAST = 0.5
+"""Seconds that the last attempt may take."""
+
 MEMORY = 400_000_000
 """Bytes by which the process may grow during a search."""
 
@@ -130,6 +133,20 @@ class Clock:
     def extend(self) -> None:
         """Let the last attempt begin that follows a search without an answer: it has the rest of the part."""
         self._end = self._part
+
+    def last_attempt(self) -> Callable[[], None]:
+        """A check for what takes milliseconds, when the time is up and there is nothing yet: it has its own moment."""
+        end = max(self.seconds, self._part * (self.limit or 0.0)) + _LAST
+
+        def check() -> None:
+            if self._should_stop is not None and self._should_stop():
+                self.asked = True
+                raise Stopped(asked=True)
+            if self.limit is not None and self.seconds > end:
+                self.over = True
+                raise Stopped
+
+        return check
 
     def check(self) -> None:
         """Raise `Stopped` where the search has to end."""

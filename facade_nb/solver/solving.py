@@ -202,14 +202,14 @@ class _Run:
                 self.trace.judged(walk)
         return best
 
-    def _walk(self, axis: Axis, tolerance: float) -> AxisSearch:
+    def _walk(self, axis: Axis, tolerance: float, check: Callable[[], None] | None = None) -> AxisSearch:
         problem = self.problems[axis]
         walk = AxisSearch(
             problem,
             self.objective,
             tolerance * problem.canvas,
             self.search,
-            self.clock.check,
+            self.clock.check if check is None else check,
             self.trace,
             self.clock.extend,
             self.clock.progress,
@@ -409,8 +409,7 @@ class _Run:
         """
         gc.collect()
         start_afresh()
-        self.clock.extend()
-        walk = self._walk(axis, self.tolerances[-1])
+        walk = self._walk(axis, self.tolerances[-1], self.clock.last_attempt())
         other = AxisSearch(walk.problem, Objective(), walk.tolerance, check=walk.check, found=walk.found)
         answer = other.best().solved
         solved = None if answer is None else walk.adopted(answer)

@@ -142,6 +142,14 @@ class TestEqual:
             assert np.array_equal(alone.rule, shot.surface.rule)
             assert (wanted.surface.color[:, 3] > 0).any() or view is not sight
 
+    def test_what_a_skip_leaves_last_is_not_taken_for_a_layer_around_it(self) -> None:
+        """Found by the test of random grammars: Bump was painted once more, in the place of S's first layer."""
+        text = """S -> Layer(Gap, Inner)  Inner -> Layer(Bump, Gap, Gap, Gap)  Gap -> Skip(2)
+        Bump -> Mat(Color, 0, 1, 0, 0, 0.5)"""
+        question = Grammar.parse(text, stand_in()).question((6, 5))
+        surface = OSMESA.paint(question, Sight.flat((6, 5), (12, 10))).surface
+        assert surface.color[:, 3] == pytest.approx(np.full(120, 0.5), abs=1e-6)
+
     def test_figure_12_on_a_grid(self) -> None:
         question = Grammar.parse(FIGURE_12).question((12, 9), (1, 2))
         view = Sight.flat((12, 9), (400, 300))

@@ -23,7 +23,8 @@ bool next_layer(inout State now, int skipped) {
   if (fresh || (layer & 1) == 0) {
     vec4 records = record(now.rule, (layer + 1) / 2);
     place = (layer & 1) == 1 ? records.xy : records.zw;
-    for (int i = 0; i < MAX_FRAMES; ++i) if (i == frame_count - 1) frames[i].next = records.xy;
+    // where this was the last of its Layer, the frame on top is another's
+    for (int i = 0; i < MAX_FRAMES; ++i) if (layer > 1 && i == frame_count - 1) frames[i].next = records.xy;
   }
   now.rule = ivec2(place);
   now.shift += layer;
