@@ -20,8 +20,8 @@ __all__ = ["SEARCHES", "Alignment", "Element", "align", "alignment_of"]
 Element = tuple[Letter, ...]
 SEARCHES = ("best", "ida")
 
-_NODES = 100_000_000
-"""More paths than there is memory for."""
+_NODES = 1_000_000
+"""After so many partial alignments the best so far is taken."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,14 +76,15 @@ def align(
 
     Returns
     -------
-    The alignment, or None where the constraints and the tolerance leave none.
+    The alignment, or None where the constraints and the tolerance leave none. Of more than a million partial alignments
+    the best is not known; then it is the best so far.
 
     Raises
     ------
     ValueError
         For an unknown search, sizes that are not finite and positive, or a solid letter without a size.
     NoLayout
-        Where the search ran out of memory.
+        Where the search ran out of memory, or of steps, and has found none.
     """
     if search not in SEARCHES:
         raise ValueError(f"search: expected one of {', '.join(SEARCHES)}; found {search!r}")
@@ -104,10 +105,10 @@ def align(
         found = (search_ida if search == "ida" else search_best)([group], keep=1, nodes=_NODES)
     except Stopped:
         found = Found(cut=True)
-    if found.cut:
+    if found.cut and found.best is None:
         letters = " and ".join(str(len(word)) for word in dict.fromkeys(map(tuple, rows)))
         raise NoLayout(
-            f"The alignment of words of {letters} letters takes more memory than it may; "
+            f"The alignment of words of {letters} letters takes more memory than it may, or too many steps; "
             "shorter words, a smaller tolerance, or Objective(), which is not degenerate, would do.",
             constraint="memory",
         )
