@@ -281,11 +281,11 @@ class AxisSearch:
                 best.bound = min(best.bound, floor)
                 return best
         if best.solved is None and not best.complete:
-            best.solved = self.hasty()
+            best.solved = self._hasty()
         best.bound = min(best.bound, floor, self._left_out())
         return best
 
-    def hasty(self) -> Solved | None:
+    def _hasty(self) -> Solved | None:
         """Any layout of one of the likeliest candidates, for when the time is up and there is none yet."""
         best: Solved | None = None
         if self.extend is not None:

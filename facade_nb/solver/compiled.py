@@ -139,7 +139,7 @@ class _Core:
         """Call what may take long, and read its answer; what `check` raises meanwhile is raised afterwards."""
         import wasmtime
 
-        self._check, self.busy, self.told = check, True, ()
+        self._check, self._raised, self.busy, self.told = check, None, True, ()
         try:
             with self._deferred:
                 self._call(name, *arguments)
@@ -193,7 +193,9 @@ class _Core:
         """Let go of what has no owner any more: not at once, as that may happen in any thread, at any time."""
         if not self._dead or self.busy or self.broken:
             return
-        dead, self._dead[:] = sorted(self._dead), []  # searches before the groups that they refer to
+        count = len(self._dead)  # more may come meanwhile
+        dead = sorted(self._dead[:count])  # searches before the groups that they refer to
+        del self._dead[:count]
         self._alive.difference_update(dead)
         self._put(array("d", [number for own in dead for number in own]))
         self._call("free_all", len(dead))

@@ -192,7 +192,7 @@ def test_a_lost_context_comes_back(live: Live) -> None:
     """)
     before, beside = pixels(lab), pixels(lab, 1)
     losing = "() => globalThis[Symbol.for('facade_nb.texture.renderer')].lose()"
-    lab.page.evaluate("lose => { window.lost = eval(lose)(); }", losing)
+    lab.page.evaluate(f"() => {{ window.lost = ({losing})(); }}")
     lab.python("[setattr(view.model, 'seed', (5.0, 9.0))]")  # it changes while there is no context
     assert on_screen(lab, 1) > 5  # and until then each keeps its picture
     lab.page.evaluate("() => window.lost")
