@@ -11,14 +11,14 @@ from math import inf
 from ..design.model import Symbol
 from .candidates import Candidate, CandidateStream, candidates
 from .clock import Progress
-from .columns import EPS, Group, Option, lone_unsized, make_group
+from .columns import EPS, Group, lone_unsized, make_group
 from .compiled import start_afresh
 from .floors import GroupKey, inputs_of, rows_of
 from .instances import Instances, Range
 from .keeping import Kept
 from .letters import Letter, Word
 from .objective import Objective
-from .pricing import Columns, Priced, price
+from .pricing import Priced
 from .problem import AxisProblem
 from .running import GROWTH, STEP, TIES, GroupSearch
 from .search import Stopped
@@ -117,20 +117,6 @@ class _Rows:
         self.unsized = {letter.symbol for row in letters for letter in row if letter.size is None}
 
 
-def _alike(group: Group, columns: Columns) -> Columns:
-    """The same columns, of the elements of another group with the same words."""
-    state = list(group.start)
-    out: list[tuple[Option, ...]] = []
-    for column in columns:
-        own: list[Option] = []
-        for b, option in enumerate(column):
-            choices = group.bands[b].options(state[b])
-            own.append(next(o for o in choices if o.letters == option.letters and o.target == option.target))
-            state[b] = own[-1].target
-        out.append(tuple(own))
-    return tuple(out)
-
-
 @dataclass(slots=True)
 class AxisSearch:
     """The search on one axis at one tolerance, with what it has learnt so far."""
@@ -202,6 +188,11 @@ class AxisSearch:
     def case(self, candidate: Candidate) -> _Case:
         """A candidate to be solved."""
         return _Case(candidate, candidate.bound)
+
+    def start_over(self) -> None:
+        """Be ready to go through all candidates once more; what has been learnt of their groups stays."""
+        self.stream = self._stream()
+        self.cases.clear()
 
     def forget(self) -> None:
         """Let go of what only searching needs, so that a kept answer is small, and keep what groups have in common."""
@@ -304,27 +295,13 @@ class AxisSearch:
                 likely = [] if candidate is None else [self.case(candidate)]
             for case in likely:
                 if not case.runs:
-                    self._open(case)
+                    self.open(case)
                 solved = self._dive(case, inf if best is None else best.cost, at_once=True)
                 if solved is not None:
                     best = solved
         except Stopped:
             pass  # what was found until now is all there is
         return best
-
-    def adopted(self, other: Solved) -> Solved | None:
-        """What was found under another objective, as it is under this one; None: it is not within the tolerance."""
-        case = self.case(other.candidate)
-        self._open(case)
-        ties: list[list[Priced]] = []
-        for cluster in case.clusters:
-            groups = [case.groups[g] for g in cluster]
-            columns = [other.parts[g][0].structure[other.parts[g][1]] for g in cluster]
-            priced = price(groups, tuple(_alike(*own) for own in zip(groups, columns, strict=True)))
-            if priced is None:
-                return None
-            ties.append([priced])
-        return self._size(case, ties)
 
     def _dive(self, case: _Case, cost: float, *, at_once: bool = False) -> Solved | None:
         """A layout of the candidate that costs less than `cost`, by structures that may not be the best."""
@@ -340,7 +317,7 @@ class AxisSearch:
         if total >= cost - EPS or (total >= before - EPS and case.dived):
             return None
         case.dived = True
-        return self._size(case, found)
+        return self.size(case, found)
 
     def _left_out(self) -> float:
         """No candidate with a word that was left out, for there are too many, costs less than this."""
@@ -366,7 +343,7 @@ class AxisSearch:
         None: there is nothing within the limit; `case.floor` says how much more is known.
         """
         if not case.runs:
-            self._open(case)
+            self.open(case)
         for run, cluster in zip(case.runs, case.clusters, strict=True):
             self.progress.group = self.problem.groups[cluster[0]][0]
             others = case.floor - run.floor
@@ -375,18 +352,18 @@ class AxisSearch:
             if not run.ties:
                 return None
         if case.solved is None:
-            case.solved = self._size(case, [run.ties for run in case.runs])
+            case.solved = self.size(case, [run.ties for run in case.runs])
         if case.solved is None and not case.unsizable:
             case.unsizable = True
             case.clusters = [
                 list(range(len(case.groups)))
             ]  # which structures fit each other is asked as they come
             own = range(len(case.groups))
-            case.runs = [self._run(case.groups, lambda priced: self._size(case, [[priced]]) is not None, own)]
+            case.runs = [self._run(case.groups, lambda priced: self.size(case, [[priced]]) is not None, own)]
             return self._turn(case, limit, top)
         return case.solved
 
-    def _open(self, case: _Case) -> None:
+    def open(self, case: _Case) -> None:
         """Find the candidate's groups, and the searches that other candidates share with it."""
         rows, keys, clusters = self._rows(case.candidate)
         groups: list[Group | None] = [None] * len(rows)
@@ -479,12 +456,15 @@ class AxisSearch:
             keys.append(key)
         clusters: list[list[int]] = []
         for g, one in enumerate(rows):
+            if not one.unsized:
+                clusters.append([g])
+                continue
             joined = [c for c in clusters if any(rows[o].unsized & one.unsized for o in c)]
             clusters = [c for c in clusters if c not in joined]
             clusters.append(sorted([g, *(o for c in joined for o in c)]))
         return rows, keys, clusters
 
-    def _size(self, case: _Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
+    def size(self, case: _Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
         """Size every combination of equally good structures; the least deviation wins."""
         best: Solved | None = None
         for combination in islice(product(*ties), 2 * TIES):

@@ -59,7 +59,7 @@ class CandidateStream:
         self._check = check
         self._names = [name for name, _ in problem.patterns]
         self._given = [words[name] for name in self._names]
-        self._words: list[list[Measured]] = []
+        self._words: list[_Words] = []
         self._long = LongEnough(problem, tolerance)
         self._floors = Floors(problem, tolerance, objective)
         self._serial = count()
@@ -113,20 +113,35 @@ class CandidateStream:
     def _decide(
         self, bound: float, depth: int, chosen: Chosen, values: dict[str, int], parts: tuple[float, ...]
     ) -> None:
-        """Give the next pattern each of its words."""
+        """Give the next pattern each of its words that agrees with what counters are already."""
         if -depth == len(self._words):
-            self._words.append([measured(word) for word in self._given[-depth]])
-        for word in self._words[-depth]:
-            both = _agreed(values, word.counters)
-            if both is None:
-                continue
+            self._words.append(_Words(self._given[-depth], values))
+        for word, new in self._words[-depth].under(values):
             more = (*chosen, word)
             if not self._long.last(more):
                 continue
             costs = self._floors.after(parts, more)
             least = max(bound, sum(costs))
             if least < inf:
+                both = {**values, **new} if new else values
                 heappush(self._queue, (least, depth - 1, next(self._serial), more, both, costs))
+
+
+class _Words:
+    """The words of a pattern by the values of those of its counters that patterns before it have as well."""
+
+    def __init__(self, words: Sequence[Word], before: Mapping[str, int]) -> None:
+        counters = words[0].counters if words else {}
+        self._shared = [name for name in counters if name in before]
+        self._by_values: dict[tuple[int, ...], list[tuple[Measured, dict[str, int]]]] = {}
+        for word in words:
+            key = tuple([word.counters[name] for name in self._shared])
+            new = {name: value for name, value in word.counters.items() if name not in before}
+            self._by_values.setdefault(key, []).append((measured(word), new))
+
+    def under(self, values: Mapping[str, int]) -> Sequence[tuple[Measured, dict[str, int]]]:
+        """Words that agree with some values; each with those of its other counters."""
+        return self._by_values.get(tuple([values[name] for name in self._shared]), ())
 
 
 def _agreed(values: dict[str, int], counters: Sequence[tuple[str, int]]) -> dict[str, int] | None:

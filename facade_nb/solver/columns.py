@@ -230,6 +230,13 @@ class Band:
             one = self._single[position, index] = next(self._make(position, index))
         return one
 
+    def alike(self, position: Position, other: Option) -> Option | None:
+        """The element here that has the same letters and ends at the same place as one of another band; or None."""
+        for k, one in enumerate(self._make(position)):
+            if one.target == other.target and one.letters == other.letters:
+                return self.option(position, k)
+        return None
+
     def _make(self, position: Position, first: int = 0) -> Iterator[Option]:
         """The elements, without the first so many."""
         i, mid, gap, held = position >> 3, position & 4, position & 2, position & 1

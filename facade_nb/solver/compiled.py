@@ -305,7 +305,13 @@ def _structure(groups: Sequence[Group], numbers: Sequence[int]) -> Structure:
 
 
 class CompiledSearch:
-    """Does what `search.BestFirst` does, and has its attributes."""
+    """Does what `search.BestFirst` does, and has its attributes.
+
+    Attributes
+    ----------
+    expected
+        A structure that is not priced again where it is found.
+    """
 
     def __init__(
         self,
@@ -319,6 +325,7 @@ class CompiledSearch:
     ) -> None:
         self.groups, self.keep, self.check, self.accept = tuple(groups), keep, check, accept
         self.paused = False
+        self.expected: Priced | None = None
         core = self._core = _core()
         turn = min(turn, _UNLIMITED)
         numbers = (core.groups(groups), keep, nodes, turn, accept is not None)
@@ -337,8 +344,10 @@ class CompiledSearch:
         status = self._ask("search_advance", float(limit), paused)
         while status != _ENDED:
             if status == _LEFT:
-                numbers = self._core.integers(self._structure)
-                item = price(self.groups, _structure(self.groups, numbers))
+                structure = _structure(self.groups, self._core.integers(self._structure))
+                expected = self.expected
+                known = expected is not None and expected.structure == structure
+                item = expected if known else price(self.groups, structure)
                 if item is not None and (self.accept is None or self.accept(item)):
                     found.offer(item, self.keep)
                     limit = min(limit, item.cost)

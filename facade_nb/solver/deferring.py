@@ -7,6 +7,7 @@ bring the process down.
 
 from __future__ import annotations
 
+import _signal  # type: ignore[import-not-found]  # what `signal` wraps: that makes enumerations of every number, which takes ten times as long
 import signal
 import threading
 from collections.abc import Callable
@@ -15,7 +16,7 @@ from types import FrameType, TracebackType
 __all__ = ["Deferred"]
 
 _NAMES = ("SIGALRM", "SIGTERM", "SIGUSR1", "SIGUSR2", "SIGHUP", "SIGBREAK", "SIGINT")
-_SIGNALS = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
+_SIGNALS = tuple(int(getattr(signal, name)) for name in _NAMES if hasattr(signal, name))
 
 _Handler = Callable[[int, FrameType | None], object]
 
@@ -31,15 +32,15 @@ class Deferred:
 
     def __init__(self) -> None:
         self.came: list[int] = []
-        self._held: list[tuple[signal.Signals, _Handler]] = []
+        self._held: list[tuple[int, _Handler]] = []
 
     def __enter__(self) -> None:
         if threading.get_ident() != threading.main_thread().ident:
             return  # handlers run in the main thread only
         for number in _SIGNALS:
-            handler = signal.getsignal(number)
+            handler = _signal.getsignal(number)
             if callable(handler):
-                signal.signal(number, self._note)
+                _signal.signal(number, self._note)
                 self._held.append((number, handler))
 
     def __exit__(
@@ -49,10 +50,10 @@ class Deferred:
             return
         held, self._held = dict(self._held), []
         for number, handler in held.items():
-            signal.signal(number, handler)
+            _signal.signal(number, handler)
         came, self.came = self.came, []
         for own in came:
-            held[signal.Signals(own)](own, None)
+            held[own](own, None)
 
     def _note(self, number: int, frame: FrameType | None) -> None:
         self.came.append(number)

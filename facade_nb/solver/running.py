@@ -94,6 +94,11 @@ class GroupSearch:
         self._spent += time.perf_counter() - begin
         self._tidy()
 
+    def expect(self, priced: Priced) -> None:
+        """A structure that the search may well come to has been priced already."""
+        if isinstance(self._first, CompiledSearch):
+            self._first.expected = priced
+
     def _tidy(self) -> None:
         if self.done:
             self._first = self._dives = None  # they take much memory

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from heapq import heappop, heappush
 from itertools import product
@@ -11,6 +12,7 @@ from math import inf
 
 from ..design.errors import DesignError, Fault, NoLayout
 from ..design.model import AXES, Axis, Design
+from .adopting import adopted, upper_bound
 from .analysis import analyse
 from .axis import AxisSearch, Best, Solved, forget_groups
 from .clock import Clock
@@ -36,6 +38,9 @@ TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
 
 _cache: Kept[dict[Axis, tuple[AxisSearch, Best]]] = Kept(64)
 """Answers of axes asked for last; of both together, where a counter ties them."""
+
+_before: Kept[Solved] = Kept(64)
+"""What was found last for problems that differ in sizes, bounds and canvas only."""
 
 _REMEDIES = 0.6
 """Seconds for trying what would help, where there is no layout; of them for one change:"""
@@ -123,6 +128,7 @@ def solve(
 def forget() -> None:
     """Let go of all that is kept for what an edit leaves alone: answers of axes and groups, words of patterns."""
     _cache.clear()
+    _before.clear()
     forget_groups()
     forget_words()
 
@@ -190,10 +196,32 @@ class _Run:
         """The best of one axis."""
         (axis,) = axes
         walk = self._walk(axis, self.tolerances[-1])
-        best = self._best(walk)
+        best = self._from_before(walk)
         if best.solved is None:
             raise self._failure(walk, best)
         return {axis: (walk, best)}
+
+    def _from_before(self, walk: AxisSearch) -> Best:
+        """The best of one axis, helped by what was found for the same patterns before some edit."""
+        if self.trace is not None or self.search != "best":
+            return self._best(walk)
+        problem = walk.problem
+        key = (problem.axis, problem.groups, problem.patterns, self.objective)
+        before = _before.get(key)
+        cap = inf
+        with suppress(Stopped):  # then there is no time for the search either, which knows what to do
+            cap = inf if before is None else upper_bound(walk, before)
+        best = self._best(walk, cap)
+        if best.solved is None and best.complete and cap < inf:
+            walk.start_over()
+            best = self._best(walk)
+        if before is not None and not best.complete:
+            with suppress(Stopped):  # the time is up, but perhaps for this
+                other = adopted(walk, before)
+                best.solved = other if other is not None and other.beats(best.solved) else best.solved
+        if best.solved is not None and not self.trial:
+            _before.put(key, best.solved)
+        return best
 
     def _best(self, walk: AxisSearch, cap: float = inf) -> Best:
         with stage(self.trace, walk.problem.axis, "search"):
@@ -412,7 +440,7 @@ class _Run:
         walk = self._walk(axis, self.tolerances[-1], self.clock.last_attempt())
         other = AxisSearch(walk.problem, Objective(), walk.tolerance, check=walk.check, found=walk.found)
         answer = other.best().solved
-        solved = None if answer is None else walk.adopted(answer)
+        solved = None if answer is None else adopted(walk, answer)
         if solved is None:
             raise Stopped
         return walk, Best(solved, 0.0, False)
@@ -494,18 +522,21 @@ def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solve
     for g, (name, patterns) in enumerate(problem.groups):
         group, (priced, k) = answer.groups[g], answer.parts[g]
         structure, placement = priced.structure[k], answer.sized.placements[g]
-        rows: list[RowLayout] = []
-        for i, pattern in enumerate(patterns):
-            b = group.band_of[i]
-            word = group.bands[b].letters
-            columns = tuple(
-                tuple(
-                    PlacedLetter(word[n].symbol, s, t, word[n].mirrored, word[n].transparent)
-                    for n, (s, t) in zip(column[b].letters, placed[b], strict=True)
-                )
-                for column, placed in zip(structure, placement, strict=True)
+        placed: dict[int, tuple[tuple[PlacedLetter, ...], ...]] = {}
+        for b in set(group.band_of):
+            word = [(a.symbol, a.mirrored, a.transparent) for a in group.bands[b].letters]
+            placed[b] = tuple(
+                [
+                    tuple(
+                        [_placed(word[n], *place) for n, place in zip(column[b].letters, own[b], strict=True)]
+                    )
+                    for column, own in zip(structure, placement, strict=True)
+                ]
             )
-            rows.append(RowLayout(layers[name][i], pattern, columns))
+        rows = [
+            RowLayout(layers[name][i], pattern, placed[group.band_of[i]])
+            for i, pattern in enumerate(patterns)
+        ]
         groups[name] = GroupLayout(priced.omegas[k], answer.sized.boundaries[g], tuple(rows))
     gap = max(0.0, answer.cost - best.bound) if best.bound < inf else 0.0
     proven = best.complete and gap <= 1e-6
@@ -518,6 +549,11 @@ def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solve
         groups,
         Sizing(answer.sized.system, answer.sized.solution),
     )
+
+
+def _placed(letter: tuple[str, bool, bool], start: float, end: float) -> PlacedLetter:
+    symbol, mirrored, transparent = letter
+    return PlacedLetter(symbol, start, end, mirrored, transparent)
 
 
 def _warnings(walk: AxisSearch, answer: Solved) -> Iterator[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 import threading
 from collections.abc import Callable, Iterator
+from math import inf
 from typing import Any
 
 import pytest
@@ -13,6 +14,7 @@ from facade_nb import Design, DesignError, NoLayout, gallery, solve
 from facade_nb.design import edit
 from facade_nb.design.model import AXES
 from facade_nb.solver import Objective, running, solving
+from facade_nb.solver.axis import Best
 from facade_nb.solver.keeping import Kept
 from tests.oracle.designs import CONTENT, CONTROL, SOLID, design, make_design
 
@@ -124,6 +126,69 @@ def test_away_and_back(name: str) -> None:
         if symbol.size is not None:
             outcome(edit.with_symbol(one, symbol.name, size=symbol.size * 1.03))
             assert outcome(one) == before
+
+
+class TestBefore:
+    """What the last answer costs now bounds the next search, and nothing else."""
+
+    NAMES = ("residential-house", "apartment-house", "bookshop")
+
+    @pytest.fixture
+    def bounds(self, monkeypatch: pytest.MonkeyPatch) -> list[float]:
+        """The bounds that searches were given."""
+        real, seen = solving.upper_bound, list[float]()
+
+        def spy(*args: Any) -> float:
+            seen.append(real(*args))
+            return seen[-1]
+
+        monkeypatch.setattr(solving, "upper_bound", spy)
+        return seen
+
+    @pytest.mark.parametrize("name", NAMES)
+    def test_a_symbol_dragged_along(self, name: str, bounds: list[float]) -> None:
+        one = gallery.load(name)
+        draw = random.Random(name)
+        sized = sorted(n for n, own in one.symbols.items() if own.size is not None)
+        steps = [one]
+        for symbol in draw.sample(sized, 3):
+            size = steps[-1].symbol(symbol).size or 1.0
+            steps += [edit.with_symbol(steps[-1], symbol, size=size * f) for f in (1.02, 1.05, 0.97)]
+        assert check(steps) == len(steps)
+        assert sum(bound < inf for bound in bounds) > len(steps) / 2
+
+    def test_it_is_what_the_same_structure_costs(self, bounds: list[float]) -> None:
+        one = TestReuse.ONE
+        solve(one)
+        changed = solve(edit.with_symbol(one, "A", size=1.0001))
+        assert bounds == [pytest.approx(changed.x.cost)]
+
+    @pytest.mark.parametrize("wrong", [0.0, 1e-3, 1e9])
+    def test_a_wrong_bound_does_no_harm(self, wrong: float, monkeypatch: pytest.MonkeyPatch) -> None:
+        """Where nothing can be sized within it, the search begins again without."""
+        monkeypatch.setattr(solving, "upper_bound", lambda *_: wrong)
+        one = gallery.load("residential-house")
+        name = next(n for n, own in one.symbols.items() if own.size is not None)
+        assert check([one, edit.with_symbol(one, name, size=(one.symbol(name).size or 1.0) * 1.05)]) == 2
+
+    def test_words_that_no_longer_fit(self, bounds: list[float]) -> None:
+        one = TestReuse.ONE
+        assert check([one, edit.with_counter(one, "k", value=5), edit.with_symbol(one, "A", size=1.9)]) > 1
+        assert inf in bounds
+
+    def test_when_the_time_is_up_it_is_the_answer(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """A design that takes long can be dragged: what there was is better than nothing."""
+        one = gallery.load("apartment-house")
+        solve(one)
+        name = next(n for n, own in one.symbols.items() if own.size is not None)
+        changed = edit.with_symbol(one, name, size=(one.symbol(name).size or 1.0) * 1.001)
+        with monkeypatch.context() as patched:
+            patched.setattr(solving.AxisSearch, "best", lambda *_: Best(bound=0.0, complete=False))
+            cut = solve(changed)
+        solving.forget()
+        whole = solve(changed)
+        assert not cut.complete and whole.complete
+        assert (cut.x.cost, cut.y.cost) == pytest.approx((whole.x.cost, whole.y.cost))
 
 
 class TestReuse:
