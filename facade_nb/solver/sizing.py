@@ -34,8 +34,8 @@ _Key = tuple[Any, ...]
 _Place = tuple[int, int, int, int]
 """Group, row, column, and place in the element."""
 
-Placement = tuple[tuple[tuple[tuple[float, float], ...], ...], ...]
-"""Per column, per band: the intervals of the letters and pieces in it."""
+Placement = tuple[tuple[tuple[float, float], ...], ...]
+"""Per band: the intervals of its letters and pieces, column by column."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +222,7 @@ def size_axis(
     letters = sum(len(band.letters) + 1 for group in groups for band in group.bands)
     build = _Builder(canvas, symbol, min(1e-3, 0.01 * canvas / max(1, letters)))
     edges: list[list[int]] = []
-    bounds: list[list[list[list[tuple[int, int]]]]] = []
+    bounds: list[list[list[tuple[int, int]]]] = []
     for g, (group, (priced, k)) in enumerate(zip(groups, parts, strict=True)):
         edges.append(_edges(build, g, priced, k))
         bounds.append(_letters(build, g, group, priced, k, edges[g]))
@@ -237,22 +237,12 @@ def size_axis(
     x = _settle(system, first.x) if build.open else first.x
     # 1 m is to be 1 and not a bit less; the ends are 0 and the canvas exactly
     n = x.size
-    at = np.minimum(np.maximum(np.round(x, 12), system.lower[:n]), system.upper[:n]).tolist()
+    at = np.minimum(np.maximum(x.round(12), system.lower[:n]), system.upper[:n]).tolist()
     off = first.x - system.target
     return Sized(
         {name: at[v] for name, v in build.size_of.items()},
         tuple([tuple([at[v] for v in own]) for own in edges]),
-        tuple(
-            [
-                tuple(
-                    [
-                        tuple([tuple([(at[s], at[t]) for s, t in element]) for element in column])
-                        for column in own
-                    ]
-                )
-                for own in bounds
-            ]
-        ),
+        tuple([tuple([tuple([(at[s], at[t]) for s, t in band]) for band in own]) for own in bounds]),
         sqrt(float(system.weight @ (off * off))),
         system,
         first,
@@ -285,10 +275,10 @@ def _edges(build: _Builder, g: int, priced: Priced, k: int) -> list[int]:
 
 def _letters(
     build: _Builder, g: int, group: Group, priced: Priced, k: int, edges: Sequence[int]
-) -> list[list[list[tuple[int, int]]]]:
-    """The bounds of every letter and piece of a group, per column and band, with the rows they must keep."""
+) -> list[list[tuple[int, int]]]:
+    """The bounds of every letter and piece of a group, per band, with the rows they must keep."""
     structure, pieces = priced.structure[k], priced.pieces[k]
-    placed: list[list[list[tuple[int, int]]]] = [[[] for _ in group.bands] for _ in structure]
+    placed: list[list[tuple[int, int]]] = []
     keys, variables, inner = build.keys, build.variables, build.inner
     starts, ends, lengths, span_keys = build.starts, build.ends, build.lengths, build.span_keys
     for row, band in enumerate(group.bands):
@@ -296,12 +286,14 @@ def _letters(
         # equal words may owe their letters to other contents
         marked = [(n, origins) for n, origins in enumerate(band.origins) if any(origins)]
         stands: list[list[tuple[_Place, int, int, float]]] = [[] for _ in word]
+        intervals: list[tuple[int, int]] = []
+        placed.append(intervals)
         for j, column in enumerate(structure):
             option = column[row]
             if option.empty:
                 continue
             start, end = left, right = edges[j], edges[j + 1]
-            own_letters, sizes, into = option.letters, pieces[j][row], placed[j][row]
+            own_letters, sizes = option.letters, pieces[j][row]
             final = len(own_letters) - 1
             if option.soft:
                 soft = next(word[i] for i in own_letters if not word[i].opaque)
@@ -315,7 +307,7 @@ def _letters(
                     to = len(keys)
                     keys.append(("t", g, row, j, i))
                     variables += inner
-                into.append((at, to))
+                intervals.append((at, to))
                 stands[letter].append((place, at, to, sizes[i]))
                 for n, origins in marked:
                     origin = origins[letter]

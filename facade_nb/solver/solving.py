@@ -22,6 +22,7 @@ from .forces import Sizing
 from .instances import Range, ranges
 from .keeping import Kept
 from .layout import AxisLayout, GroupLayout, Layout, PlacedLetter, PlacedShape, Rect, RowLayout
+from .letters import Letter
 from .merging import find_holes, hole_warnings, merge
 from .objective import Objective
 from .problem import AxisProblem, axis_problem
@@ -523,15 +524,10 @@ def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solve
         group, (priced, k) = answer.groups[g], answer.parts[g]
         structure, placement = priced.structure[k], answer.sized.placements[g]
         placed: dict[int, tuple[tuple[PlacedLetter, ...], ...]] = {}
-        for b in set(group.band_of):
-            word = [(a.symbol, a.mirrored, a.transparent) for a in group.bands[b].letters]
+        for b, (band, intervals) in enumerate(zip(group.bands, placement, strict=True)):
+            letters, places = band.letters, iter(intervals)
             placed[b] = tuple(
-                [
-                    tuple(
-                        [_placed(word[n], *place) for n, place in zip(column[b].letters, own[b], strict=True)]
-                    )
-                    for column, own in zip(structure, placement, strict=True)
-                ]
+                [tuple([_placed(letters[n], *next(places)) for n in column[b].letters]) for column in structure]
             )
         rows = [
             RowLayout(layers[name][i], pattern, placed[group.band_of[i]])
@@ -551,9 +547,8 @@ def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solve
     )
 
 
-def _placed(letter: tuple[str, bool, bool], start: float, end: float) -> PlacedLetter:
-    symbol, mirrored, transparent = letter
-    return PlacedLetter(symbol, start, end, mirrored, transparent)
+def _placed(letter: Letter, start: float, end: float) -> PlacedLetter:
+    return PlacedLetter(letter.symbol, start, end, letter.mirrored, letter.transparent)
 
 
 def _warnings(walk: AxisSearch, answer: Solved) -> Iterator[str]:
