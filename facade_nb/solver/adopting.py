@@ -38,7 +38,7 @@ def adopted(walk: AxisSearch, other: Solved) -> Solved | None:
 def upper_bound(walk: AxisSearch, before: Solved) -> float:
     """What the structure of an earlier answer costs with the words there are now; infinite where it cannot be.
 
-    Whether its symbols can be sized is not asked; where they cannot, there may be nothing within the bound.
+    Whether its symbols can be sized is not asked; where they cannot, all there is may cost more.
     """
     candidate = _now(walk, before.candidate)
     if candidate is None:

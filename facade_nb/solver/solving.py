@@ -16,6 +16,7 @@ from .adopting import adopted, upper_bound
 from .analysis import analyse
 from .axis import AxisSearch, Best, Solved, forget_groups
 from .clock import Clock
+from .columns import EPS
 from .compiled import start_afresh
 from .failure import explain, ran_out
 from .forces import Sizing
@@ -213,7 +214,7 @@ class _Run:
         with suppress(Stopped):  # then there is no time for the search either, which knows what to do
             cap = inf if before is None else upper_bound(walk, before)
         best = self._best(walk, cap)
-        if best.solved is None and best.complete and cap < inf:
+        if best.cost > cap + EPS and best.complete:  # where symbols cannot be sized all together
             walk.start_over()
             best = self._best(walk)
         if before is not None and not best.complete:
@@ -527,7 +528,10 @@ def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solve
         for b, (band, intervals) in enumerate(zip(group.bands, placement, strict=True)):
             letters, places = band.letters, iter(intervals)
             placed[b] = tuple(
-                [tuple([_placed(letters[n], *next(places)) for n in column[b].letters]) for column in structure]
+                [
+                    tuple([_placed(letters[n], *next(places)) for n in column[b].letters])
+                    for column in structure
+                ]
             )
         rows = [
             RowLayout(layers[name][i], pattern, placed[group.band_of[i]])

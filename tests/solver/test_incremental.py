@@ -171,6 +171,19 @@ class TestBefore:
         name = next(n for n, own in one.symbols.items() if own.size is not None)
         assert check([one, edit.with_symbol(one, name, size=(one.symbol(name).size or 1.0) * 1.05)]) == 2
 
+    def test_groups_that_can_only_be_sized_apart(self, bounds: list[float]) -> None:
+        """What the groups cost one by one is less than what they cost together."""
+        one = design(
+            {"A": 1.425, "B": 1.05, "C": {"size": 1.05, "max": 1.1}},
+            {"x0": "A(A|B)A", "x1": "CC|AB|B^3", "x2": "e2m; m := B^k", "x3": "ACA"},
+            [("x3", "b"), ("x2", "a"), ("x1", "a"), ("x0", "b")],
+            3.566,
+        )
+        changed = edit.with_symbol(one, "C", size=1.0)
+        assert check([one, changed, edit.with_symbol(changed, "B", size=1.04)]) == 3
+        solving.forget()
+        assert min(bounds) < solve(changed).x.cost - 0.1
+
     def test_words_that_no_longer_fit(self, bounds: list[float]) -> None:
         one = TestReuse.ONE
         assert check([one, edit.with_counter(one, "k", value=5), edit.with_symbol(one, "A", size=1.9)]) > 1
