@@ -11,6 +11,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from facade_nb.solver import Letter, Objective, align
+from facade_nb.solver.columns import make_group
+from facade_nb.solver.search import search as search_best
 from tests.oracle import DEFAULT, Case, TooBig, Weights, best, check, make_case
 
 T = TypeVar("T")
@@ -133,3 +135,14 @@ def test_wider_paths_with_the_same_pieces(search: str) -> None:
     found = align(rows, 3.39, 1.695, search=search)
     assert found is not None and found.cost == pytest.approx(0.0, abs=1e-9)
     assert len(found.columns) == 5
+
+
+def test_where_one_search_is_lost_the_other_is_not() -> None:
+    """Placeholders that are much too short for the canvas can be cut in more ways than there is room to keep."""
+    b, a = (Letter(symbol, size, transparent=True) for symbol, size in (("b", 2.26), ("a", 3.05)))
+    rows = [[], [b, b, Letter("A", 3.05, opaque=False, attached=True)], [b], [a, a, b]]
+    weights = Objective(empty=1.5, loose=0.1, fit=0.6)
+    group = make_group(rows, 8.36, 0.5, weights)
+    assert search_best([group], nodes=20_000).cut
+    found = [align(rows, 8.36, 0.5, weights, search) for search in ("best", "ida")]
+    assert [own and (own.cost, len(own.columns)) for own in found] == [(pytest.approx(5.44225), 6)] * 2
