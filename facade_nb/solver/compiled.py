@@ -135,6 +135,10 @@ class _Core:
     def _answer(self) -> tuple[float, ...]:
         return _BOX[5].unpack_from(self._memory.get_buffer_ptr(self._store, 40, self._box))
 
+    def _starved(self) -> bool:
+        """Whether it has come to an end as there was no memory left."""
+        return bool(_BOX[8].unpack_from(self._memory.get_buffer_ptr(self._store, 64, self._box))[7])
+
     def ask(self, check: Callable[[], None] | None, name: str, *arguments: float) -> tuple[float, ...]:
         """Call what may take long, and read its answer; what `check` raises meanwhile is raised afterwards."""
         import wasmtime
@@ -144,10 +148,10 @@ class _Core:
             with self._deferred:
                 self._call(name, *arguments)
         except wasmtime.Trap:
-            if self.size < 0.9 * _MOST:
+            self.broken = True
+            if not self._starved():
                 raise
-            self.broken = True  # out of memory before anybody looked
-            raise Stopped from None
+            raise Stopped from None  # out of memory before anybody looked
         finally:
             self._check, self.busy = None, False
         raised, self._raised = self._raised, None

@@ -6,6 +6,9 @@
 #include <type_traits>
 #include <vector>
 
+/// Does not return.
+[[noreturn]] void out_of_memory();
+
 class Arena {
  public:
   Arena() = default;
@@ -54,7 +57,7 @@ class Arena {
     size_ = blocks_.empty() ? 16384 : size_ < 1048576 ? 2 * size_ : size_;
     if (size_ < bytes) size_ = bytes;
     char* block = static_cast<char*>(std::malloc(size_));
-    if (block == nullptr) __builtin_trap();
+    if (block == nullptr) out_of_memory();
     blocks_.push_back(block);
     used_ = 0;
   }
