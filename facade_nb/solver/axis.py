@@ -22,7 +22,7 @@ from .pricing import Priced
 from .problem import AxisProblem
 from .running import GROWTH, STEP, TIES, GroupSearch
 from .search import Stopped
-from .sizing import Sized, size_axis
+from .sizing import Sized, size_axis, strain
 from .tracing import Recorder, sizing
 from .words import axis_words
 
@@ -30,6 +30,9 @@ __all__ = ["AxisSearch", "Best", "Solved", "forget_groups"]
 
 _NODES = 1_000_000
 """A search of more paths gives up; under the paper's objective, and where structures are refused, of fewer."""
+
+_LIKELY = {True: 24, False: 3}
+"""Of so many candidates any layout is looked for when the time is up: by sweeps, and by dives."""
 
 _kept: Kept[tuple[list[Priced], float]] = Kept(512)
 """What has been found for groups, so that those that an edit leaves alone are not searched again."""
@@ -271,45 +274,50 @@ class AxisSearch:
             if stop.asked:
                 best.bound = min(best.bound, floor)
                 return best
-        if best.solved is None and not best.complete:
-            best.solved = self._hasty()
+        if not best.complete:
+            best.solved = self._hasty(best.solved)
         best.bound = min(best.bound, floor, self._left_out())
         return best
 
-    def _hasty(self) -> Solved | None:
-        """Any layout of one of the likeliest candidates, for when the time is up and there is none yet."""
-        best: Solved | None = None
+    def _hasty(self, best: Solved | None) -> Solved | None:
+        """The best layout that can soon be had of the likeliest candidates, for when the time is up."""
         if self.extend is not None:
             self.extend()
-        likely = sorted(self.cases, key=lambda case: case.floor)[:3]
         if start_afresh():
             for case in self.cases:
                 for run in case.runs:
                     run.give_up()
         try:
-            if not likely:
-                stream = CandidateStream(
-                    self.problem, self.words(), self.tolerance, self.objective, self.check
-                )
-                candidate = stream.take()
-                likely = [] if candidate is None else [self.case(candidate)]
-            for case in likely:
-                if not case.runs:
-                    self.open(case)
-                solved = self._dive(case, inf if best is None else best.cost, at_once=True)
-                if solved is not None:
-                    best = solved
+            for sweep in (True, False):
+                for case in islice(self._likely(), _LIKELY[sweep]):
+                    if not case.runs:
+                        self.open(case)
+                    solved = self._dive(case, inf if best is None else best.cost, at_once=True, sweep=sweep)
+                    if solved is not None:
+                        best = solved
+                if best is not None:
+                    break
         except Stopped:
             pass  # what was found until now is all there is
         return best
 
-    def _dive(self, case: _Case, cost: float, *, at_once: bool = False) -> Solved | None:
+    def _likely(self) -> Iterator[_Case]:
+        """The candidates that have been begun, by what they cost at least, and then others."""
+        begun = sorted(self.cases, key=lambda case: case.floor)
+        yield from begun
+        known = {tuple(map(id, case.candidate.words.values())) for case in begun}
+        stream = self._stream()
+        while (candidate := stream.take()) is not None:
+            if tuple(map(id, candidate.words.values())) not in known:
+                yield self.case(candidate)
+
+    def _dive(self, case: _Case, cost: float, *, at_once: bool = False, sweep: bool = False) -> Solved | None:
         """A layout of the candidate that costs less than `cost`, by structures that may not be the best."""
         if not at_once and not any(run.long for run in case.runs):
             return None
         before = sum(known[0].cost for run in case.runs if (known := run.known))
         for run in case.runs:
-            run.dive(at_once=at_once or not run.long)
+            run.dive(at_once=at_once or not run.long, sweep=sweep)
         found = [run.known for run in case.runs]
         if not all(found):
             return None
@@ -429,7 +437,13 @@ class AxisSearch:
             parts = tuple((priced, k) for k in range(len(groups)))
             return size_axis(groups, parts, self.problem.canvas, self._symbol) is not None
 
-        return GroupSearch(groups, self.method, nodes, self.check, accept, log, known, fits)
+        def strained(priced: Priced) -> float:
+            parts = tuple((priced, k) for k in range(len(groups)))
+            return (
+                0.0 if fits(priced) else max(1e-9, strain(groups, parts, self.problem.canvas, self._symbol))
+            )
+
+        return GroupSearch(groups, self.method, nodes, self.check, accept, log, known, fits, strained)
 
     def _symbol(self, name: str) -> Symbol:
         return self.problem.symbol.get(name) or Symbol(name)

@@ -131,8 +131,12 @@ class Clock:
         self._end = 0.85 * part
 
     def extend(self) -> None:
-        """Let the last attempt begin that follows a search without an answer: it has the rest of the part."""
+        """Let the last attempt begin that follows a search without an answer: it has the rest of the part.
+
+        And a little memory of its own, for that of the search may not be given back yet.
+        """
         self._end = self._part
+        self._size = max(self._size, _resident() - MEMORY + MEMORY // 4)
 
     def last_attempt(self) -> Callable[[], None]:
         """A check for what takes milliseconds, when the time is up and there is nothing yet: it has its own moment."""

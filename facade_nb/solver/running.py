@@ -11,7 +11,7 @@ from .compiled import CompiledDives, CompiledSearch, best_first, dives
 from .dive import Dives
 from .ida import search_ida
 from .pricing import Priced
-from .search import BestFirst, Found
+from .search import BestFirst, Found, Stopped
 from .sweeping import can_sweep, sweeps
 from .tracing import Walk
 
@@ -26,7 +26,8 @@ GROWTH = 1.5
 _TURN = 150
 """After so many paths a search gives way to those of other candidates."""
 _SLOW = 0.03
-"""A search that takes more seconds than this is helped by sweeps."""
+"""A search that takes more seconds than this is helped by sweeps; where there are placeholders, which take longer:"""
+_SLOW_ELASTIC = 0.5
 _BUDGET = 4_000
 """Of so many partial alignments the paper's search has to come to something at first; then of four times as many."""
 _LONG = 3_000
@@ -41,7 +42,7 @@ class GroupSearch:
     so far allows less than the next of them it goes no further than that; if it ends there with more answers than
     are kept, the search is repeated in steps. That makes an answer the same whatever was searched before.
 
-    A search that takes long is helped by sweeps, where there are no wildcards, and by dives, which take as long again.
+    A search that takes long is helped by sweeps, and by dives, which take as long again.
     """
 
     def __init__(
@@ -54,13 +55,16 @@ class GroupSearch:
         log: Walk | None = None,
         known: tuple[list[Priced], float] | None = None,
         fits: Callable[[Priced], bool] | None = None,
+        strain: Callable[[Priced], float] | None = None,
     ) -> None:
         self.groups, self.log, self._fits = groups, log, fits
         self._plain = any(group.objective.plain for group in groups)
         self._options = (method, nodes, check, accept)
         self._dives: Dives | CompiledDives | None = None
-        self._sweeps = sweeps(groups[0], check) if accept is None and can_sweep(groups) else None
+        self._sweeps = sweeps(groups, check, strain) if accept is None and can_sweep(groups) else None
         self._swept: Priced | None = None
+        self._was_swept = False
+        self._slow = _SLOW if all(group.stiff for group in groups) else _SLOW_ELASTIC
         self._spent = self._dived = 0.0
         self._again = False
         if known is None:
@@ -106,20 +110,20 @@ class GroupSearch:
     @property
     def long(self) -> bool:
         """The search has taken long."""
-        slow = self._sweeps is not None and self._spent > _SLOW
+        slow = self._sweeps is not None and self._spent > self._slow
         return not self.done and (slow or self._found.nodes >= _LONG)
 
-    def dive(self, *, at_once: bool = False) -> None:
-        """Look for some alignment as long as the search has taken; or, `at_once`, until there is one."""
+    def dive(self, *, at_once: bool = False, sweep: bool = False) -> None:
+        """Look for some alignment as long as the search has taken; or, `at_once`, until there is one.
+
+        With `sweep` by sweeps alone, where they are possible.
+        """
         _, _, check, accept = self._options
         if self.done or accept is not None:
             return
-        if self._sweeps is not None:
-            for priced in self._sweeps:
-                if self._fits is None or self._fits(priced):
-                    self._swept = priced
-            self._sweeps = None
-        if self._found.nodes < _LONG and self._swept is not None:
+        able = self._sweeps is not None or self._was_swept
+        self._sweep()
+        if (sweep and able) or (self._found.nodes < _LONG and self._swept is not None):
             return
         if self._dives is None:
             self._dives = dives(self.groups, self.floor, check, self._fits)
@@ -129,6 +133,18 @@ class GroupSearch:
         while not self._dives.done and (self._dived <= self._spent or (at_once and self._dives.best is None)):
             self._dives.dive()
             self._dived = before + time.perf_counter() - begin
+
+    def _sweep(self) -> None:
+        """Sweep, once."""
+        if self._sweeps is None:
+            return
+        ways, self._sweeps, self._was_swept = self._sweeps, None, True
+        try:
+            for priced in ways:
+                self._swept = priced
+        except Stopped:
+            if self._swept is None:
+                raise  # else that is what there was time for
 
     def give_up(self) -> None:
         """Let go of the search, but not of what it has found."""

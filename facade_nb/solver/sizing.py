@@ -27,12 +27,15 @@ from .letters import Letter
 from .pricing import Priced
 from .qp import FREE, Solution, least_squares
 
-__all__ = ["Placement", "Sized", "System", "size_axis"]
+__all__ = ["Placement", "Sized", "System", "size_axis", "strain"]
 
 _Key = tuple[Any, ...]
 """What a name is spelled from: its kind, then symbols, indices, or places."""
 _Place = tuple[int, int, int, int]
 """Group, row, column, and place in the element."""
+
+_SOME = 0.1
+"""A part of its size that a letter should have."""
 
 Placement = tuple[tuple[tuple[float, float], ...], ...]
 """Per band: the intervals of its letters and pieces, column by column."""
@@ -219,17 +222,7 @@ def size_axis(
     -------
     The sized axis, or None where the constraints contradict each other.
     """
-    letters = sum(len(band.letters) + 1 for group in groups for band in group.bands)
-    build = _Builder(canvas, symbol, min(1e-3, 0.01 * canvas / max(1, letters)))
-    edges: list[list[int]] = []
-    bounds: list[list[list[tuple[int, int]]]] = []
-    for g, (group, (priced, k)) in enumerate(zip(groups, parts, strict=True)):
-        edges.append(_edges(build, g, priced, k))
-        bounds.append(_letters(build, g, group, priced, k, edges[g]))
-    for (_, _, _, name, _), terms in build.extents.items():
-        z = build.size_of.get(name)
-        if z is not None:
-            build.equation(("extent", name), {**terms, z: terms.get(z, 0.0) - 1.0})
+    build, edges, bounds = _built(groups, parts, canvas, symbol)
     system = build.system()
     first = least_squares(system.weight, system.target, system.matrix, system.lower, system.upper)
     if first is None:
@@ -248,6 +241,52 @@ def size_axis(
         first,
         tuple(at),
     )
+
+
+def strain(
+    groups: Sequence[Group],
+    parts: Sequence[tuple[Priced, int]],
+    canvas: float,
+    symbol: Callable[[str], Symbol],
+) -> float:
+    """By how many metres, about, the constraints contradict each other; 0 where they do not.
+
+    With the equations alone, what should have a length has a negative one, or next to none.
+    """
+    build, _, _ = _built(groups, parts, canvas, symbol)
+    system = build.system()
+    equation = system.lower == system.upper
+    lower, upper = np.where(equation, system.lower, -FREE), np.where(equation, system.upper, FREE)
+    found = least_squares(system.weight + 1e-3, system.target, system.matrix, lower, upper)
+    if found is None:
+        return canvas
+    values = np.concatenate([found.x, system.matrix @ found.x])
+    lower = system.lower.copy()
+    sized = np.flatnonzero(system.weight > 0)
+    lower[sized] = np.maximum(lower[sized], _SOME * system.target[sized])
+    missed = np.maximum(0.0, lower - values) + np.maximum(0.0, values - system.upper)
+    return float(missed.sum())
+
+
+def _built(
+    groups: Sequence[Group],
+    parts: Sequence[tuple[Priced, int]],
+    canvas: float,
+    symbol: Callable[[str], Symbol],
+) -> tuple[_Builder, list[list[int]], list[list[list[tuple[int, int]]]]]:
+    """Variables and rows of an axis; per group, the edges of its columns and the bounds of its letters."""
+    letters = sum(len(band.letters) + 1 for group in groups for band in group.bands)
+    build = _Builder(canvas, symbol, min(1e-3, 0.01 * canvas / max(1, letters)))
+    edges: list[list[int]] = []
+    bounds: list[list[list[tuple[int, int]]]] = []
+    for g, (group, (priced, k)) in enumerate(zip(groups, parts, strict=True)):
+        edges.append(_edges(build, g, priced, k))
+        bounds.append(_letters(build, g, group, priced, k, edges[g]))
+    for (_, _, _, name, _), terms in build.extents.items():
+        z = build.size_of.get(name)
+        if z is not None:
+            build.equation(("extent", name), {**terms, z: terms.get(z, 0.0) - 1.0})
+    return build, edges, bounds
 
 
 def _settle(system: System, x: np.ndarray) -> np.ndarray:
