@@ -132,12 +132,18 @@ def _sixth() -> tuple[tuple[View, ...], ...]:
 
 
 def _seventh() -> tuple[tuple[View, ...], ...]:
+    street = Camera(azimuth=-24, height=1.7, angle=48, fill=1.0)
+    near = Camera(azimuth=-18, height=5.0, angle=48, fill=1.0)
     return (
         tuple(
             View((330, 300), (13.0, 13.5), start=start, hour=None)
             for start in ("Wall", "Windows", "Ornament", "Awnings")
         ),
         (View((1350, 700), (26.0, 13.5), hour=10.2, camera=Camera(azimuth=-16, angle=34, fill=0.9)),),
+        (
+            View((670, 500), (26.0, 13.5), hour=10.2, camera=street, frame=(2, 0, 11, 6.5)),
+            View((670, 500), (26.0, 13.5), hour=10.2, camera=near, frame=(7.5, 3.2, 11.5, 6.6)),
+        ),
     )
 
 
@@ -241,7 +247,7 @@ def _thirteenth(chance: bool) -> tuple[tuple[View, ...], ...]:
 _TABLE: tuple[tuple[str, str, Callable[[], tuple[tuple[View, ...], ...]]], ...] = (
     ("figure-1", "a façade on one rectangle, by day and by night, from afar and close", _first),
     ("figure-6", "random groups: one colour for a part, for a floor, for each field", _sixth),
-    ("figure-7", "layers one by one, and together", _seventh),
+    ("figure-7", "layers one by one, and together, from afar and close", _seventh),
     ("figure-8", "a hole in the wall by a mask, the room behind it, a frame before it", _eighth),
     ("figure-9", "the five faces of an intrusion, from three sides", _ninth),
     ("figure-10", "a street with all operators: from afar, from the pavement, close", _tenth),

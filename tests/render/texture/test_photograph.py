@@ -166,6 +166,25 @@ def test_normals_turn_towards_the_sun() -> None:
     assert _lit(17.5, normal=right).mean() > 1.3 * _lit(17.5, normal=left).mean()
 
 
+@pytest.mark.parametrize("seed", [(0.0, 0.0), (31.7, 5.3), (-23.1, 47.9)])
+def test_all_walls_of_a_house_are_of_one_kind(seed: tuple[float, float]) -> None:
+    """The first choice belongs to the corner and the seed: front, sides, gables and back make the same one."""
+    chance = Grammar.parse(
+        "S -> RandUni(0, A, B, C, D)  Side -> RandUni(0, A, B, C, D)  Gable -> RandUni(0, A, B, C, D)\n"
+        + "  ".join(f"{name} -> Mat(Color, 0, {k / 4}, 0, 0, 1)" for k, name in enumerate("ABCD"))
+    )
+    house = box(chance, 6, 5, 4, seed=seed, roof=2, side="Side", gable="Gable")
+    walls = [one for one in house if one.start in (None, "Side", "Gable")]
+    assert len(walls) == 8  # two of them the roof, which has no rule of its own here
+    kinds = {
+        one.grammar.rules[
+            one.grammar.evaluate([(0.5, 0.5)], one.size, seed=one.seed, start=one.start).rule[0]
+        ].name
+        for one in walls
+    }
+    assert len(kinds) == 1
+
+
 def test_a_flat_picture_is_what_the_grammar_says(tmp_path: Path) -> None:
     grammar = Grammar.parse(
         "S -> SplitX(Rel, 1, A, Rel, 1, B)  A -> Mat(Color, 0, 1, 0, 0, 1)  B -> Mat(Color, 0, 0, 0, 1, 1)"
