@@ -54,7 +54,7 @@ class Units:
     def blended(self, colours: Floats, waves: float) -> Floats:
         """Colours (count, 3) changed a little, so that no patch of the wall is darker or lighter than another.
 
-        What chance makes would be seen from afar, over and over, since the tile repeats. Each stone stays of one colour.
+        What chance makes would be seen from afar, over and over, since the tile repeats. Each stone has one colour.
         `waves`: swings across the tile below which patches are slow (see `evened`).
         """
         step = max(1, len(self.id) // _COARSE)
