@@ -187,6 +187,55 @@ def test_typing_changes_the_picture_and_a_fault_keeps_it(live: Live) -> None:
     expect(area).to_have_value("S -> Matt(Color, 0, 0, 1, 0, 1)")
 
 
+def test_faults_are_told_by_every_part(live: Live) -> None:
+    """Where there is no picture yet, where it is an old one, and where there is no grammar to list."""
+    lab = live("""
+        model = TextureModel("S -> Matt(Color, 0, 1, 0, 0, 1)")
+        display(TextureView(model, controls=False, antialias='none', layout={'width': '300px'}), GrammarEditor(model),
+                GrammarTable(model))
+    """)
+    note, listed = lab.page.locator(".fnb-tex-note"), lab.page.locator(".fnb-tex-none")
+    expect(note).to_contain_text("no picture yet")
+    expect(note).to_contain_text("line 1, column 6: there is no operator 'Matt'; did you mean 'Mat'?")
+    expect(listed).to_be_visible()
+    expect(lab.page.locator(".fnb-tex-canvas")).to_be_hidden()
+    height = lab.page.locator(".fnb-tex-stage").evaluate("stage => stage.clientHeight")
+    assert height < 200
+    area = lab.field("Grammar")
+    area.fill("S -> Mat(Color, 0, 1, 0, 0, 1)")
+    expect(note).to_be_hidden()
+    expect(listed).to_be_hidden()
+    expect(lab.page.locator(".fnb-tex-faults")).to_have_text(lab.python("model.grammar.report()"))
+    assert pixels(lab)[..., 0].max() > 200
+    area.fill("S -> Mat(Color, 0, 1, 0, 0)")
+    expect(note).to_contain_text("this is the picture of what it was before")
+    expect(lab.page.locator(".fnb-tex-canvas")).to_be_visible()
+    assert pixels(lab)[..., 0].max() > 200
+
+
+def test_the_step_looked_at_is_in_sight(live: Live) -> None:
+    """The last of many steps, and its record far down in the table; the page around does not scroll."""
+    lab = live("""
+        model = TextureModel(gallery.grammar('figure-10'), size=(14, 12))
+        model.pick((5.2, 6.0))
+        display(PixelInspector(model), GrammarTable(model))
+    """)
+    seen = """row => {
+        const [a, b] = [row, row.closest("ol, .fnb-tex-table")].map((e) => e.getBoundingClientRect());
+        return a.top >= b.top - 1 && a.bottom <= b.bottom + 1;
+    }"""
+    current, pixel = (
+        lab.page.locator(name).first for name in (".fnb-tex-steps [aria-current]", "[data-lit=now]")
+    )
+    assert lab.page.locator(".fnb-tex-steps li").count() > 14  # more than fit
+    expect(pixel).to_have_count(1)
+    lab.page.wait_for_timeout(300)
+    assert current.evaluate(seen) and pixel.evaluate(seen)
+    lab.page.locator(".fnb-tex-steps button").first.click()
+    lab.page.wait_for_timeout(200)
+    assert current.evaluate(seen) and pixel.evaluate(seen)
+
+
 def test_a_lost_context_comes_back(live: Live) -> None:
     lab = live("""
         view = TextureView(TEXT, lit=False, controls=False, antialias='none', layout={'width': '200px'})

@@ -14,6 +14,7 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
     class: "fnb-tex-text",
     spellcheck: "false",
     autocomplete: "off",
+    placeholder: "S -> Mat(Color, Rep:brick, 0, 0, 0.5, 0.5)",
     wrap: "off",
     "aria-label": "Grammar",
     "data-lm-suppress-shortcuts": "true",
@@ -45,9 +46,11 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
     area.readOnly = !session.live;
     mark(area, "aria-invalid", session.faults.length ? "true" : null);
     number();
+    if (!session.faults.length) setText(list, session.scene?.report ?? "");
     const key = JSON.stringify(session.faults);
     if (list.dataset.key === key) return;
     list.dataset.key = key;
+    if (!session.faults.length) return;
     list.replaceChildren(
       ...session.faults.map((fault) => {
         const place = fault.line ? `Line ${fault.line}, column ${fault.column}` : fault.place;
@@ -57,7 +60,7 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
           h("strong", {}, place),
           " ",
           h("span", {}, fault.message),
-          h("pre", {}, fault.excerpt),
+          /^\s*\n/.test(fault.excerpt) ? null : h("pre", {}, fault.excerpt),
         );
         go.addEventListener("click", () => {
           area.focus();
@@ -67,7 +70,6 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
         return go;
       }),
     );
-    if (!session.faults.length) setText(list, session.scene?.report ?? "");
   }, signal);
   return h(
     "section",
