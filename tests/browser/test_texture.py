@@ -182,6 +182,32 @@ def test_typing_changes_the_picture_and_a_fault_keeps_it(live: Live) -> None:
     expect(fault).to_contain_text("Line 1, column 6")
     expect(fault).to_contain_text("Mat")
     expect(fault.locator("pre")).to_contain_text("^")
+    underlined = lab.page.locator(".fnb-tex-marks u")
+    expect(underlined).to_have_text("Matt")
+    # It lies under the word, also where one has scrolled.
+    place = """word => {
+        const area = document.querySelector(".fnb-tex-text"), pen = document.createElement("canvas").getContext("2d");
+        pen.font = getComputedStyle(area).font;
+        const [a, b] = [area, word].map(e => e.getBoundingClientRect()), own = area.value.split("\\n");
+        const line = own.findIndex(one => one.includes("Matt"));
+        const before = own[line].slice(0, own[line].indexOf("Matt"));
+        return [b.left - (a.left + 8 + pen.measureText(before).width - area.scrollLeft),
+            b.top - (a.top + 6 + 18 * line - area.scrollTop)];
+    }"""
+    for text in (
+        "S -> Matt(Color, 0, 0, 1, 0, 1)",
+        "# a\n" * 40 + f"# {'long ' * 80}\n" + "\tS -> Matt(Color)",
+    ):
+        area.fill(text)
+        expect(fault).to_contain_text(f"Line {text.count(chr(10)) + 1}, ")
+        expect(underlined).to_be_visible()
+        area.evaluate("area => { area.scrollTop = 1e4; area.scrollLeft = 37; }")
+        lab.page.wait_for_timeout(200)
+        across, down = underlined.evaluate(place)
+        assert abs(down) < 4
+        assert abs(across) < (2 if "\t" not in text else 80)  # a tab is up to eight letters wide
+    area.fill("S -> Matt(Color, 0, 0, 1, 0, 1)")
+    expect(fault).to_contain_text("Line 1, column 6")
     lab.page.wait_for_timeout(400)
     assert pixels(lab)[middle].tolist() == [0, 0, 255, 255]
     expect(area).to_have_value("S -> Matt(Color, 0, 0, 1, 0, 1)")

@@ -257,7 +257,9 @@ class TestSizesOfTiles:
 
     @given(
         text=grammar_texts(rules=12),
-        eye=st.tuples(st.floats(-4, 11, width=32), st.floats(0.25, 6, width=32), st.floats(0.25, 12, width=32)),
+        eye=st.tuples(
+            st.floats(-4, 11, width=32), st.floats(0.25, 6, width=32), st.floats(0.25, 12, width=32)
+        ),
         seed=seeds,
     )
     @settings(max_examples=150)
