@@ -207,7 +207,7 @@ def _facade_light(
     local = rays @ axes.T
     distance = hits.distance[own]
     question = facade.grammar.question(facade.size, facade.seed, facade.start)
-    # A pixel covers this much of what is seen straight on; seen slantwise it is sampled finely enough across.
+    # A pixel covers this much across the ray; how much of a tile that is, seen slantwise, the evaluator finds.
     everywhere = np.ones(len(own), bool)
     looks = Looks(
         np.ascontiguousarray(hits.places[own]), local, distance * np.float32(spread), spread, everywhere
