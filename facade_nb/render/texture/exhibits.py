@@ -25,7 +25,7 @@ from ..tiles import TileSet
 from .facades import Facade, box
 from .from_layout import grammar_of
 from .grammar import Grammar
-from .photograph import STANDPOINT, Photo, flat, photograph, save_picture
+from .photograph import STANDPOINT, Photo, flat, photographs, save_picture
 
 __all__ = ["EXHIBITS", "Exhibit", "View", "exhibit", "layout_exhibit", "street"]
 
@@ -63,16 +63,16 @@ class View:
     frame: tuple[float, float, float, float] | None = None
     street: bool = False
 
-    def take(self, grammar: Grammar, samples: int) -> NDArray[np.uint8]:
-        """The picture, (h, w, 3) uint8."""
-        if self.hour is None:
-            return flat(grammar, self.size, self.pixels, seed=self.seed, start=self.start)
+    def take(self, grammar: Grammar, samples: int, hours: Sequence[float] = ()) -> list[NDArray[np.uint8]]:
+        """The picture, (h, w, 3) uint8, at each of some hours; at none: straight on, colours as they are."""
+        if not hours:
+            return [flat(grammar, self.size, self.pixels, seed=self.seed, start=self.start)]
         facades = (
             street(grammar, self.seed)
             if self.street
             else [Facade(grammar, self.size, seed=self.seed, start=self.start)]
         )
-        return photograph(facades, Photo(self.pixels, self.hour, self.camera, self.frame, samples))
+        return photographs(facades, Photo(self.pixels, hours[0], self.camera, self.frame, samples), hours)
 
 
 @dataclass(frozen=True, slots=True)
@@ -286,10 +286,7 @@ def exhibit(name: str, *, samples: int = 3, scale: float = 1.0) -> NDArray[np.ui
             )
         )
     grammar = Grammar.parse(grammar_text(name), TileSet.builtin(_TILE_SIZE))
-    rows = []
-    for row in EXHIBITS[name].rows:
-        rows.append(_beside([_scaled(view, scale).take(grammar, samples) for view in row]))
-    return _below(rows)
+    return _page(EXHIBITS[name].rows, grammar, samples, scale)
 
 
 def layout_exhibit(name: str, *, samples: int = 3, scale: float = 1.0) -> NDArray[np.uint8]:
@@ -298,7 +295,24 @@ def layout_exhibit(name: str, *, samples: int = 3, scale: float = 1.0) -> NDArra
     grammar = compiled.grammar(TileSet.builtin(_TILE_SIZE))
     camera = Camera(azimuth=-20, height=min(8.0, 0.5 * compiled.size[1]), angle=38, fill=0.92)
     views = [View((850, 930), compiled.size, (3.1, 2.2), hour=hour, camera=camera) for hour in (9.5, 21.1)]
-    return _below([_beside([_scaled(view, scale).take(grammar, samples) for view in views])])
+    return _page([views], grammar, samples, scale)
+
+
+def _page(rows: Sequence[Sequence[View]], grammar: Grammar, samples: int, scale: float) -> NDArray[np.uint8]:
+    """The pictures of views, row by row. Views that differ in their hour alone are taken together."""
+    views = list(dict.fromkeys(view for row in rows for view in row))
+    taken: dict[View, NDArray[np.uint8]] = {}
+    for view in views:
+        if view not in taken:
+            alike = [view]
+            if view.hour is not None:
+                alike = [
+                    one for one in views if one.hour is not None and replace(one, hour=view.hour) == view
+                ]
+            hours = [one.hour for one in alike if one.hour is not None]
+            pictures = _scaled(view, scale).take(grammar, samples, hours)
+            taken.update(zip(alike, pictures, strict=True))
+    return _below([_beside([taken[view] for view in row]) for row in rows])
 
 
 def _scaled(view: View, scale: float) -> View:

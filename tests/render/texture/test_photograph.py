@@ -20,7 +20,7 @@ from facade_nb.render.texture.exhibits import EXHIBITS, exhibit, layout_exhibit
 from facade_nb.render.texture.facades import Facade, box, meet, sees
 from facade_nb.render.texture.osmesa import OSMesaContext
 from facade_nb.render.texture.painters import PAINTERS
-from facade_nb.render.texture.photograph import Photo, flat, photograph, save_picture
+from facade_nb.render.texture.photograph import Photo, flat, photograph, photographs, save_picture
 from facade_nb.render.texture.picture import texture_pixels
 from facade_nb.render.texture.shaders import shader
 from facade_nb.render.texture.view import Sight
@@ -195,6 +195,15 @@ def test_a_flat_picture_is_what_the_grammar_says(tmp_path: Path) -> None:
     for name, head in (("a.png", b"\x89PNG"), ("a.jpg", b"\xff\xd8")):
         save_picture(pixels, tmp_path / name)
         assert (tmp_path / name).read_bytes().startswith(head)
+
+
+def test_photographs_at_several_hours_are_those_of_each_hour() -> None:
+    houses = box(Grammar.parse(grammar("figure-10"), TileSet.builtin(64)), 10, 9, 5, seed=(4.6, 2.1), roof=2)
+    photo = Photo((100, 80), 9.5, samples=1)
+    pictures = photographs(houses, photo, (9.5, 19.8, 23.0))
+    assert len({picture.tobytes() for picture in pictures}) == 3
+    for hour, picture in zip((9.5, 19.8, 23.0), pictures, strict=True):
+        assert np.array_equal(picture, photograph(houses, replace(photo, hour=hour)))
 
 
 @pytest.mark.parametrize("backend", ["osmesa", "egl"])
