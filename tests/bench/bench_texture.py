@@ -108,6 +108,7 @@ def _antialiasing(questions: dict[str, Question], present: dict[str, Painter]) -
     sights = {
         "flat": Sight.flat(SIZE, pixels),
         "street": Sight.from_eye((1.0, 1.7, 7.0), (7.0, 4.5), SIZE, pixels, 65.0),
+        "along": Sight.from_eye((-3.0, 1.7, 1.2), (6.0, 4.0), SIZE, pixels, 50.0),
     }
     print(
         f"\nAntialiasing at {pixels[0]} × {pixels[1]}: error (root mean square, of 255) against 256 samples; CPU ms:"

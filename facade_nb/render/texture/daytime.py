@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import cos, pi, radians, sin
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -125,12 +126,15 @@ class Daytime:
 
     def backdrop(self, rays: Floats) -> Floats:
         """The sky (n, 3), linear, that is seen along directions (n, 3)."""
-        length = np.sqrt((rays * rays).sum(axis=1))
+        length = np.sqrt(_dots(rays, rays))
         rise = np.clip(rays[:, 1] / length, 0, 1)[:, None] ** 0.7
         low, high = floats(self.horizon), floats(self.zenith)
         seen = low + (high - low) * rise
         glow = np.clip(rays @ floats(self.towards) / length, 0, 1)[:, None] ** 24
         return (seen + 0.16 * glow * floats(self.sun)).astype(np.float32)
+
+
+_PART = 1 << 14
 
 
 def light(
@@ -161,9 +165,36 @@ def light(
         (3, 3) the façade's right, up and outward axes in the world, as rows; None: it looks south.
     """
     turned = np.eye(3, dtype=np.float32) if axes is None else axes
+    lit = np.empty((len(color), 3), np.float32)
+    for first in range(0, len(color), _PART):
+        part = slice(first, first + _PART)
+        lit[part] = _light(
+            color[part],
+            normal[part],
+            specular[part],
+            rays[part],
+            daytime,
+            shadow[part],
+            heights[part],
+            turned,
+        )
+    return lit
+
+
+def _light(
+    color: Floats,
+    normal: Floats,
+    specular: Floats,
+    rays: Floats,
+    daytime: Daytime,
+    shadow: Floats,
+    heights: Floats,
+    turned: Floats,
+) -> Floats:
+    """As `light`, of few enough points that what is calculated on the way stays in the processor's cache."""
     local = normal[:, :3] + (1 - normal[:, 3:]) * floats([0.5, 0.5, 1.0])
     vector = 2 * local - 1
-    length = np.sqrt((vector * vector).sum(axis=1))
+    length = np.sqrt(_dots(vector, vector))
     outside = np.clip(length, 0, 1)
     unit = (vector / np.maximum(length, 1e-4)[:, None]) @ turned
     towards = floats(daytime.towards)
@@ -181,13 +212,29 @@ def light(
     lamp = np.clip(specular[:, :3] - outside[:, None], 0, 1) * np.float32(daytime.lamps * _LAMP)
     albedo = linear(np.clip(color[:, :3], 0, 1))
     share = outside[:, None]
-    lit = albedo * (share * outdoors + (1 - share) * floats(daytime.indoors) + lamp)
-    view = rays / np.maximum(np.sqrt((rays * rays).sum(axis=1)), 1e-6)[:, None] @ turned
+    lit: Floats = albedo * (share * outdoors + (1 - share) * floats(daytime.indoors) + lamp)
+    if not any(daytime.sun):
+        return lit
+    view = rays / np.maximum(np.sqrt(_dots(rays, rays)), 1e-6)[:, None] @ turned
     half = towards - view
-    half /= np.maximum(np.sqrt((half * half).sum(axis=1)), 1e-6)[:, None]
-    shine = np.clip((unit * half).sum(axis=1), 0, 1) ** 60 * shadow * outside
+    half /= np.maximum(np.sqrt(_dots(half, half)), 1e-6)[:, None]
+    shine = _sixtieth(np.clip(_dots(unit, half), 0, 1)) * shadow * outside
     result: Floats = lit + (0.5 * shine)[:, None] * specular[:, :3] * floats(daytime.sun)
     return result
+
+
+def _dots(a: NDArray[Any], b: NDArray[Any]) -> Floats:
+    """Products of rows (n,)."""
+    found: Floats = np.einsum("ij,ij->i", a, b)
+    return found
+
+
+def _sixtieth(x: NDArray[Any]) -> Any:
+    """The 60th power: 4 + 8 + 16 + 32."""
+    fourth = x * x * x * x
+    eighth = fourth * fourth
+    sixteenth = eighth * eighth
+    return fourth * eighth * sixteenth * (sixteenth * sixteenth)
 
 
 def _step(low: float, high: float, value: float) -> float:

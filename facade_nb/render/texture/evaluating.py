@@ -35,6 +35,7 @@ BELOW_ONE = np.float32(0.9999999)
 
 _CHUNK = 1 << 16
 _TINY, _HUGE, _FAR = np.float32(1e-30), np.float32(1e30), np.float32(1e9)
+_STEEP, _SHARE, _LONG = np.float32(1000), np.float32(1 / 9), np.float32(16)
 _USAGES = {number: name for name, number in USAGES.items()}
 
 
@@ -485,12 +486,30 @@ class _Run:
         )
 
     def _level(self, tile: int, batch: Batch, across: Any, up: Any) -> int | NDArray[np.int32]:
-        """Which size of a tile fits a pixel: the last whose texels are not larger, where the tile shrinks least."""
+        """Which size of a tile fits a pixel, a tile that stands so often in a metre: 0 is the largest.
+
+        Seen slantwise, or on a tile that is drawn out, a pixel is an ellipse. Texels are to be no larger than its small
+        axis, but no smaller than a third of the large one; one sample cannot see all of an ellipse longer than that.
+        """
         if not self.sized:
             return 0
         _, _, width, height = self.question.atlas.table[tile - 1, 0].astype(np.float32)
-        texels = np.minimum(across * width, up * height) * batch.footprint
-        return np.floor(np.log2(np.maximum(texels, 1))).astype(np.int32)
+        x, y, z = batch.ray
+        away = np.maximum(np.abs(z), _TINY)
+        slope_x, slope_y = (np.clip(v / away, -_STEEP, _STEEP) for v in (x, y))
+        u, v = (
+            across * width * batch.footprint,
+            up * height * batch.footprint,
+        )  # texels, were it seen straight on
+        a, b, c = u * u * (1 + slope_x * slope_x), u * v * slope_x * slope_y, v * v * (1 + slope_y * slope_y)
+        mean, half = np.float32(0.5) * (a + c), np.float32(0.5) * (a - c)
+        apart = np.sqrt(half * half + b * b)
+        small, large = mean - apart, mean + apart  # squares of the axes
+        if self.margin is not None:
+            long = np.broadcast_to(large > _LONG * np.maximum(small, 1), len(batch))
+            self.margin[batch.index[long]] = 0
+        texels = np.maximum(np.maximum(small, large * _SHARE), 1)
+        return np.floor(np.float32(0.5) * np.log2(texels)).astype(np.int32)
 
     # Steps ------------------------------------------------------------------------------------------------
 

@@ -25,7 +25,7 @@ from ..tiles import TileSet
 from .facades import Facade, box
 from .from_layout import grammar_of
 from .grammar import Grammar
-from .photograph import STANDPOINT, Photo, flat, photograph, save_picture
+from .photograph import STANDPOINT, Photo, flat, photographs, save_picture
 
 __all__ = ["EXHIBITS", "Exhibit", "View", "exhibit", "layout_exhibit", "street"]
 
@@ -63,16 +63,16 @@ class View:
     frame: tuple[float, float, float, float] | None = None
     street: bool = False
 
-    def take(self, grammar: Grammar, samples: int) -> NDArray[np.uint8]:
-        """The picture, (h, w, 3) uint8."""
-        if self.hour is None:
-            return flat(grammar, self.size, self.pixels, seed=self.seed, start=self.start)
+    def take(self, grammar: Grammar, samples: int, hours: Sequence[float] = ()) -> list[NDArray[np.uint8]]:
+        """The picture, (h, w, 3) uint8, at each of some hours; at none: straight on, colours as they are."""
+        if not hours:
+            return [flat(grammar, self.size, self.pixels, seed=self.seed, start=self.start)]
         facades = (
             street(grammar, self.seed)
             if self.street
             else [Facade(grammar, self.size, seed=self.seed, start=self.start)]
         )
-        return photograph(facades, Photo(self.pixels, self.hour, self.camera, self.frame, samples))
+        return photographs(facades, Photo(self.pixels, hours[0], self.camera, self.frame, samples), hours)
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,12 +132,18 @@ def _sixth() -> tuple[tuple[View, ...], ...]:
 
 
 def _seventh() -> tuple[tuple[View, ...], ...]:
+    street = Camera(azimuth=-24, height=1.7, angle=48, fill=1.0)
+    near = Camera(azimuth=-18, height=5.0, angle=48, fill=1.0)
     return (
         tuple(
             View((330, 300), (13.0, 13.5), start=start, hour=None)
             for start in ("Wall", "Windows", "Ornament", "Awnings")
         ),
         (View((1350, 700), (26.0, 13.5), hour=10.2, camera=Camera(azimuth=-16, angle=34, fill=0.9)),),
+        (
+            View((670, 500), (26.0, 13.5), hour=10.2, camera=street, frame=(2, 0, 11, 6.5)),
+            View((670, 500), (26.0, 13.5), hour=10.2, camera=near, frame=(7.5, 3.2, 11.5, 6.6)),
+        ),
     )
 
 
@@ -241,7 +247,7 @@ def _thirteenth(chance: bool) -> tuple[tuple[View, ...], ...]:
 _TABLE: tuple[tuple[str, str, Callable[[], tuple[tuple[View, ...], ...]]], ...] = (
     ("figure-1", "a façade on one rectangle, by day and by night, from afar and close", _first),
     ("figure-6", "random groups: one colour for a part, for a floor, for each field", _sixth),
-    ("figure-7", "layers one by one, and together", _seventh),
+    ("figure-7", "layers one by one, and together, from afar and close", _seventh),
     ("figure-8", "a hole in the wall by a mask, the room behind it, a frame before it", _eighth),
     ("figure-9", "the five faces of an intrusion, from three sides", _ninth),
     ("figure-10", "a street with all operators: from afar, from the pavement, close", _tenth),
@@ -280,10 +286,7 @@ def exhibit(name: str, *, samples: int = 3, scale: float = 1.0) -> NDArray[np.ui
             )
         )
     grammar = Grammar.parse(grammar_text(name), TileSet.builtin(_TILE_SIZE))
-    rows = []
-    for row in EXHIBITS[name].rows:
-        rows.append(_beside([_scaled(view, scale).take(grammar, samples) for view in row]))
-    return _below(rows)
+    return _page(EXHIBITS[name].rows, grammar, samples, scale)
 
 
 def layout_exhibit(name: str, *, samples: int = 3, scale: float = 1.0) -> NDArray[np.uint8]:
@@ -292,7 +295,24 @@ def layout_exhibit(name: str, *, samples: int = 3, scale: float = 1.0) -> NDArra
     grammar = compiled.grammar(TileSet.builtin(_TILE_SIZE))
     camera = Camera(azimuth=-20, height=min(8.0, 0.5 * compiled.size[1]), angle=38, fill=0.92)
     views = [View((850, 930), compiled.size, (3.1, 2.2), hour=hour, camera=camera) for hour in (9.5, 21.1)]
-    return _below([_beside([_scaled(view, scale).take(grammar, samples) for view in views])])
+    return _page([views], grammar, samples, scale)
+
+
+def _page(rows: Sequence[Sequence[View]], grammar: Grammar, samples: int, scale: float) -> NDArray[np.uint8]:
+    """The pictures of views, row by row. Views that differ in their hour alone are taken together."""
+    views = list(dict.fromkeys(view for row in rows for view in row))
+    taken: dict[View, NDArray[np.uint8]] = {}
+    for view in views:
+        if view not in taken:
+            alike = [view]
+            if view.hour is not None:
+                alike = [
+                    one for one in views if one.hour is not None and replace(one, hour=view.hour) == view
+                ]
+            hours = [one.hour for one in alike if one.hour is not None]
+            pictures = _scaled(view, scale).take(grammar, samples, hours)
+            taken.update(zip(alike, pictures, strict=True))
+    return _below([_beside([taken[view] for view in row]) for row in rows])
 
 
 def _scaled(view: View, scale: float) -> View:

@@ -48,8 +48,8 @@ class Facade:
     @property
     def axes(self) -> Floats:
         """Right, up and outward, as rows (3, 3)."""
-        right, up = floats(self.right), floats(self.up)
-        return np.stack([right, up, np.cross(right, up)])
+        (a, b, c), (d, e, f) = self.right, self.up
+        return floats([self.right, self.up, (b * f - c * e, c * d - a * f, a * e - b * d)])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -215,7 +215,7 @@ def box(
     turn
         Degrees to the left, seen from above.
     seed
-        Of the front; each further façade adds 17 m.
+        Of all of them: what the first scope chooses, such as the wall, is one choice for the house.
     roof
         Height of the ridge above the eaves; 0: none.
     side, gable, cover
@@ -233,9 +233,8 @@ def box(
     for k, (corner, along, wide) in enumerate(
         zip(corners, (right, -out, -right, out), (width, depth, width, depth), strict=True)
     ):
-        shifted = (seed[0] + 17 * k, seed[1])
         found.append(
-            Facade(grammar, (wide, height), _vector(corner), _vector(along), _vector(up), shifted, sides[k])
+            Facade(grammar, (wide, height), _vector(corner), _vector(along), _vector(up), seed, sides[k])
         )
         if gable is not None and roof > 0 and k % 2:
             foot = _vector(corner + up * height)

@@ -28,7 +28,7 @@ from .picture import texture_pixels
 from .shot import Painter
 from .view import Looks
 
-__all__ = ["STANDPOINT", "Photo", "flat", "photograph", "save_picture"]
+__all__ = ["STANDPOINT", "Photo", "flat", "photograph", "photographs", "save_picture"]
 
 Floats = NDArray[np.float32]
 
@@ -75,20 +75,31 @@ def photograph(facades: Sequence[Facade], photo: Photo = Photo()) -> NDArray[np.
     BackendError
         For a backend that does not work here; its text says what would help.
     """
+    return photographs(facades, photo, (photo.hour,))[0]
+
+
+def photographs(facades: Sequence[Facade], photo: Photo, hours: Sequence[float]) -> list[NDArray[np.uint8]]:
+    """The same photograph at several hours: what the camera meets, and the grammar there, is looked for once.
+
+    Raises as `photograph` does.
+    """
     if not facades:
         raise ValueError("expected at least one façade")
     if min(photo.pixels) < 1 or photo.samples < 1:
         raise ValueError(f"expected at least one pixel and sample; found {photo.pixels}, {photo.samples}")
-    daytime = Daytime.at(photo.hour)
+    daytimes = [Daytime.at(hour) for hour in hours]
     large = (photo.pixels[0] * photo.samples, photo.pixels[1] * photo.samples)
     view = photo.camera.look(_aimed(facades, photo), large)
     order = _blocks(large)
     rays = view.rays(large).reshape(-1, 3)[order]
     painter = choose_painter(photo.backend)
-    seen = np.empty_like(rays)
-    seen[order] = developed(_seen(facades, view, rays, daytime, large, painter), daytime.exposure)
-    small = binned(seen.reshape(large[1], large[0], 3), photo.samples)
-    return (np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8)
+    pictures = []
+    for daytime, seen in zip(daytimes, _seen(facades, view, rays, daytimes, large, painter), strict=True):
+        picture = np.empty_like(rays)
+        picture[order] = developed(seen, daytime.exposure)
+        small = binned(picture.reshape(large[1], large[0], 3), photo.samples)
+        pictures.append((np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8))
+    return pictures
 
 
 def flat(
@@ -160,28 +171,31 @@ def _seen(
     facades: Sequence[Facade],
     view: View,
     rays: Floats,
-    daytime: Daytime,
+    daytimes: Sequence[Daytime],
     pixels: tuple[int, int],
     painter: Painter,
-) -> Floats:
-    """Light (n, 3) that comes along rays."""
+) -> list[Floats]:
+    """Light (n, 3) that comes along rays, at each hour."""
     eye = view.eye.astype(np.float32)
     spread = float(view.window[2] - view.window[0]) / pixels[0]  # of a pixel, at unit distance
-    seen = np.zeros((len(rays), 3), np.float32)
+    seen = [np.zeros((len(rays), 3), np.float32) for _ in daytimes]
     clear = np.ones(len(rays), np.float32)  # how much of what lies further back is seen
     at = np.arange(len(rays))
     before: Floats | None = None
     for _ in range(_THROUGH):
         hits = meet(facades, eye, rays[at], before)
         behind = hits.facade < 0
-        seen[at[behind]] += clear[at[behind], None] * _backdrop(facades, eye, rays[at[behind]], daytime)
+        for daytime, light_ in zip(daytimes, seen, strict=True):
+            back = _backdrop(facades, eye, rays[at[behind]], daytime)
+            light_[at[behind]] += clear[at[behind], None] * back
         for index, facade in enumerate(facades):
             own = np.flatnonzero(hits.facade == index)
             if len(own):
-                light_, alpha = _facade_light(
-                    facades, index, facade, eye, rays[at[own]], hits, own, daytime, spread, painter
+                lights, alpha = _facade_light(
+                    facades, index, facade, eye, rays[at[own]], hits, own, daytimes, spread, painter
                 )
-                seen[at[own]] += clear[at[own], None] * light_
+                for light_, more_light in zip(seen, lights, strict=True):
+                    light_[at[own]] += clear[at[own], None] * more_light
                 clear[at[own]] *= 1 - alpha
         more = ~behind & (clear[at] > 1e-3)
         at, before = at[more], hits.distance[more] * np.float32(1 + 1e-5)
@@ -198,16 +212,16 @@ def _facade_light(
     rays: Floats,
     hits: Hits,
     own: NDArray[np.intp],
-    daytime: Daytime,
+    daytimes: Sequence[Daytime],
     spread: float,
     painter: Painter,
-) -> tuple[Floats, Floats]:
-    """Light (n, 3), multiplied by alpha, and alpha (n,) of what rays meet on one façade."""
+) -> tuple[list[Floats], Floats]:
+    """Light (n, 3), multiplied by alpha, at each hour, and alpha (n,) of what rays meet on one façade."""
     axes = facade.axes
     local = rays @ axes.T
     distance = hits.distance[own]
     question = facade.grammar.question(facade.size, facade.seed, facade.start)
-    # A pixel covers this much of what is seen straight on; seen slantwise it is sampled finely enough across.
+    # A pixel covers this much across the ray; how much of a tile that is, seen slantwise, the evaluator finds.
     everywhere = np.ones(len(own), bool)
     looks = Looks(
         np.ascontiguousarray(hits.places[own]), local, distance * np.float32(spread), spread, everywhere
@@ -215,8 +229,10 @@ def _facade_light(
     surface = painter.paint_at(question, looks, mips=True).surface
     points = eye + distance[:, None] * rays
     skip = np.full(len(own), index, np.int32)
-    free = sees(facades, points, floats(daytime.towards), skip).astype(np.float32)
-    lit = light(surface.color, surface.normal, surface.specular, local, daytime, free, points[:, 1], axes)
+    lit = []
+    for daytime in daytimes:
+        free = sees(facades, points, floats(daytime.towards), skip).astype(np.float32)
+        lit.append(light(*surface[:3], local, daytime, free, points[:, 1], axes))
     alpha: Floats = np.where(surface.color[:, 3] > OPAQUE, 1, surface.color[:, 3])
     return lit, alpha
 

@@ -43,6 +43,8 @@ class Recipe:
         Whether it is made for `SkipMask`.
     shade
         How much of the sky's light is drawn into its colour, 0 to 1.
+    even
+        Its colour is evened out below that many swings across it, so that it may be repeated often; 0: as drawn.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Recipe:
     maps: tuple[str, ...] = MAPS
     mask: bool = False
     shade: float = 1.0
+    even: float = 0.0
 
 
 def _render(colour: str) -> Draw:
@@ -95,7 +98,7 @@ def _recipes() -> list[Recipe]:
     lengths = stack((3, 4, 3.5), (2.5, 3, 2.5, 3), (4, 3, 3), (3, 2.5, 3, 2), (3.5, 3.5, 3), (2.5, 3.5, 2, 3))
     return [
         Recipe("wall1", wall, 1, 1, "xy", lambda c, s: plain.plaster(c, s, "#e2d8c3"),
-            "lime render, warm; repeats every metre", 11, plain_),
+            "lime render, warm; repeats every metre", 11, plain_, even=4),
         Recipe("wall2", wall, 1, 1, "xy", lambda c, s: masonry.brick(c, s, red, "#c9bfae"),
             "red brick; repeats every metre", 12),
         Recipe("wall3", wall, 1, 1, "xy",
@@ -103,7 +106,7 @@ def _recipes() -> list[Recipe]:
             "limestone blocks; repeat every metre", 13),
         *(
             Recipe(name, wall, 2, 2, "xy", _render(colour),
-                f"lime render, {what}", seed, plain_)
+                f"lime render, {what}", seed, plain_, even=6)
             for name, colour, what, seed in (
                 ("plaster", "#e6ddca", "warm white", 21), ("plaster-white", "#efebe2", "nearly white", 22),
                 ("plaster-ochre", "#dcc596", "Schönbrunn yellow", 23), ("plaster-rose", "#d9b1a0", "old rose", 24),
@@ -127,9 +130,9 @@ def _recipes() -> list[Recipe]:
             lambda c, s: masonry.ashlar(c, s, gold, "#a8906a", courses, lengths, bed=0.03),
             "golden sandstone with its beds", 33),
         Recipe("stone", wall, 2, 2, "xy", lambda c, s: plain.plaster(c, s, "#cfc7b6", rough=0.7),
-            "dressed limestone without joints", 34, plain_),
+            "dressed limestone without joints", 34, plain_, even=6),
         Recipe("concrete", wall, 2.5, 2.5, "xy", lambda c, s: plain.concrete(c, s, "#b9b6af"),
-            "fair-faced concrete", 35),
+            "fair-faced concrete", 35, even=1.5),
         Recipe("granite", wall, 2, 2, "xy", lambda c, s: plain.granite(c, s, "#9fa09e"), "grey granite slabs", 94),
         Recipe("wood", wall, 2, 2, "xy", lambda c, s: plain.boards(c, s, oak, 14),
             "upright larch boards", 36),
@@ -308,6 +311,8 @@ def _recipes() -> list[Recipe]:
             "from black below to white above", 1, (), shade=0),
         Recipe("fade-right", hole, 1, 1, "", lambda c, _: masks.fade(c, "right"),
             "from black at the left to white at the right", 1, (), shade=0),
+        Recipe("clouds", hole, 8, 8, "xy", masks.clouds,
+            "soft patches, to blend and to weather walls", 140, (), shade=0),
     ]  # fmt: skip
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from .canvas import Canvas, Floats
 from .catalogue import CATALOGUE
+from .images import evened
 from .relief import normals, sky_light
 
 __all__ = ["draw"]
@@ -32,6 +33,8 @@ def draw(name: str, size: int) -> Mapping[str, Floats]:
             1 - 0.6 * np.clip(canvas.gloss - 0.6, 0, 0.4) / 0.4
         )  # glass shows what it mirrors
         colour = np.clip(colour * (1 + recipe.shade * (light - 1))[..., None], 0, 1)
+    if recipe.even:
+        colour = np.clip(evened(colour, recipe.even), 0, 1)
     pictures = {"color": np.concatenate([colour, canvas.alpha[..., None]], axis=-1)}
     if "normal" in recipe.maps and facing is not None:
         pictures["normal"] = np.concatenate([0.5 + 0.5 * facing, canvas.alpha[..., None]], axis=-1)

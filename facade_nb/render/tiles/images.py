@@ -6,12 +6,25 @@ import numpy as np
 
 from .canvas import Floats, Values
 
-__all__ = ["bled", "coverage", "mipmaps", "rounded"]
+__all__ = ["bled", "coverage", "evened", "mipmaps", "rounded"]
 
 
 def rounded(picture: Floats) -> Floats:
     """The nearest multiples of 1/255, so that a texture of 8 bits holds exactly what NumPy computes with."""
     return (np.floor(np.clip(picture, 0, 1) * 255 + 0.5) / np.float32(255)).astype(np.float32)
+
+
+def evened(colour: Floats, waves: float) -> Floats:
+    """Take slow changes out of a colour (h, w, 3) that goes on at its edges.
+
+    From afar a repeated tile shows nothing but its patches that are darker or lighter than others, over and over. What
+    swings fewer than `waves` times across the tile is weakened, the slowest most; the mean stays.
+    """
+    up, across = np.fft.fftfreq(colour.shape[0], 1 / colour.shape[0]), np.arange(colour.shape[1] // 2 + 1)
+    keep = 1 - np.exp(-(((up[:, None] ** 2 + across**2) / waves**2) ** 2))
+    keep[0, 0] = 1
+    swings = np.fft.rfft2(colour, axes=(0, 1)) * keep[..., None]
+    return np.fft.irfft2(swings, s=colour.shape[:2], axes=(0, 1)).astype(np.float32)
 
 
 def bled(picture: Floats) -> Floats:

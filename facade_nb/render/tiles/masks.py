@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from .canvas import Canvas, Floats
+from .canvas import Canvas, Floats, smooth
 
-__all__ = ["fade", "mask"]
+__all__ = ["clouds", "fade", "mask"]
 
 
 def fade(canvas: Canvas, axis: str) -> None:
     """Draw a slow change from black to white: ``up``, or to the ``right``; it fades light in rooms."""
     share = canvas.y / canvas.tall if axis == "up" else canvas.x / canvas.width
     grey = np.broadcast_to(1 - (1 - share) ** 1.8, (canvas.size, canvas.size)).astype(np.float32)
+    canvas.lay(canvas.full(), np.repeat(grey[..., None], 3, axis=-1))
+
+
+def clouds(canvas: Canvas, seed: int) -> None:
+    """Draw soft patches: where a wall is weathered, or where one of two walls shows."""
+    patches = 0.8 * canvas.noise((1.2, 1.5), seed, 3) + 0.35 * canvas.noise((0.5, 0.4), seed + 1, 3)
+    grey = smooth(-1.5, 1.5, patches)
     canvas.lay(canvas.full(), np.repeat(grey[..., None], 3, axis=-1))
 
 

@@ -8,8 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from .canvas import Canvas, Floats, Values, noise, paint, randoms, smooth
+from .images import evened
 
 __all__ = ["Units", "ashlar", "brick", "rustic", "slates", "tiles"]
+
+
+_ROUNDS, _COARSE = 6, 128
+_ODD = 1.7
+"""How many standard deviations a stone may differ from the others: the oddest are known again wherever they repeat."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,6 +50,24 @@ class Units:
     def pick(self, values: Floats) -> Floats:
         """The value of each pixel's stone."""
         return values[self.id]
+
+    def blended(self, colours: Floats, waves: float) -> Floats:
+        """Colours (count, 3) changed a little, so that no patch of the wall is darker or lighter than another.
+
+        What chance makes would be seen from afar, over and over, since the tile repeats. Each stone has one colour.
+        `waves`: swings across the tile below which patches are slow (see `evened`).
+        """
+        step = max(1, len(self.id) // _COARSE)
+        seen = self.id[step // 2 :: step, step // 2 :: step]
+        pixels = np.maximum(np.bincount(seen.ravel(), minlength=self.count), 1)[:, None]
+        mean, spread = colours.mean(axis=0), colours.std(axis=0)
+        for _ in range(_ROUNDS):
+            picture = colours[seen]
+            slow = picture - evened(picture, waves)
+            sums = [np.bincount(seen.ravel(), slow[..., k].ravel(), self.count) for k in range(3)]
+            colours = colours - (np.stack(sums, axis=1) / pixels).astype(np.float32)
+            colours = np.clip(colours, mean - _ODD * spread, mean + _ODD * spread)
+        return colours
 
 
 def courses(canvas: Canvas, heights: Sequence[float], cuts: Sequence[Sequence[float] | Values]) -> Units:
@@ -113,7 +137,11 @@ def brick(
     distance = units.distance(joint, 0.006) + 0.0011 * wobble
     face = canvas.cover(distance)
     picks, tints, tilts = (randoms(seed + k, units.count) for k in (2, 3, 4))
-    colour = units.pick(_palette(bricks, picks)) * (1 + 0.13 * (units.pick(tints) - 0.5))[..., None]
+    colour = units.pick(
+        units.blended(
+            _palette(bricks, picks) * (1 + 0.13 * (tints - 0.5))[:, None], max(3.5, canvas.width / 0.4)
+        )
+    )
     fire = canvas.noise((0.09, 0.05), seed + 5, 3)
     grain = canvas.noise(0.012, seed + 6, 2)
     colour = _mottle(colour, 0.035 * fire + 0.03 * grain)
@@ -149,7 +177,9 @@ def ashlar(
     distance = units.distance(joint, 0.004) + 0.0006 * canvas.noise(0.03, seed + 1, 2)
     face = canvas.cover(distance)
     picks, tints = randoms(seed + 2, units.count), randoms(seed + 3, units.count)
-    colour = units.pick(_palette(stones, picks)) * (1 + vary * (units.pick(tints) - 0.5))[..., None]
+    colour = units.pick(
+        units.blended(_palette(stones, picks) * (1 + vary * (tints - 0.5))[:, None], canvas.width / 0.6)
+    )
     grain = canvas.noise(0.01, seed + 4, 2)
     cloud = canvas.noise((0.3, 0.16), seed + 5, 3)
     colour = _mottle(colour, 0.022 * cloud + 0.014 * grain)
@@ -208,7 +238,9 @@ def tiles(canvas: Canvas, seed: int, clay: Sequence[str], rows: int, columns: in
     height = 0.04 * roll + 0.035 * (1 - up) - 0.02 * (1 - lip)
     picks, tints = randoms(seed + 2, units.count), randoms(seed + 3, units.count)
     grain = canvas.noise(0.012, seed + 4, 2)
-    colour = units.pick(_palette(clay, picks)) * (1 + 0.12 * (units.pick(tints) - 0.5))[..., None]
+    colour = units.pick(
+        units.blended(_palette(clay, picks) * (1 + 0.12 * (tints - 0.5))[:, None], canvas.width / 0.6)
+    )
     colour = _mottle(colour, 0.03 * canvas.noise((0.1, 0.2), seed + 5, 3) + 0.02 * grain)
     seam = canvas.cover(np.abs(units.left) - 0.003)
     colour = colour * (1 - 0.25 * seam)[..., None]
@@ -222,7 +254,9 @@ def slates(canvas: Canvas, seed: int, slate: Sequence[str], rows: int, columns: 
     units = courses(canvas, [pitch] * rows, cuts)
     picks, tints, lifts = (randoms(seed + k, units.count) for k in (2, 3, 6))
     cleft = noise(canvas.size, (10, 26), seed + 4, 3)
-    colour = units.pick(_palette(slate, picks)) * (1 + 0.16 * (units.pick(tints) - 0.5))[..., None]
+    colour = units.pick(
+        units.blended(_palette(slate, picks) * (1 + 0.16 * (tints - 0.5))[:, None], canvas.width / 0.6)
+    )
     colour = _mottle(colour, 0.035 * cleft)
     up = units.below / pitch
     edge = np.minimum(np.minimum(units.left, units.right), units.below + 0.002)

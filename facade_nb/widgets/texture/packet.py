@@ -150,7 +150,8 @@ def step_text(step: Step) -> str:
             return f"goes on with layer {step.layer}"
         case Passed():
             mask = "" if step.mask is None else f"the mask is {step.mask:.2f}: "
-            return f"{mask}transparent, passes over {step.levels} more layer{'s' * (step.levels != 1)}"
+            more = f"passes over {step.levels} more layer{'s' * (step.levels != 1)}"
+            return f"{mask}transparent, {more if step.levels else 'goes on with the layer below'}"
         case Entered():
             return f"the ray hits the {step.face}, {step.depth:.3g} m behind"
         case Painted():

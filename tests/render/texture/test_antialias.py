@@ -95,6 +95,33 @@ def test_tiles_far_away_do_not_alias() -> None:
     )
 
 
+@pytest.mark.parametrize("backend", ["cpu", "osmesa"])
+@pytest.mark.parametrize(
+    "material", ["Rep:wall1, 0, 0, 3, 3", "Rep:wall1, 0, 0, 1, 9", "Fit:wall1, 0, 0, 1, 1"]
+)
+def test_tiles_seen_along_the_wall_do_not_alias(material: str, backend: str) -> None:
+    """A pixel is a long ellipse there: a size of the tile that fits across it is too sharp along it."""
+    asked = question(f"S -> RepeatX(0.4, T)\nT -> RepeatY(0.4, U)\nU -> Mat(Color, {material})")
+    sight = Sight.from_eye((-1.5, 1.5, 0.3), (3.0, 2.0), (5, 4), (75, 60), 50)
+    painter, wanted = PAINTERS[backend], truth(asked, sight)
+    errors = {how: error(smoothed(painter, asked, sight, how), wanted) for how in ANTIALIAS}
+    assert errors["none"] > 4 * errors["supersample"]
+    assert errors["adaptive"] < 1.35 * errors["supersample"]
+    assert error(painter.paint(asked, sight, mips=True).surface.color, wanted) < 0.65 * errors["none"]
+
+
+def test_both_evaluators_take_the_same_size_of_a_tile_at_whole_texels_a_pixel() -> None:
+    """There a rounding would decide for the next size."""
+    for texels in (1, 2, 4, 8):
+        asked, sight = (
+            question(f"S -> Mat(Color, Rep:wall1, 0, 0, {texels / 16}, {texels / 16})"),
+            Sight.flat((5, 4), (80, 64)),
+        )
+        shots = [PAINTERS[one].paint(asked, sight, mips=True) for one in ("cpu", "osmesa")]
+        assert np.abs(shots[0].surface.color - shots[1].surface.color).max() < 2e-4
+        assert np.array_equal(shots[0].margin, shots[1].margin)
+
+
 def test_an_unknown_kind() -> None:
     with pytest.raises(
         ValueError, match="expected one of none, adaptive, supersample; found 'adaptiv'; did you mean"

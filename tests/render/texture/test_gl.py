@@ -255,6 +255,24 @@ class TestSizesOfTiles:
             assert np.abs(shots[0].margin - shots[1].margin)[inside].max() < 0.01
             assert np.array_equal(shots[0].margin < 1e8, inside)
 
+    @given(
+        text=grammar_texts(rules=12),
+        eye=st.tuples(
+            st.floats(-4, 11, width=32), st.floats(0.25, 6, width=32), st.floats(0.25, 12, width=32)
+        ),
+        seed=seeds,
+    )
+    @settings(max_examples=150)
+    def test_random_grammars_with_a_camera(
+        self, text: str, eye: tuple[float, float, float], seed: tuple[float, float]
+    ) -> None:
+        """Also along the wall: the same rules and colours, and the same pixels are sampled again."""
+        question = Grammar.parse(text, stand_in()).question(SIZE, seed)
+        sight = Sight.from_eye(eye, (3.5, 2.5), SIZE, (40, 30), 60)
+        found, wanted = (PAINTERS[name].paint(question, sight, mips=True) for name in ("osmesa", "cpu"))
+        assert differing(found.surface, wanted.surface).sum() <= 2  # those on a boundary
+        assert ((found.margin < 0.75) != (wanted.margin < 0.75)).sum() <= 2
+
     def test_far_away_a_tile_is_its_mean(self) -> None:
         question = Grammar.parse("S -> Mat(Color, Rep:wall1, 0, 0, 1, 1)", stand_in()).question((400, 400))
         shot = OSMESA.paint(question, Sight.flat((400, 400), (20, 20)), mips=True)

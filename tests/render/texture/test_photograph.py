@@ -20,7 +20,7 @@ from facade_nb.render.texture.exhibits import EXHIBITS, exhibit, layout_exhibit
 from facade_nb.render.texture.facades import Facade, box, meet, sees
 from facade_nb.render.texture.osmesa import OSMesaContext
 from facade_nb.render.texture.painters import PAINTERS
-from facade_nb.render.texture.photograph import Photo, flat, photograph, save_picture
+from facade_nb.render.texture.photograph import Photo, flat, photograph, photographs, save_picture
 from facade_nb.render.texture.picture import texture_pixels
 from facade_nb.render.texture.shaders import shader
 from facade_nb.render.texture.view import Sight
@@ -166,6 +166,25 @@ def test_normals_turn_towards_the_sun() -> None:
     assert _lit(17.5, normal=right).mean() > 1.3 * _lit(17.5, normal=left).mean()
 
 
+@pytest.mark.parametrize("seed", [(0.0, 0.0), (31.7, 5.3), (-23.1, 47.9)])
+def test_all_walls_of_a_house_are_of_one_kind(seed: tuple[float, float]) -> None:
+    """The first choice belongs to the corner and the seed: front, sides, gables and back make the same one."""
+    chance = Grammar.parse(
+        "S -> RandUni(0, A, B, C, D)  Side -> RandUni(0, A, B, C, D)  Gable -> RandUni(0, A, B, C, D)\n"
+        + "  ".join(f"{name} -> Mat(Color, 0, {k / 4}, 0, 0, 1)" for k, name in enumerate("ABCD"))
+    )
+    house = box(chance, 6, 5, 4, seed=seed, roof=2, side="Side", gable="Gable")
+    walls = [one for one in house if one.start in (None, "Side", "Gable")]
+    assert len(walls) == 8  # two of them the roof, which has no rule of its own here
+    kinds = {
+        one.grammar.rules[
+            one.grammar.evaluate([(0.5, 0.5)], one.size, seed=one.seed, start=one.start).rule[0]
+        ].name
+        for one in walls
+    }
+    assert len(kinds) == 1
+
+
 def test_a_flat_picture_is_what_the_grammar_says(tmp_path: Path) -> None:
     grammar = Grammar.parse(
         "S -> SplitX(Rel, 1, A, Rel, 1, B)  A -> Mat(Color, 0, 1, 0, 0, 1)  B -> Mat(Color, 0, 0, 0, 1, 1)"
@@ -176,6 +195,15 @@ def test_a_flat_picture_is_what_the_grammar_says(tmp_path: Path) -> None:
     for name, head in (("a.png", b"\x89PNG"), ("a.jpg", b"\xff\xd8")):
         save_picture(pixels, tmp_path / name)
         assert (tmp_path / name).read_bytes().startswith(head)
+
+
+def test_photographs_at_several_hours_are_those_of_each_hour() -> None:
+    houses = box(Grammar.parse(grammar("figure-10"), TileSet.builtin(64)), 10, 9, 5, seed=(4.6, 2.1), roof=2)
+    photo = Photo((100, 80), 9.5, samples=1)
+    pictures = photographs(houses, photo, (9.5, 19.8, 23.0))
+    assert len({picture.tobytes() for picture in pictures}) == 3
+    for hour, picture in zip((9.5, 19.8, 23.0), pictures, strict=True):
+        assert np.array_equal(picture, photograph(houses, replace(photo, hour=hour)))
 
 
 @pytest.mark.parametrize("backend", ["osmesa", "egl"])

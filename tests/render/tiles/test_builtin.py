@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from facade_nb.render.tiles import CATALOGUE, TileError, TileSet
-from facade_nb.render.tiles.images import mipmaps
+from facade_nb.render.tiles.images import evened, mipmaps
 
 SIZE = 128
 TILES = TileSet.builtin(SIZE)
@@ -84,6 +84,32 @@ def test_a_tile_that_is_lighter_at_one_side_does_not_meet(name: str) -> None:
     picture[..., :3] *= np.linspace(0.8, 1.0, SIZE)[:, None, None]
     with pytest.raises(AssertionError):
         _meets(picture)
+
+
+EVEN = {
+    **dict.fromkeys(
+        ("brick", "brick-yellow", "brick-dark", "plaster", "plaster-ochre", "stone", "wall1"), 2.5
+    ),
+    **dict.fromkeys(("wall2", "wall3", "ashlar", "sandstone", "tiles", "slate"), 4.5),
+}
+
+
+@pytest.mark.parametrize("name", EVEN)
+def test_a_wall_does_not_show_from_afar_where_its_tile_repeats(name: str) -> None:
+    """In eighths of the tile, brightness is nearly the same: patches would be seen again in every repeat."""
+    levels = TileSet.builtin().mips(name)
+    assert levels[0][..., :3].mean(axis=2).std() * 255 > 1.5  # from close by there is something to see
+    assert levels[5].shape[0] == 8
+    assert levels[5][..., :3].mean(axis=2).std() * 255 < EVEN[name]
+
+
+def test_evening_out_takes_slow_swings_and_leaves_the_rest() -> None:
+    x = (np.arange(64) + 0.5) / 64
+    slow, fast = (0.1 * np.sin(2 * np.pi * k * x) for k in (1, 12))
+    picture = np.repeat((0.4 + slow + fast[:, None])[..., None], 3, axis=2).astype(np.float32)
+    even = evened(picture, 5)
+    assert even.mean() == pytest.approx(0.4, abs=1e-5)
+    assert np.abs(even[..., 0] - (0.4 + fast)[:, None]).max() < 0.002
 
 
 def test_tiles_are_the_same_in_another_process() -> None:

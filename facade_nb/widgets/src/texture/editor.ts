@@ -1,4 +1,5 @@
-// The text of the grammar. Faults stand below it, each with its line and a caret; a click goes to the place.
+// The text of the grammar. Faults are underlined in it, and stand below it, each with its line and a caret; a click goes to
+// the place.
 
 import { h, mark, setText } from "../dom.ts";
 import type { Session } from "./session.ts";
@@ -9,16 +10,25 @@ export function offsetOf(text: string, line: number, column: number): number {
   return Math.min(text.length, lines.reduce((sum, one) => sum + one.length + 1, 0) + column - 1);
 }
 
+/** What is underlined: the line up to a fault, and the word, number or sign that stands there. */
+export function marked(text: string, line: number, column: number): [before: string, word: string] {
+  const own = text.split("\n")[line - 1] ?? "";
+  const rest = own.slice(column - 1);
+  return [own.slice(0, column - 1), /^[\p{L}\p{N}_.:-]+/u.exec(rest)?.[0] || [...rest][0] || " "];
+}
+
 export function editor(session: Session, signal: AbortSignal): HTMLElement {
   const area = h("textarea", {
     class: "fnb-tex-text",
     spellcheck: "false",
     autocomplete: "off",
+    placeholder: "S -> Mat(Color, Rep:brick, 0, 0, 0.5, 0.5)",
     wrap: "off",
     "aria-label": "Grammar",
     "data-lm-suppress-shortcuts": "true",
   });
   const gutter = h("div", { class: "fnb-tex-gutter", "aria-hidden": "true" });
+  const marks = h("div", {});
   const list = h("div", { class: "fnb-tex-faults", role: "status" });
   let numbered = "";
 
@@ -33,21 +43,38 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
     );
     gutter.scrollTop = area.scrollTop;
   };
+  /** They lie over the text, line by line, in the same letters, of which only the underline is seen. */
+  const underline = () => {
+    marks.hidden = session.typing; // they belong to the text that Python has read
+    marks.replaceChildren(
+      ...session.faults.flatMap(({ line, column }) => {
+        if (!line || !column) return [];
+        const [before, word] = marked(area.value, line, column);
+        const made = h("div", {}, before, h("u", {}, word));
+        made.style.setProperty("--line", String(line - 1));
+        return [made];
+      }),
+    );
+  };
   area.addEventListener("input", () => {
     session.set("text", area.value);
     number();
   });
   area.addEventListener("scroll", () => {
     gutter.scrollTop = area.scrollTop;
+    marks.style.transform = `translate(${-area.scrollLeft}px, ${-area.scrollTop}px)`;
   });
   session.hold(() => {
     if (!session.typing && area.value !== session.text) area.value = session.text;
     area.readOnly = !session.live;
     mark(area, "aria-invalid", session.faults.length ? "true" : null);
     number();
+    underline();
+    if (!session.faults.length) setText(list, session.scene?.report ?? "");
     const key = JSON.stringify(session.faults);
     if (list.dataset.key === key) return;
     list.dataset.key = key;
+    if (!session.faults.length) return;
     list.replaceChildren(
       ...session.faults.map((fault) => {
         const place = fault.line ? `Line ${fault.line}, column ${fault.column}` : fault.place;
@@ -57,7 +84,7 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
           h("strong", {}, place),
           " ",
           h("span", {}, fault.message),
-          h("pre", {}, fault.excerpt),
+          /^\s*\n/.test(fault.excerpt) ? null : h("pre", {}, fault.excerpt),
         );
         go.addEventListener("click", () => {
           area.focus();
@@ -67,12 +94,17 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
         return go;
       }),
     );
-    if (!session.faults.length) setText(list, session.scene?.report ?? "");
   }, signal);
   return h(
     "section",
     { class: "fnb-tex-editor", "aria-label": "Grammar editor" },
-    h("div", { class: "fnb-tex-code" }, gutter, area),
+    h(
+      "div",
+      { class: "fnb-tex-code" },
+      gutter,
+      area,
+      h("div", { class: "fnb-tex-marks", "aria-hidden": "true" }, marks),
+    ),
     list,
   );
 }

@@ -12,6 +12,14 @@ export function about({ scope, seeds, faces }: Step): string {
   return `Scope ${left} to ${right} × ${bottom} to ${top} m${on}; seed stack: ${stack}`;
 }
 
+/** Scroll a list, and nothing around it, until a row of it is seen; where it is seen already, it stays. */
+export function reveal(list: HTMLElement, row: Element | null | undefined, head = 0): void {
+  if (!row) return;
+  const [outer, inner] = [list.getBoundingClientRect(), row.getBoundingClientRect()];
+  if (inner.top < outer.top + head) list.scrollTop += inner.top - outer.top - head;
+  else if (inner.bottom > outer.top + list.clientHeight) list.scrollTop += inner.bottom - outer.top - list.clientHeight;
+}
+
 export function inspector(session: Session, signal: AbortSignal): HTMLElement {
   const head = h("div", { class: "fnb-tex-hint", role: "status" });
   const list = h("ol", { class: "fnb-tex-steps" });
@@ -32,7 +40,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
       shown = steps;
       list.replaceChildren(
         ...steps.map((step, k) => {
-          const layer = step.layers.map(([, number]) => `layer ${number}`).join(", ");
+          const layer = step.layers.length ? `layer ${step.layers.map(([, number]) => number).join(" › ")}` : "";
           const where = [...step.faces, layer].filter(Boolean).join(" · ");
           const swatch = step.color && h("i", { class: "fnb-tex-swatch" });
           if (swatch && step.color)
@@ -59,6 +67,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
     [...list.children].forEach((row, k) => {
       mark(row, "aria-current", k === session.step ? "step" : null);
     });
+    reveal(list, list.children[session.step]);
     const now = steps[session.step];
     setText(detail, now ? about(now) : "");
     detail.hidden = !now;

@@ -11,6 +11,8 @@ import { sightOf } from "./sight.ts";
 import { lookOf, steering } from "./steering.ts";
 import { stillPicture } from "./still.ts";
 
+const TALLEST = 620; // pixels of the page: more than that would not fit beside what it is changed with
+
 const WATCHED = ["turn", "rise", "distance", "target", "flat", "antialias"];
 
 export function picture(session: Session, model: WidgetModel, signal: AbortSignal): HTMLElement {
@@ -38,6 +40,7 @@ function stage(canvas: HTMLCanvasElement, session: Session, model: WidgetModel, 
   let [wide, tall] = [0, 0];
   let drawn = "";
   let scene = session.scene;
+  let failure = "";
 
   const sight = () => sightOf(lookOf(model), session.size, canvas.width / Math.max(1, canvas.height));
   const job = (): Job | null => {
@@ -46,20 +49,26 @@ function stage(canvas: HTMLCanvasElement, session: Session, model: WidgetModel, 
     const light = session.lit ? lightAt(common.hours, session.hour) : null;
     return { common, scene, tiles, sight: sight(), size: session.size, seed: session.seed, light };
   };
-  const say = (text: string) => {
+  const say = () => {
+    const text = failure || (!session.scene ? nothing(session) : session.faults.length ? STALE : "");
     setText(note, text);
     note.hidden = text === "";
+    mark(made, "data-empty", !session.scene);
+  };
+  const failed = (message: string) => {
+    failure = message;
+    say();
   };
   const scopes = () => {
     if (wide && tall) drawScopes(overlay, session, sight(), wide, tall);
   };
-  const paint = painting(canvas, job, () => model.get("antialias") !== "none", scopes, say);
+  const paint = painting(canvas, job, () => model.get("antialias") !== "none", scopes, failed);
 
   const resize = () => {
     if (!made.clientWidth) return;
     wide = made.clientWidth;
     const [w, t] = session.size;
-    tall = Math.round(wide * Math.min(0.8, Math.max(0.45, t / w)));
+    tall = Math.round(Math.min(TALLEST, wide * Math.min(0.8, Math.max(0.45, t / w))));
     const dense = Math.min(window.devicePixelRatio || 1, 2, 1600 / wide);
     const [width, height] = [Math.round(wide * dense), Math.round(tall * dense)];
     if (canvas.width === width && canvas.height === height) return;
@@ -75,17 +84,16 @@ function stage(canvas: HTMLCanvasElement, session: Session, model: WidgetModel, 
       "aria-label",
       `Façade, ${w} by ${t} metres. Arrow keys turn, plus and minus come nearer, Enter looks into the middle.`,
     );
-    if (!session.scene) say(nothing(session));
-    else {
+    if (session.scene) {
       const now = JSON.stringify([session.size, session.seed, session.hour, session.lit, canvas.width, canvas.height]);
       if (now !== drawn || scene !== session.scene) {
-        say("");
+        failure = "";
         paint.redraw();
       }
       drawn = now;
       scene = session.scene;
     }
-    mark(made, "data-stale", session.faults.length > 0);
+    say();
     scopes();
   };
 
@@ -102,9 +110,15 @@ function stage(canvas: HTMLCanvasElement, session: Session, model: WidgetModel, 
   return made;
 }
 
+const STALE = "The text has faults: this is the picture of what it was before.";
+
 /** Why there is no picture yet. */
 export function nothing(session: Session): string {
   if (session.trouble) return session.trouble;
-  if (session.faults.length) return "The text has faults: there is no picture yet.";
+  const [first] = session.faults;
+  if (first) {
+    const place = first.line ? `line ${first.line}, column ${first.column}` : first.place;
+    return `There is no picture yet, for the text has faults. The first, at ${place}: ${first.message}`;
+  }
   return session.live ? "Reading the grammar …" : "This saved page holds no picture: run the notebook to see it.";
 }

@@ -2,9 +2,16 @@
 // pixel looked into has read is lit.
 
 import { h, mark } from "../dom.ts";
+import { reveal } from "./inspector.ts";
 import type { Session } from "./session.ts";
 
 export function table(session: Session, signal: AbortSignal): HTMLElement {
+  const empty = h("div", { class: "fnb-tex-none", role: "status" }, "There is no grammar without faults yet.");
+  const head = h(
+    "thead",
+    {},
+    h("tr", {}, ...["rule", "operator", "pixels"].map((name) => h("th", { scope: "col" }, name))),
+  );
   const body = h("tbody", {});
   const box = h(
     "div",
@@ -15,17 +22,15 @@ export function table(session: Session, signal: AbortSignal): HTMLElement {
       "aria-label": "Grammar texture",
       "data-lm-suppress-shortcuts": "true",
     },
-    h(
-      "table",
-      {},
-      h("thead", {}, h("tr", {}, ...["rule", "operator", "pixels"].map((name) => h("th", { scope: "col" }, name)))),
-      body,
-    ),
+    h("table", {}, head, body),
+    empty,
   );
   let shown: unknown = null;
   let cells = new Map<string, HTMLElement>();
+  let looked = "";
   session.hold(() => {
     const { scene } = session;
+    empty.hidden = !!scene;
     if (scene && shown !== scene) {
       shown = scene;
       cells = new Map();
@@ -46,7 +51,7 @@ export function table(session: Session, signal: AbortSignal): HTMLElement {
           return h(
             "tr",
             {},
-            h("th", { scope: "row" }, rule.name),
+            h("th", { scope: "row", title: rule.name }, h("div", {}, rule.name)),
             h("td", {}, rule.operator),
             h("td", {}, h("div", { class: "fnb-tex-pixels" }, ...pixels)),
           );
@@ -55,6 +60,9 @@ export function table(session: Session, signal: AbortSignal): HTMLElement {
     }
     const read = new Set(session.steps.flatMap((step) => step.records.map((at) => at.join())));
     const now = new Set(session.steps[session.step]?.records.map((at) => at.join()) ?? []);
+    const first = [...now].join(" ");
+    if (first !== looked) reveal(box, cells.get([...now][0] ?? "")?.closest("tr"), head.offsetHeight);
+    if (cells.size) looked = first;
     for (const [at, cell] of cells) mark(cell, "data-lit", now.has(at) ? "now" : read.has(at) ? "read" : null);
   }, signal);
   return box;

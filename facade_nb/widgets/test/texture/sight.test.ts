@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { timeOf } from "../../src/texture/controls.ts";
-import { offsetOf } from "../../src/texture/editor.ts";
+import { marked, offsetOf } from "../../src/texture/editor.ts";
 import { coarser, rowsFor } from "../../src/texture/painting.ts";
 import { lightAt, seedOf } from "../../src/texture/renderer.ts";
 import { type Look, meet, outline, project, sightOf } from "../../src/texture/sight.ts";
@@ -91,4 +91,14 @@ test("a slow picture becomes coarser, a fast one sharp", () => {
 
 test("a line and column are an offset", () => {
   expect(offsetOf("ab\ncd", 2, 2)).toBe(4);
+});
+
+test("what is underlined is the word, number or sign at a fault", () => {
+  expect(marked("S -> Layer(A)\nA -> Matt(Color)", 2, 6)).toEqual(["A -> ", "Matt"]);
+  expect(marked("A -> Mat(Color, Rep:brik, -1)", 1, 17)).toEqual(["A -> Mat(Color, ", "Rep:brik"]);
+  expect(marked("A -> Mat(Color, Rep:brik, -1)", 1, 27)).toEqual(["A -> Mat(Color, Rep:brik, ", "-1"]);
+  expect(marked("Wände -> Füll()", 1, 10)).toEqual(["Wände -> ", "Füll"]);
+  expect(marked("A -> B(§)", 1, 8)).toEqual(["A -> B(", "§"]);
+  expect(marked("A ->", 1, 5)).toEqual(["A ->", " "]);
+  expect(marked("", 3, 1)).toEqual(["", " "]);
 });
