@@ -128,6 +128,23 @@ def test_a_candidate_is_predicted(watch: Watch) -> None:
     lab.expect_python("view.answer", {"right": ["0"], "wrong": [], "missed": []})
 
 
+def test_the_equation_of_a_pair_is_predicted(watch: Watch, out: Path) -> None:
+    lab = watch("view = AnalysisView(traced('apartment-house'), predict=True, at='x/analysis+9'); view")
+    page = lab.page
+    page.get_by_label("Question").select_option("pair (3)")
+    expect(page.locator(".fnb-quiz-prompt")).to_have_text("What does the equation of pair (3) say?")
+    expect(page.locator(".fnb-pair-follows")).to_have_text("⇒ ?")
+    page.get_by_role("radio", name="2|f| = |g| − 1.5j + 4.4", exact=True).check()
+    lab.button("Check").click()
+    expect(page.locator(".fnb-quiz-outcome")).to_have_text(
+        "Right. What is left of both lines is equally long."
+    )
+    expect(page.locator(".fnb-offers li[data-verdict=right]")).to_have_count(1)
+    expect(page.locator(".fnb-pair-follows")).to_contain_text("⇒ 2|f| = |g| − 1.5j + 4.4")
+    lab.expect_python("view.answer['right']", ["2|f| = |g| − 1.5j + 4.4"])
+    page.screenshot(path=out / "analysis-equation.png")
+
+
 def test_the_code_of_what_is_played(watch: Watch) -> None:
     lab = watch("PlayerView(traced('residential-house'), at='x/words+2')")
     page = lab.page

@@ -36,9 +36,11 @@ export async function panel(
     if (view?.light) view.light();
     else if (view) links.apply(view.el);
   };
+  let ask = () => {};
   const refresh = () => {
     view?.show(player.position);
     light();
+    ask(); // what is asked may be about the moment
   };
   view = kind.make({ ...loaded, session, model, pieces, signal, refresh });
 
@@ -56,7 +58,8 @@ export async function panel(
     ),
   );
   if (view.quiz) {
-    const { toggle, bar } = question(view.quiz, model, refresh, signal);
+    const { toggle, bar, show } = question(view.quiz, model, refresh, signal);
+    ask = show;
     controls.append(toggle);
     el.append(bar);
   }
@@ -132,6 +135,8 @@ function question(quiz: Quiz, model: WidgetModel, refresh: () => void, signal: A
     h("span", {}, "Predict"),
   );
   toggle.addEventListener("click", () => quiz.ask(!quiz.on));
+  const which = h("select", { class: "fnb-quiz-which", "aria-label": "Question" });
+  which.addEventListener("change", () => quiz.pose(which.value));
   const prompt = h("span", { class: "fnb-quiz-prompt" });
   const outcome = h("strong", { class: "fnb-quiz-outcome", role: "status" });
   const check = press("Check", () => {
@@ -139,20 +144,32 @@ function question(quiz: Quiz, model: WidgetModel, refresh: () => void, signal: A
     if (model.comm_live !== false) model.save_changes();
   });
   const again = press("Again", () => quiz.again());
-  const bar = h("div", { class: "fnb-quiz" }, prompt, outcome, check, again);
+  const bar = h("div", { class: "fnb-quiz" }, which, prompt, outcome, check, again);
+  let [offered, about] = ["", ""];
   const show = () => {
     mark(toggle, "aria-pressed", String(quiz.on));
     bar.hidden = !quiz.on;
+    if (!quiz.on) return;
+    const now = [quiz.asked, quiz.prompt, ...quiz.truths.keys()].join("|");
+    const other = about !== "" && now !== about;
+    about = now;
+    if (other && quiz.begun) return quiz.clear(); // another moment, another question: what was chosen is not about it
+    const { names } = quiz;
+    which.hidden = names.length < 2;
+    if (names.join("|") !== offered) {
+      offered = names.join("|");
+      which.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
+    }
+    which.value = quiz.asked;
     setText(prompt, quiz.prompt);
     setText(outcome, quiz.done ? quiz.outcome() : "");
-    check.hidden = quiz.done;
+    check.hidden = quiz.done || !quiz.truths.size;
     again.hidden = !quiz.done;
-    refresh();
   };
   if (model.get<boolean>("predict")) quiz.ask(true);
-  quiz.watch(show, signal);
+  quiz.watch(refresh, signal);
   show();
-  return { toggle, bar };
+  return { toggle, bar, show };
 }
 
 /** What is shown where a view cannot be. */

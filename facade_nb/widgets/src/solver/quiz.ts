@@ -1,10 +1,14 @@
 // Prediction: a view hides its answer, asks, checks what the reader chose, and explains.
 
+import { h } from "../dom.ts";
+
 /** What there is to be said of a thing that can be chosen. */
 export interface Truth {
   right: boolean;
   why: string;
 }
+
+export type Truths = ReadonlyMap<string, Truth>;
 
 export type Verdict = "open" | "right" | "wrong" | "missed" | "passed";
 
@@ -14,25 +18,30 @@ export interface Answer {
   missed: string[];
 }
 
-/** A question of a view: the view draws what can be chosen, and asks here how it stands. */
+export interface Question {
+  /** What it is called among others that the view can ask. */
+  name?: string;
+  prompt: string;
+  /** What can be chosen at present, by key, and whether it is right to choose it. */
+  truths: () => Truths;
+  /** Whether one thing is to be chosen, not all that are right. */
+  single?: boolean;
+}
+
+/** The questions of a view: it draws what can be chosen, and asks here how it stands. */
 export class Quiz {
   private asking = false;
   private checked = false;
   private readonly chosen = new Set<string>();
   private readonly watchers = new Set<() => void>();
+  private subject = "";
   /** Goes up whenever something has changed: a view need not draw again before. */
   stamp = 0;
+  /** How often the reader has begun anew: a question may have another case each time. */
+  round = 0;
 
-  /**
-   * @param prompt the question
-   * @param truths what can be chosen at present, by key, and whether it is right to choose it
-   * @param single whether one thing is to be chosen, not all that are right
-   */
-  constructor(
-    readonly prompt: string,
-    private readonly truths: () => ReadonlyMap<string, Truth>,
-    readonly single = false,
-  ) {}
+  /** @param questions those that can be asked at present: at least one */
+  constructor(private readonly questions: () => readonly Question[]) {}
 
   /** Whether the view asks: then it must not show its answer before `done`. */
   get on(): boolean {
@@ -47,19 +56,59 @@ export class Quiz {
     return this.asking && !this.checked;
   }
 
+  /** Names of the questions that can be asked. */
+  get names(): string[] {
+    return this.questions().map(({ name }) => name ?? "");
+  }
+
+  /** Name of the question that is asked; of the first where none was chosen, or it cannot be asked any more. */
+  get asked(): string {
+    return this.question.name ?? "";
+  }
+
+  get prompt(): string {
+    return this.question.prompt;
+  }
+
+  get single(): boolean {
+    return this.question.single ?? false;
+  }
+
+  get truths(): Truths {
+    return this.question.truths();
+  }
+
+  private get question(): Question {
+    const all = this.questions();
+    const found = all.find(({ name }) => name === this.subject) ?? all[0];
+    if (!found) throw new Error("This view has no question.");
+    return found;
+  }
+
+  /** Whether something was chosen, or it is checked. */
+  get begun(): boolean {
+    return this.checked || this.chosen.size > 0;
+  }
+
   has(key: string): boolean {
     return this.chosen.has(key);
   }
 
   ask(on: boolean): void {
     this.asking = on;
-    this.again();
+    this.clear();
+  }
+
+  /** Ask another of the questions. */
+  pose(name: string): void {
+    this.subject = name;
+    this.round = 0;
+    this.clear();
   }
 
   again(): void {
-    this.checked = false;
-    this.chosen.clear();
-    this.tell();
+    this.round++;
+    this.clear();
   }
 
   choose(key: string): void {
@@ -77,7 +126,7 @@ export class Quiz {
 
   answer(): Answer {
     const answer: Answer = { right: [], wrong: [], missed: [] };
-    for (const [key, { right }] of this.truths()) {
+    for (const [key, { right }] of this.truths) {
       if (this.chosen.has(key)) answer[right ? "right" : "wrong"].push(key);
       else if (right && !this.single) answer.missed.push(key);
     }
@@ -86,8 +135,8 @@ export class Quiz {
 
   /** How a thing stands, and, once checked, why. */
   verdict(key: string): { state: Verdict; why: string } {
-    const truth = this.truths().get(key);
-    if (!this.checked || !truth) return { state: "open", why: "" };
+    const truth = this.checked ? this.truths.get(key) : undefined;
+    if (!truth) return { state: "open", why: "" };
     const chosen = this.chosen.has(key);
     const state = truth.right ? (chosen ? "right" : "missed") : chosen ? "wrong" : "passed";
     return { state, why: truth.why };
@@ -99,7 +148,7 @@ export class Quiz {
     if (this.single) {
       const [chosen] = [...right, ...wrong];
       if (chosen === undefined) return "Nothing was chosen.";
-      return `${right.length ? "Right." : "No."} ${this.truths().get(chosen)?.why ?? ""}`.trim();
+      return `${right.length ? "Right." : "No."} ${this.truths.get(chosen)?.why ?? ""}`.trim();
     }
     if (!wrong.length && !missed.length) return right.length ? "All right." : "Right: there are none.";
     const parts = [`${right.length} right`];
@@ -113,8 +162,39 @@ export class Quiz {
     signal.addEventListener("abort", () => this.watchers.delete(callback));
   }
 
+  /** Take back what was chosen. */
+  clear(): void {
+    this.checked = false;
+    this.chosen.clear();
+    this.tell();
+  }
+
   private tell(): void {
     this.stamp++;
     for (const watcher of [...this.watchers]) watcher();
   }
 }
+
+let lists = 0;
+
+/** What can be chosen as a list, and, once it is checked, how each thing stands and why. */
+export function offers(quiz: Quiz, content: (key: string) => Node | string): HTMLElement {
+  const name = `fnb-quiz-offers-${lists++}`;
+  const items = [...quiz.truths.keys()].map((key) => {
+    const { state, why } = quiz.verdict(key);
+    const box = h("input", { type: quiz.single ? "radio" : "checkbox", name });
+    box.checked = quiz.has(key);
+    box.disabled = quiz.done;
+    box.addEventListener("change", () => quiz.choose(key));
+    const what = h("span", { class: "fnb-offer-what" }, content(key));
+    return h(
+      "li",
+      { "data-verdict": state, "data-chosen-offer": box.checked },
+      h("label", {}, box, what),
+      h("span", { class: "fnb-offer-why" }, SIGN[state], why),
+    );
+  });
+  return h("ul", { class: "fnb-offers", "aria-label": quiz.prompt }, ...items);
+}
+
+const SIGN: Record<Verdict, string> = { open: "", right: "✓ ", wrong: "✕ ", missed: "✓ ", passed: "" };

@@ -1,4 +1,5 @@
 import { afterEach, describe, expect, it } from "vitest";
+import { offers, same } from "../../src/solver/equations.ts";
 import { target } from "../../src/solver/links.ts";
 import { analysis } from "../../src/solver/views/analysis.ts";
 import { type Shown, show } from "./fixtures.ts";
@@ -102,5 +103,37 @@ describe("pattern analysis", () => {
     quiz.ask(false);
     one.go(one.player.position);
     expect(texts(".fnb-pair")).toEqual([]); // the moment is what it was
+  });
+
+  it("asks what the equation of a pair says, among others that do not say the same", async () => {
+    one = await show(analysis, "supplement-3.1");
+    const quiz = one.view.quiz;
+    if (!quiz) throw new Error("no quiz");
+    quiz.ask(true);
+    expect(quiz.names).toEqual(["all pairs", "pair (1)"]);
+    quiz.pose("pair (1)");
+    one.go(one.timeline.data.stages[0]?.first ?? 0);
+    expect(quiz.prompt).toBe("What does the equation of pair (1) say?");
+    expect(texts(".fnb-pair-follows")).toEqual(["⇒ ?"]);
+    expect(texts(".fnb-system")).toEqual([]);
+    expect(new Set(texts(".fnb-offer-what"))).toEqual(new Set(["m = l", "m − 2 = l", "m + 2 = l"]));
+    [...one.view.el.querySelectorAll("li")]
+      .find((own) => own.textContent === "m − 2 = l")
+      ?.querySelector("input")
+      ?.dispatchEvent(new Event("change"));
+    expect(quiz.check()).toEqual({ right: [], wrong: ["m − 2 = l"], missed: [] });
+    one.go(one.player.position);
+    expect(quiz.outcome()).toBe("No. 2 has the wrong sign: look on which line more is left.");
+    expect(texts("li[data-verdict=missed]")[0]).toContain("✓ What is left of both lines is equally long.");
+    expect(texts(".fnb-pair-follows")).toEqual(["⇒ m + 2 = lbinding"]);
+  });
+
+  it("knows when two equations say the same", () => {
+    expect(same("m + 2 = l", "2l = 2m + 4")).toBe(true);
+    expect(same("m + 2 = l", "m − 2 = l")).toBe(false);
+    expect(same("2|f| = |g| − 1.5j + 4.4", "|g| = 2|f| + 1.5j − 4.4")).toBe(true);
+    expect(same("0 = 0.2", "0.4 = 0")).toBe(true);
+    expect(same("0.1k = 0", "k = 0")).toBe(true);
+    expect(offers("k = 0", []).filter(({ right }) => right)).toHaveLength(1);
   });
 });

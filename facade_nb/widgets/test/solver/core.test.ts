@@ -178,16 +178,20 @@ describe("a link to a moment", () => {
 
 describe("a quiz", () => {
   const quiz = (single = false) =>
-    new Quiz(
-      "?",
-      () =>
-        new Map([
-          ["a", { right: true, why: "it is" }],
-          ["b", { right: false, why: "it is not" }],
-          ["c", { right: true, why: "too" }],
-        ]),
-      single,
-    );
+    new Quiz(() => [
+      {
+        name: "letters",
+        prompt: "?",
+        single,
+        truths: () =>
+          new Map([
+            ["a", { right: true, why: "it is" }],
+            ["b", { right: false, why: "it is not" }],
+            ["c", { right: true, why: "too" }],
+          ]),
+      },
+      { name: "none", prompt: "None?", truths: () => new Map() },
+    ]);
 
   it("checks what was chosen, and explains it", () => {
     const one = quiz();
@@ -214,6 +218,21 @@ describe("a quiz", () => {
     one.choose("b");
     expect(one.check()).toEqual({ right: [], wrong: ["b"], missed: [] });
     expect(one.outcome()).toBe("No. it is not");
+  });
+
+  it("asks another question anew", () => {
+    const one = quiz();
+    one.ask(true);
+    one.choose("a");
+    one.check();
+    one.again();
+    expect([one.asked, one.round]).toEqual(["letters", 1]);
+    one.pose("none");
+    expect([one.asked, one.prompt, one.round, one.begun]).toEqual(["none", "None?", 0, false]);
+    one.check();
+    expect(one.outcome()).toBe("Right: there are none.");
+    one.pose("no such question");
+    expect(one.asked).toBe("letters");
   });
 });
 

@@ -3,8 +3,9 @@
 
 import { h, mark, setText } from "../../dom.ts";
 import { AxisChoice } from "../axes.ts";
+import { offers as near } from "../equations.ts";
 import { linked, target } from "../links.ts";
-import { Quiz, type Truth } from "../quiz.ts";
+import { offers, Quiz, type Truth } from "../quiz.ts";
 import { equation, type Term, term, variables } from "../terms.ts";
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -96,16 +97,28 @@ class AnalysisView implements View {
     this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.controls = [this.choice.el];
     this.el.append(this.note, this.pairs, this.systems);
-    this.quiz = new Quiz(
-      "Which pairs contradict those before them? Which counters and sizes do the others fix? Tick them.",
-      () => this.truths(),
-    );
+    this.quiz = new Quiz(() => [
+      {
+        name: "all pairs",
+        prompt: "Which pairs contradict those before them? Which counters and sizes do the others fix? Tick them.",
+        truths: () => this.truths(),
+      },
+      ...this.equations().map((one) => ({
+        name: pairName(one),
+        prompt: `What does the equation of ${pairName(one)} say?`,
+        truths: () => this.spelled(one),
+        single: true,
+      })),
+    ]);
   }
 
   show(position: number): void {
     const axis = this.choice.at(position);
     // A prediction is made of all pairs: the answer is what comes after them.
-    const seen = this.told.filter((event) => event.axis === axis && (this.quiz.on || event.at <= position));
+    const asked = this.quiz.on ? this.equations().find((one) => pairName(one) === this.quiz.asked) : undefined;
+    const seen = this.told.filter(
+      (event) => event.axis === axis && (this.quiz.on || event.at <= position) && (!asked || event === asked),
+    );
     const now = !this.quiz.on && seen.at(-1)?.at === position;
     const by = `${axis}|${seen.length}|${now}|${this.quiz.stamp}`;
     if (by === this.by) return;
@@ -140,6 +153,8 @@ class AnalysisView implements View {
     const { axis, number, patterns } = one;
     const conflict = conflicts.find((own) => own.equation === number);
     const against = conflicts.some((own) => own.against.includes(number));
+    const asked = this.quiz.on && pairName(one) === this.quiz.asked;
+    const hides = asked && this.quiz.hides;
     const content = one.symbol !== "";
     // A content: the symbol as it stands in the second pattern, and what the first puts in its place.
     const names = content ? [`${one.symbol} in ${patterns[1]}`, `its content in ${patterns[0]}`] : patterns;
@@ -156,7 +171,8 @@ class AnalysisView implements View {
     // It is about the letters that are left over: they light up with it, on the façade too.
     const left = [...new Set([...one.left, ...one.right].flatMap((own) => this.symbols(own)))];
     const equationText = h("span", { class: "fnb-pair-equation" });
-    if (one.text) equationText.append("⇒ ", ...equation(one.text));
+    if (hides) equationText.append("⇒ ?");
+    else if (one.text) equationText.append("⇒ ", ...equation(one.text));
     else equationText.append(h("span", { class: "fnb-muted" }, one.note ? `no equation: ${one.note}` : "no equation"));
     const el = h(
       "div",
@@ -175,7 +191,7 @@ class AnalysisView implements View {
         "div",
         { class: "fnb-pair-follows" },
         equationText,
-        one.text
+        one.text && !hides
           ? h(
               "span",
               { class: "fnb-strength", "data-strength": one.strength, title: STRENGTH[one.strength] },
@@ -184,7 +200,8 @@ class AnalysisView implements View {
           : null,
       ),
     );
-    if (this.quiz.on && one.text) el.append(this.box(pairKey(one), `(${number + 1}) contradicts those before`));
+    if (asked) el.append(this.offered());
+    else if (this.quiz.on && one.text) el.append(this.box(pairKey(one), `(${number + 1}) contradicts those before`));
     if (conflict) {
       const mild = conflict.strength === "preferred" ? " That is no fault: sizes may give way a little." : "";
       el.append(
@@ -297,6 +314,28 @@ class AnalysisView implements View {
     );
   }
 
+  /** The equations that the reader chooses from for one pair. */
+  private offered(): HTMLElement {
+    return offers(this.quiz, (text) => {
+      const el = h("span", { class: "fnb-pair-equation" });
+      el.append(...equation(text));
+      return el;
+    });
+  }
+
+  /** The pairs of the axis that give an equation. */
+  private equations(): Compared[] {
+    const axis = this.choice.at(this.context.player.position);
+    return this.told.filter(
+      (event): event is Compared => event.event === "PatternsCompared" && event.axis === axis && event.text !== "",
+    );
+  }
+
+  private spelled(asked: Compared): ReadonlyMap<string, Truth> {
+    const others = this.equations().filter((one) => one !== asked);
+    return new Map(near(asked.text, others).map(({ text, right, why }) => [text, { right, why }]));
+  }
+
   private truths(): ReadonlyMap<string, Truth> {
     const axis = this.choice.at(this.context.player.position);
     const told = this.told.filter((event) => event.axis === axis);
@@ -331,5 +370,6 @@ class AnalysisView implements View {
 const asked = ({ system, variables: all }: Reduced): string[] =>
   system === "counters" ? all : all.filter((name) => name.startsWith("|"));
 
+const pairName = ({ number }: Compared): string => `pair (${number + 1})`;
 const pairKey = ({ axis, number }: Compared): string => target.equation(axis, number);
 const variableKey = ({ axis, system }: Reduced, name: string): string => target.variable(axis, `${system} ${name}`);

@@ -148,7 +148,8 @@ class CandidatesView implements View {
       this.note,
       h("p", { class: "fnb-candidate-count" }, this.count),
     );
-    this.quiz = new Quiz("Which candidate becomes the layout?", () => this.truths(), true);
+    const prompt = "Which candidate becomes the layout?";
+    this.quiz = new Quiz(() => [{ prompt, truths: () => this.truths(), single: true }]);
   }
 
   show(position: number): void {

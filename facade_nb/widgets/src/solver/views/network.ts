@@ -121,7 +121,7 @@ class NetworkView implements View {
       this.beside,
     );
     this.el = h("div", { class: "fnb-network" }, this.said, this.note);
-    this.quiz = new Quiz("Which edge is next?", () => this.truths(), true);
+    this.quiz = new Quiz(() => [{ prompt: "Which edge is next?", truths: () => this.truths(), single: true }]);
     const observer = new MutationObserver(() => {
       this.looked = null;
       setTimeout(() => this.plane.invalidate(), 50); // when the page has its colours

@@ -125,7 +125,8 @@ class WordsView implements View {
         this.sample = value || null;
       }),
     ];
-    this.quiz = new Quiz("Which words fit? Tick them; the shaded band is canvas ± μ.", () => this.truths());
+    const prompt = "Which words fit? Tick them; the shaded band is canvas ± μ.";
+    this.quiz = new Quiz(() => [{ prompt, truths: () => this.truths() }]);
   }
 
   show(position: number): void {
