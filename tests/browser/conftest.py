@@ -19,6 +19,16 @@ from facade_nb.widgets import *
 model = FacadeModel(gallery.load("residential-house"))
 """
 
+TRACED = """
+from IPython.display import display
+from facade_nb import Design, gallery, solve
+from facade_nb.widgets import *
+def traced(name, **more):
+    return solve(gallery.load(name), trace=True, **more)
+"""
+
+Watch = Callable[[str], Notebook]
+
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
@@ -53,6 +63,20 @@ def show(lab: Notebook) -> Callable[[str], Notebook]:
     def run(code: str) -> Notebook:
         lab.run(HOUSE + textwrap.dedent(code))
         expect(lab.page.locator(".fnb").first).to_be_visible()
+        return lab
+
+    return run
+
+
+@pytest.fixture
+def watch(lab: Notebook) -> Watch:
+    """Show views of a trace; the code's last line is displayed."""
+
+    def run(code: str) -> Notebook:
+        lab.run("0")  # what the test before has shown must not be taken for this one's
+        expect(lab.page.locator(".fnb-view")).to_have_count(0)
+        lab.run(TRACED + textwrap.dedent(code))
+        expect(lab.page.locator(".fnb-view").first).to_be_visible()
         return lab
 
     return run

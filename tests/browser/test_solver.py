@@ -3,38 +3,13 @@
 from __future__ import annotations
 
 import re
-import textwrap
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from .conftest import TRACED, Watch
 from .jupyter import Notebook, serve
-
-TRACED = """
-from IPython.display import display
-from facade_nb import gallery, solve
-from facade_nb.widgets import *
-def traced(name, **more):
-    return solve(gallery.load(name), trace=True, **more)
-"""
-
-Watch = Callable[[str], Notebook]
-
-
-@pytest.fixture
-def watch(lab: Notebook) -> Watch:
-    """Show views; the code's last line is displayed."""
-
-    def run(code: str) -> Notebook:
-        lab.run("0")  # what the test before has shown must not be taken for this one's
-        expect(lab.page.locator(".fnb-view")).to_have_count(0)
-        lab.run(TRACED + textwrap.dedent(code))
-        expect(lab.page.locator(".fnb-view").first).to_be_visible()
-        return lab
-
-    return run
 
 
 def section(page: Page, pattern: str) -> Locator:
@@ -207,7 +182,7 @@ def test_the_reader_predicts_words(watch: Watch) -> None:
     section(page, "rooms").get_by_label("A C C C C C C A fits", exact=True).check()
     lab.button("Check").click()
     expect(page.locator(".fnb-quiz-outcome")).to_have_text("1 right, 1 wrong, 6 missed.")
-    expect(page.locator(".fnb-word[data-verdict=wrong]")).to_contain_text("longer than canvas + μ = 11 m")
+    expect(page.locator(".fnb-word[data-verdict=wrong]")).to_contain_text("too long by 0.8")
     lab.expect_python("[len(view.answer[k]) for k in ('right', 'wrong', 'missed')]", [1, 1, 6])
     lab.button("Again").click()
     assert "longer" not in page.locator(".fnb-words").inner_text()

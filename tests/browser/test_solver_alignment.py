@@ -2,29 +2,12 @@
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from .jupyter import Notebook
-from .test_solver_network import TRACED
-
-Watch = Callable[[str], Notebook]
-
-
-@pytest.fixture
-def watch(lab: Notebook) -> Watch:
-    """Show views; the code's last line is displayed."""
-
-    def run(code: str) -> Notebook:
-        lab.run(TRACED + textwrap.dedent(code))
-        expect(lab.page.locator(".fnb-align-row").first).to_be_visible()
-        return lab
-
-    return run
+from .conftest import Watch
 
 
 def group(page: Page, name: str) -> Locator:
@@ -45,7 +28,7 @@ def rows(page: Page, name: str) -> list[str]:
 
 
 def test_the_matrix_is_to_scale(watch: Watch) -> None:
-    page = watch("AlignmentView(solve(FIGURE_8, trace=True))").page
+    page = watch("AlignmentView(traced('figure-8'))").page
     assert rows(page, "default") == ["C e1 e2 e3 C", "A B A B A"]
     boxes = group(page, "default").locator(".fnb-align-row").nth(1).locator(".fnb-box")
     widths = boxes.evaluate_all("boxes => boxes.map(box => box.getBoundingClientRect().width)")
@@ -100,7 +83,7 @@ def test_by_keys_it_says_what_breaks_and_where(watch: Watch) -> None:
 
 
 def test_it_needs_no_kernel(watch: Watch) -> None:
-    lab = watch("view = AlignmentView(solve(FIGURE_8, trace=True)); view")
+    lab = watch("view = AlignmentView(traced('figure-8')); view")
     page = lab.page
     sent = page.evaluate(
         """() => {
@@ -146,3 +129,75 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
         lab.page.screenshot(path=out / f"solver-alignment-{theme[11:].lower()}.png")
     finally:
         lab.theme("JupyterLab Light")
+
+
+def test_labels_of_narrow_columns_are_whole(watch: Watch) -> None:
+    """Each number stands on the screen as a whole, or not at all; none runs into the next."""
+    lab = watch("AlignmentView(traced('apartment-house'), player=False)")
+    for width in (1400, 900):
+        lab.page.set_viewport_size({"width": width, "height": 1000})
+        lab.page.wait_for_timeout(300)
+        for line in (".fnb-align-head", ".fnb-align-values"):
+            seen = lab.page.locator(line).evaluate_all(
+                """lines => lines.map(line => [...line.querySelectorAll(':scope > [data-link] > span:first-child')]
+                .filter(label => getComputedStyle(label).visibility !== 'hidden').map(label => {
+                    const range = document.createRange();
+                    range.selectNodeContents(label);
+                    const box = range.getBoundingClientRect();
+                    const inner = label.closest('.fnb-view').getBoundingClientRect();
+                    return [Math.round(box.top), box.left, box.right, label.textContent,
+                        box.left >= inner.left && box.right <= inner.right];
+                }))"""
+            )
+            assert sum(map(len, seen)) > 50
+            for labels in seen:
+                assert all(whole for *_, whole in labels)
+                for top in {label[0] for label in labels}:
+                    own = sorted(label[1:] for label in labels if label[0] == top)
+                    ends = [(own[n][1], own[n + 1][0]) for n in range(len(own) - 1)]
+                    assert all(right <= left + 0.5 for right, left in ends), (width, line, own)
+    errors = lab.page.locator(".fnb-align-errors > [data-error]")
+    assert set(errors.all_inner_texts()) == {"0.017"}
+
+
+def test_the_next_column_is_predicted(watch: Watch, out: Path) -> None:
+    lab = watch("view = AlignmentView(traced('apartment-house'), player=False, predict=True); view")
+    page = lab.page
+    page.get_by_role("button", name="Show the horizontal axis").click()
+    expect(page.locator(".fnb-quiz-prompt")).to_have_text("Group 1: Where does column 2 end?")
+    expect(page.locator(".fnb-align-number")).to_have_text(["1", "?"])
+    expect(page.locator(".fnb-align-values, .fnb-align-figure")).to_have_count(0)
+    own = page.locator(".fnb-offers li", has_text="first floor corners: D B D B")
+    own.filter(has_text="base: ε").get_by_role("radio").check()
+    lab.button("Check").click()
+    expect(page.locator(".fnb-quiz-outcome")).to_have_text(
+        "No. G is attached and ends its element, so “base” may not be empty next (C4)."
+    )
+    expect(page.locator(".fnb-align-number")).to_have_count(17)
+    expect(page.locator("li[data-verdict=missed]")).to_contain_text("first floor corners: D B D Bbase: C A")
+    lab.expect_python("view.answer", {"right": [], "wrong": ["D B D B / ε"], "missed": []})
+    page.screenshot(path=out / "alignment-next.png")
+    lab.button("Again").click()
+    expect(page.locator(".fnb-quiz-prompt")).not_to_have_text("Group 1: Where does column 2 end?")
+
+
+def test_what_a_moved_boundary_breaks_is_predicted(watch: Watch, out: Path) -> None:
+    lab = watch("view = AlignmentView(traced('residential-house'), player=False, predict=True); view")
+    page = lab.page
+    page.get_by_role("button", name="Show the horizontal axis").click()
+    page.get_by_label("Question").select_option("a moved boundary")
+    expect(page.locator(".fnb-quiz-prompt")).to_contain_text("was moved to the")
+    expect(page.locator("[data-broken]")).to_have_count(0)
+    boxes = page.get_by_role("checkbox")
+    for n in range(boxes.count()):
+        boxes.nth(n).check()
+    lab.button("Check").click()
+    right = page.locator(".fnb-offers li[data-verdict=right]")
+    said = page.locator(".fnb-align-broken li[data-constraint]")
+    assert right.count() == len(set(said.evaluate_all("all => all.map(e => e.dataset.constraint)"))) > 0
+    reason = said.first.inner_text().split(": ", 1)[1]
+    expect(page.locator(".fnb-offers")).to_contain_text(reason)
+    lab.expect_python("len(view.answer['right'])", right.count())
+    lab.button("Predict").click()
+    expect(page.get_by_role("slider", name="Boundary 1 of base", exact=True)).to_be_visible()
+    page.screenshot(path=out / "alignment-moved.png")

@@ -2,33 +2,21 @@
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, expect
 
+from .conftest import Watch
 from .jupyter import Notebook
-
-TRACED = """
-from IPython.display import display
-from facade_nb import Design, gallery, solve
-from facade_nb.widgets import *
-FIGURE_8 = gallery.load("figure-8")
-def traced(name, **more):
-    return solve(gallery.load(name), trace=True, **more)
-"""
-
-Watch = Callable[[str], Notebook]
 
 
 @pytest.fixture
-def watch(lab: Notebook) -> Watch:
-    """Show views; the code's last line is displayed."""
+def watch(watch: Watch) -> Watch:
+    """The same, and the canvas is painted."""
 
     def run(code: str) -> Notebook:
-        lab.run(TRACED + textwrap.dedent(code))
+        lab = watch(code)
         expect(lab.page.locator(".fnb-plane-canvas")).to_be_visible()
         lab.page.wait_for_timeout(300)
         return lab
@@ -66,7 +54,7 @@ def count(page: Page, colour: str) -> int:
 
 
 def test_figure_8_is_on_the_screen(watch: Watch) -> None:
-    page = watch("NetworkView(solve(FIGURE_8, trace=True))").page
+    page = watch("NetworkView(traced('figure-8'))").page
     status = page.locator(".fnb-net-status")
     expect(status).to_contain_text("4 × 6 nodes and 6 within cut letters")
     expect(status).to_contain_text("The path has 5 columns, Ω = 0 m.")
@@ -80,7 +68,7 @@ def test_figure_8_is_on_the_screen(watch: Watch) -> None:
 
 
 def test_a_node_that_is_clicked_shows_its_region_and_its_edges(watch: Watch) -> None:
-    page = watch("NetworkView(solve(FIGURE_8, trace=True), player=False)").page
+    page = watch("NetworkView(traced('figure-8'), player=False)").page
     canvas = page.locator(".fnb-plane-canvas")
     canvas.focus()
     canvas.press("ArrowRight")

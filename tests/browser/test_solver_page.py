@@ -9,10 +9,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from .conftest import TRACED, Watch
 from .jupyter import App, Notebook, serve
-from .test_solver import TRACED, Watch, section, watch
-
-__all__ = ["watch"]
+from .test_solver import section
 
 PAIR = """
 def pair(over, under, counters={}):

@@ -2,33 +2,16 @@
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import expect
 
-from .jupyter import Notebook
-from .test_solver_network import TRACED
-
-Watch = Callable[[str], Notebook]
-
-
-@pytest.fixture
-def watch(lab: Notebook) -> Watch:
-    """Show views; the code's last line is displayed."""
-
-    def run(code: str) -> Notebook:
-        lab.run(TRACED + textwrap.dedent(code))
-        expect(lab.page.locator(".fnb-sizing")).to_be_visible()
-        return lab
-
-    return run
+from .conftest import Watch
 
 
 def test_the_equations_of_figure_7_are_on_the_screen(watch: Watch) -> None:
-    lab = watch("SizingView(solve(FIGURE_8, trace=True), player=False)")
+    lab = watch("SizingView(traced('figure-8'), player=False)")
     page = lab.page
     lab.button("Show the horizontal axis").click()
     rows = page.locator(".fnb-rows .fnb-size-row")
@@ -106,3 +89,64 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
         lab.page.screenshot(path=out / f"solver-sizing-{theme[11:].lower()}.png")
     finally:
         lab.theme("JupyterLab Light")
+
+
+def test_which_symbols_grow_is_predicted(watch: Watch, out: Path) -> None:
+    lab = watch("""
+        layout = traced('residential-house')
+        likes = {s: own.size for s, own in layout.design.symbols.items() if own.size is not None}
+        sizes = layout.x.sizes
+        SizingView(layout, player=False, predict=True)
+    """)
+    page = lab.page
+    lab.button("Show the horizontal axis").click()
+    expect(page.locator(".fnb-quiz-prompt")).to_have_text(
+        "Which symbols end larger than they like? Tick them."
+    )
+    expect(page.locator(".fnb-forces-letter, .fnb-force, .fnb-size-table")).to_have_count(0)
+    page.locator(".fnb-offers li", has_text="D").get_by_role("checkbox").check()
+    lab.button("Check").click()
+    grown = lab.python("[s for s, size in sizes.items() if s in likes and size > likes[s] + 1e-6]")
+    size = lab.python("sizes['D']")
+    assert "D" in grown
+    expect(page.locator(".fnb-offers li[data-verdict=right]")).to_have_count(1)
+    expect(page.locator(".fnb-offers li[data-verdict=right]")).to_contain_text(f"gets {round(size, 4):g} m")
+    expect(page.locator(".fnb-offers li[data-verdict=missed]")).to_have_count(len(grown) - 1)
+    expect(page.locator(".fnb-force").first).to_be_visible()
+    page.screenshot(path=out / "sizing-grown.png")
+
+
+def test_the_equation_of_a_letter_is_predicted(watch: Watch, out: Path) -> None:
+    lab = watch("view = SizingView(traced('figure-8'), player=False, predict=True); view")
+    page = lab.page
+    lab.button("Show the horizontal axis").click()
+    page.get_by_label("Question").select_option("an equation")
+    expect(page.locator(".fnb-quiz-prompt")).to_have_text(
+        "Which equation says how long the marked letter C (1-1-1) is?"
+    )
+    marked = page.locator(".fnb-forces-letter[data-marked]")
+    expect(marked).to_have_count(1)
+    box, first = marked.bounding_box(), page.locator(".fnb-forces-letter").first.bounding_box()
+    assert box == first
+    page.get_by_role("radio", name="1-1-1.t − 1-1-1.s = 2", exact=True).check()
+    lab.button("Check").click()
+    expect(page.locator(".fnb-quiz-outcome")).to_have_text(
+        "No. 2 m is what C likes: that stands in the objective, and gives way."
+    )
+    expect(page.locator(".fnb-offers li[data-verdict=missed]")).to_contain_text("1-1-1.t − 1-1-1.s = |C|")
+    lab.button("Again").click()
+    expect(page.locator(".fnb-quiz-prompt")).to_contain_text("the marked letter e (1-2-1)")
+    expect(marked).to_have_count(3)
+    page.screenshot(path=out / "sizing-equation.png")
+
+
+def test_the_next_active_constraint_is_predicted(watch: Watch) -> None:
+    lab = watch("view = SizingView(traced('terraced-house'), predict=True, at='x/sizing+1'); view")
+    page = lab.page
+    page.get_by_label("Question").select_option("the active set")
+    expect(page.locator(".fnb-quiz-prompt")).to_have_text("Which constraint becomes active next?")
+    page.get_by_role("radio", name="default: γ before 1-3-1 ≥ 0", exact=True).check()
+    lab.button("Check").click()
+    expect(page.locator(".fnb-quiz-outcome")).to_contain_text(
+        "Right. It is broken by 0.0123 m at these sizes"
+    )

@@ -153,7 +153,10 @@ function question(quiz: Quiz, model: WidgetModel, refresh: () => void, signal: A
     const now = [quiz.asked, quiz.prompt, ...quiz.truths.keys()].join("|");
     const other = about !== "" && now !== about;
     about = now;
-    if (other && quiz.begun) return quiz.clear(); // another moment, another question: what was chosen is not about it
+    if (other && quiz.begun) {
+      quiz.clear(); // another moment, another question: what was chosen is not about it
+      return;
+    }
     const { names } = quiz;
     which.hidden = names.length < 2;
     if (names.join("|") !== offered) {

@@ -49,7 +49,7 @@ export function parsed(word: string): LetterNote[] {
   }));
 }
 
-function nameOf({ symbol, mirrored }: LetterNote): string {
+export function nameOf({ symbol, mirrored }: LetterNote): string {
   return (/^\p{L}\d*$/u.test(symbol) ? symbol : `⟨${symbol}⟩`) + (mirrored ? "′" : "");
 }
 
@@ -63,6 +63,27 @@ function repetition(keys: readonly string[], n: number): [number, number] {
     if (times >= (period === 1 ? 2 : 3) && period * times > best[0] * best[1]) best = [period, times];
   }
   return best;
+}
+
+/** What the looks of letters mean, as far as they occur. */
+export function lettersLegend(
+  letters: readonly LetterNote[],
+  { cut = false, gaps = false, empty = false, free = false }: Record<string, boolean> = {},
+): HTMLElement {
+  const box = (attributes: Record<string, boolean>, ...content: (Node | string)[]) =>
+    h("i", { class: "fnb-box fnb-legend-box fnb-hue-1", ...attributes }, ...content);
+  const kinds: [boolean, Node, string][] = [
+    [letters.some((a) => a.opaque && !a.transparent), box({}, "A"), "a letter, in its symbol's colour"],
+    [letters.some((a) => !a.opaque && !a.transparent), box({ "data-open": true }, "A"), "not opaque"],
+    [letters.some((a) => a.transparent), box({ "data-ghost": true }, "a"), "transparent: it may be cut"],
+    [letters.some((a) => a.mirrored), box({}, h("i", { class: "fnb-mirrored" }, "B")), "mirrored"],
+    [cut, box({ "data-ghost": true, "data-cut": true }, "a", h("sub", {}, "1")), "first piece of a letter that is cut"],
+    [free, box({ "data-free": true }), "its size is free"],
+    [gaps, h("i", { class: "fnb-legend-sign" }, "γ"), "gap beside a letter that does not fill its column"],
+    [empty, h("i", { class: "fnb-legend-sign" }, "ε"), "empty element"],
+  ];
+  const shown = kinds.filter(([is]) => is).map(([, sign, text]) => h("span", {}, sign, text));
+  return h("p", { class: "fnb-legend", role: "note" }, ...shown);
 }
 
 export interface DrawnLetter {

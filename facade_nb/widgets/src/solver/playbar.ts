@@ -7,12 +7,20 @@ import { type Player, SPEEDS } from "./player.ts";
 import type { Session } from "./session.ts";
 import type { Stage } from "./timeline.ts";
 
-/** Width of each stage on the track, in shares: some stages have a hundred times the events of others. */
+/** Width of each stage on the track, in shares: some have a hundred times the events of others, and all have a name. */
 export function shares(stages: readonly Stage[]): number[] {
-  const weights = stages.map(({ first, last }) => 14 + Math.sqrt(last - first + 1));
-  const sum = weights.reduce((total, weight) => total + weight, 0);
-  return weights.map((weight) => weight / sum);
+  const share = (weights: readonly number[]) => {
+    const sum = weights.reduce((total, weight) => total + weight, 0);
+    return weights.map((weight) => weight / sum);
+  };
+  const named = share(stages.map(({ title }, n) => title.length + (opens(stages, n) ? 3.6 : 1.3)));
+  const events = share(stages.map(({ first, last }) => Math.sqrt(last - first + 1)));
+  return named.map((own, n) => 0.93 * own + 0.07 * (events[n] ?? 0));
 }
+
+/** Whether a stage is the first of its axis, or the first after another axis. */
+const opens = (stages: readonly Stage[], n: number): boolean =>
+  stages[n]?.axis !== "" && stages[n]?.axis !== stages[n - 1]?.axis;
 
 /** Between positions and places on the track, both ways; a place is between 0 and 1. */
 export class Scale {
@@ -84,6 +92,7 @@ export function playbar(session: Session, player: Player, signal: AbortSignal): 
       title: label,
       "aria-label": label,
       "data-axis": stage.axis,
+      "data-opens": opens(stages, n),
     });
     tab.append(h("i", {}, axis), stage.title);
     tab.style.flexGrow = String(Math.round(1e4 * (shares(stages)[n] ?? 0)));

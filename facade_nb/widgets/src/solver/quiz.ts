@@ -189,7 +189,7 @@ export function offers(quiz: Quiz, content: (key: string) => Node | string): HTM
     const what = h("span", { class: "fnb-offer-what" }, content(key));
     return h(
       "li",
-      { "data-verdict": state, "data-chosen-offer": box.checked },
+      { "data-verdict": state },
       h("label", {}, box, what),
       h("span", { class: "fnb-offer-why" }, SIGN[state], why),
     );
@@ -197,4 +197,4 @@ export function offers(quiz: Quiz, content: (key: string) => Node | string): HTM
   return h("ul", { class: "fnb-offers", "aria-label": quiz.prompt }, ...items);
 }
 
-const SIGN: Record<Verdict, string> = { open: "", right: "✓ ", wrong: "✕ ", missed: "✓ ", passed: "" };
+const SIGN: Record<Verdict, string> = { open: "", right: "✓ ", wrong: "✕ ", missed: "missed: ", passed: "" };

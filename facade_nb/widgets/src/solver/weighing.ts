@@ -219,31 +219,46 @@ export function weigh({ objective, share }: Group, column: readonly Option[]): W
 
 /** The first constraint that a column breaks, of those that do not depend on what came before. */
 export function refusal(group: Group, owed: boolean, column: readonly Option[]): Refusal | null {
-  const everyone = column.map((_, b) => b);
-  if (column.every((option) => option.empty))
-    return { constraint: "empty", bands: everyone, letters: [], text: () => "No row has a letter in it." };
-  const found = tooFar(group, column) ?? covered(group, column);
-  if (found) return found;
-  const needy = everyone.filter((b) => column[b]?.empty || column[b]?.soft);
-  if (needy.length && !group.waived && !column.some((option) => option.opaque)) {
-    const soft = needy.flatMap((b) =>
-      (column[b]?.letters ?? []).flatMap((i): [number, number][] => (letterAt(group, b, i).opaque ? [] : [[b, i]])),
-    );
-    const text = () => {
-      const names = soft.map(([b, i]) => letterName(letterAt(group, b, i))).join(", ");
-      const what = soft.length ? `${names} is not opaque` : `${group.row(needy[0] ?? 0)} is empty`;
-      return `${what}, and no row stands behind it with opaque letters (C1).`;
-    };
-    return { constraint: "C1", bands: needy, letters: soft, text };
-  }
-  if (owed && !column.some((option) => option.begins))
-    return {
-      constraint: "boundary",
-      bands: everyone,
-      letters: [],
-      text: () => "The boundary before it is no row's letter boundary.",
-    };
-  return null;
+  return (
+    nobody(column) ?? tooFar(group, column) ?? covered(group, column) ?? bare(group, column) ?? adrift(owed, column)
+  );
+}
+
+/** All of them. */
+function refusals(group: Group, owed: boolean, column: readonly Option[]): Refusal[] {
+  const empty = nobody(column);
+  const found = empty
+    ? [empty]
+    : [tooFar(group, column), covered(group, column), bare(group, column), adrift(owed, column)];
+  return found.filter((own) => own !== null);
+}
+
+const everyone = (column: readonly Option[]): number[] => column.map((_, b) => b);
+
+function nobody(column: readonly Option[]): Refusal | null {
+  if (!column.every((option) => option.empty)) return null;
+  return { constraint: "empty", bands: everyone(column), letters: [], text: () => "No row has a letter in it." };
+}
+
+/** C1. */
+function bare(group: Group, column: readonly Option[]): Refusal | null {
+  const needy = everyone(column).filter((b) => column[b]?.empty || column[b]?.soft);
+  if (!needy.length || group.waived || column.some((option) => option.opaque)) return null;
+  const soft = needy.flatMap((b) =>
+    (column[b]?.letters ?? []).flatMap((i): [number, number][] => (letterAt(group, b, i).opaque ? [] : [[b, i]])),
+  );
+  const text = () => {
+    const names = soft.map(([b, i]) => letterName(letterAt(group, b, i))).join(", ");
+    const what = soft.length ? `${names} is not opaque` : `${group.row(needy[0] ?? 0)} is empty`;
+    return `${what}, and no row stands behind it with opaque letters (C1).`;
+  };
+  return { constraint: "C1", bands: needy, letters: soft, text };
+}
+
+function adrift(owed: boolean, column: readonly Option[]): Refusal | null {
+  if (!owed || column.some((option) => option.begins)) return null;
+  const text = () => "The boundary before it is no row's letter boundary.";
+  return { constraint: "boundary", bands: everyone(column), letters: [], text };
 }
 
 const letterAt = (group: Group, b: number, i: number): LetterNote => group.bands[b]?.letters[i] as LetterNote;
@@ -298,24 +313,53 @@ function covered(group: Group, column: readonly Option[]): Refusal | null {
 }
 
 export interface Verdict extends Weight {
+  /** The first constraint that is broken. */
   refusal: Refusal | null;
+  /** Every one. */
+  refusals: Refusal[];
 }
 
-/** A column: per band, the numbers of the letters in it. */
+/** Per band, the numbers of the letters in a column. */
 export type Column = readonly (readonly number[])[];
 
+/** A column of an alignment that somebody made up. */
+export interface Step {
+  /** Where it begins: positions of all bands, and whether no letter ended there. */
+  state: number[];
+  owed: boolean;
+  options: Option[];
+  /** What its elements break by themselves: C2, C4. */
+  broken: Refusal[];
+}
+
 /**
- * Weight of each column of an alignment that somebody made up, and the first constraint that it breaks. A letter that
- * stands in several columns is cut. Null where a word's letters are not all there in their order, or one is cut that may
- * not be.
+ * Weight of each column of an alignment that somebody made up, and the constraints that it breaks. A letter that stands in
+ * several columns is cut. Null where a word's letters are not all there in their order, or one is cut that may not be.
+ * `size`: metres of an element as it is drawn, for those that C2 forbids, which hold what has a size and what has none.
  */
-export function judge(group: Group, columns: readonly Column[]): Verdict[] | null {
-  const verdicts: Verdict[] = [];
+export function judge(
+  group: Group,
+  columns: readonly Column[],
+  size?: (column: number, band: number) => number,
+): Verdict[] | null {
+  return (
+    walk(group, columns)?.map(({ owed, options: own, broken }, j) => {
+      const mixed = (option: Option) => option.size === null && !option.transparent && !option.empty;
+      const options = own.map((option, b) => (size && mixed(option) ? { ...option, size: size(j, b) } : option));
+      const all = [...broken, ...refusals(group, owed, options)];
+      return { ...weigh(group, options), refusal: all[0] ?? null, refusals: all };
+    }) ?? null
+  );
+}
+
+/** Go through an alignment column by column; null as above. */
+export function walk(group: Group, columns: readonly Column[]): Step[] | null {
+  const steps: Step[] = [];
   let state = group.start;
   let owed = false;
   for (const [j, column] of columns.entries()) {
     const options: Option[] = [];
-    let broken: Refusal | null = null;
+    const broken: Refusal[] = [];
     for (const [b, letters] of column.entries()) {
       const later = columns.slice(j + 1).find((own) => own[b]?.length)?.[b]?.[0];
       const cut = letters.length > 0 && later === letters.at(-1);
@@ -324,15 +368,19 @@ export function judge(group: Group, columns: readonly Column[]): Verdict[] | nul
         .find(([option]) => same(option.letters, letters) && (!letters.length || ((option.target & 4) !== 0) === cut));
       if (!found) return null;
       options.push(found[0]);
-      broken ??= found[1];
+      if (found[1]) broken.push(found[1]);
     }
-    verdicts.push({ ...weigh(group, options), refusal: broken ?? refusal(group, owed, options) });
+    steps.push({ state, owed, options, broken });
     state = options.map((option) => option.target);
     owed = !options.some((option) => option.ends);
   }
   const whole = state.every((position, b) => position >> 2 === 2 * (group.bands[b]?.letters.length ?? 0));
-  return whole ? verdicts : null;
+  return whole ? steps : null;
 }
+
+/** A reason with its rows by their layers: the solver counts them. */
+export const rowsNamed = (text: string, layers: readonly string[]): string =>
+  text.replace(/\brow (\d+)\b/g, (whole, row) => (layers[row] === undefined ? whole : `“${layers[row]}”`));
 
 function same(a: readonly number[], b: readonly number[]): boolean {
   return a.length === b.length && a.every((item, n) => item === b[n]);

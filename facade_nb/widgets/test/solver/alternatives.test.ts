@@ -10,7 +10,7 @@ import { VIEWS } from "../../src/solver/views/index.ts";
 import { DESIGNS, pieceOf, type Shown, show } from "./fixtures.ts";
 
 const piece = <T>(design: string, name: string) => unpack<T>(pieceOf(design, name));
-const soon = () => new Promise((resolve) => setTimeout(resolve, 60));
+const soon = () => new Promise((resolve) => setTimeout(resolve, 200));
 
 async function chosen(design: string, axis: "x" | "y", number: number) {
   const timeline = new Timeline(await piece<TimelineData>(design, "timeline"));

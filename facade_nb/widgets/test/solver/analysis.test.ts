@@ -124,7 +124,7 @@ describe("pattern analysis", () => {
     expect(quiz.check()).toEqual({ right: [], wrong: ["m − 2 = l"], missed: [] });
     one.go(one.player.position);
     expect(quiz.outcome()).toBe("No. 2 has the wrong sign: look on which line more is left.");
-    expect(texts("li[data-verdict=missed]")[0]).toContain("✓ What is left of both lines is equally long.");
+    expect(texts("li[data-verdict=missed]")[0]).toContain("missed: What is left of both lines is equally long.");
     expect(texts(".fnb-pair-follows")).toEqual(["⇒ m + 2 = lbinding"]);
   });
 

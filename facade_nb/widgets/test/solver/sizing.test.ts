@@ -2,6 +2,7 @@ import { afterEach, describe, expect, it } from "vitest";
 import { target } from "../../src/solver/links.ts";
 import type { PathNote } from "../../src/solver/network/story.ts";
 import { unpack } from "../../src/solver/packing.ts";
+import { entering } from "../../src/solver/sizing/question.ts";
 import { type SizingEvent, System, type SystemPosed, writtenOut } from "../../src/solver/sizing/system.ts";
 import type { Axis } from "../../src/solver/timeline.ts";
 import { sizing } from "../../src/solver/views/sizing.ts";
@@ -105,7 +106,7 @@ describe("forces", () => {
     one = await show(sizing, "residential-house");
     horizontal();
     const titles = texts(".fnb-forces-letter title");
-    expect(titles.find((text) => text.includes(" D:"))).toContain("it is longer than it likes, and pulls");
+    expect(titles.find((text) => text.includes(" D:"))).toContain("it is stretched, and pulls");
     const arrows = [...one.view.el.querySelectorAll(".fnb-force[data-kind]")].map((own) =>
       own.getAttribute("data-kind"),
     );
@@ -176,5 +177,101 @@ describe("sizing, step by step", () => {
     one.links.hover([target.symbol("B")]);
     one.links.apply(one.view.el);
     expect(lit()).toEqual(["2-2-1.t − 2-2-1.s = |B|", "2-4-1.t − 2-4-1.s = |B|", "0.001 ≤ |B|"]);
+  });
+});
+
+describe("sizes are predicted", () => {
+  const posed = async (design: string, name: string) => {
+    one = await show(sizing, design);
+    horizontal();
+    const quiz = one.view.quiz;
+    if (!quiz) throw new Error("no quiz");
+    quiz.ask(true);
+    quiz.pose(name);
+    one.go(one.player.position);
+    return quiz;
+  };
+
+  it("asks which symbols grow, with nothing solved in sight", async () => {
+    const quiz = await posed("residential-house", "sizes");
+    expect(quiz.prompt).toBe("Which symbols end larger than they like? Tick them.");
+    expect(one.view.el.querySelectorAll(".fnb-forces-letter, .fnb-force, .fnb-size-table").length).toBe(0);
+    const { posed: told, solved } = await systemOf("residential-house");
+    const larger = told.meaning.flatMap(({ kind, symbol }, v) =>
+      kind === "size" && (told.weight[v] ?? 0) > 0 && (solved?.solution[v] ?? 0) > (told.target[v] ?? 0) + 1e-6
+        ? [symbol]
+        : [],
+    );
+    expect(larger.length).toBeGreaterThan(0);
+    expect(larger.length).toBeLessThan(quiz.truths.size);
+    for (const symbol of larger) quiz.choose(symbol);
+    expect(quiz.check()).toEqual({ right: larger, wrong: [], missed: [] });
+    one.go(one.player.position);
+    expect(texts(".fnb-offer-why").join()).toMatch(/✓ \|\w+\| likes [\d.]+ m and gets [\d.]+ m: [\d.]+ m more\./);
+    expect(one.view.el.querySelectorAll(".fnb-force").length).toBeGreaterThan(0);
+  });
+
+  it("asks for the equation of a letter that is marked, among others that do not hold for it", async () => {
+    const quiz = await posed("figure-8", "an equation");
+    const system = await systemOf("figure-8");
+    const rows = new Set(system.constraints.map(({ text }) => text));
+    for (let round = 0; round < 4; round++) {
+      expect(one.view.el.querySelectorAll(".fnb-forces-letter[data-marked]").length).toBeGreaterThan(0);
+      const [, symbol, ijk] = /letter (\w+) \(([\d-]+)\)/.exec(quiz.prompt) ?? [];
+      const right = [...quiz.truths].filter(([, truth]) => truth.right).map(([text]) => text);
+      expect(right).toHaveLength(1);
+      expect(rows.has(right[0] ?? "")).toBe(true);
+      expect(right[0]).toContain(`${ijk}.t − ${ijk}.s`);
+      expect(right[0]?.endsWith(`= |${symbol}|`)).toBe(true);
+      expect(quiz.truths.size).toBeGreaterThanOrEqual(3);
+      quiz.again();
+      one.go(one.player.position);
+    }
+  });
+
+  it("says of a cut letter that only its pieces together have its size", async () => {
+    const quiz = await posed("figure-8", "an equation");
+    while (!quiz.prompt.includes("letter e ")) quiz.again();
+    one.go(one.player.position);
+    quiz.choose("1-2-1.t − 1-2-1.s = |e|");
+    quiz.check();
+    expect(quiz.outcome()).toBe("No. e is cut: only its pieces together are as long as e.");
+  });
+
+  it("does not ask which constraint is next where all become active at once", async () => {
+    expect((await posed("residential-house", "sizes")).names).toEqual(["sizes", "an equation"]);
+  });
+
+  it("asks which constraint becomes active next, by what is broken most", async () => {
+    const { posed: told, paths } = await systemOf("figure-8");
+    const inequality = told.rows.findIndex((_, row) => {
+      const number = told.variables.length + row;
+      return told.lower[number] !== told.upper[number];
+    });
+    const number = told.variables.length + inequality;
+    const step = {
+      event: "ActiveSetStep" as const,
+      axis: "x" as const,
+      round: 1,
+      left: [],
+      objective: 0,
+      violation: 0,
+    };
+    const values = told.variables.map(() => 0);
+    const all = told.variables.length + told.rows.length;
+    const others = Array.from({ length: all }, (_, n) => n).filter(
+      (n) => n !== number && told.lower[n] === told.upper[n],
+    );
+    const events: SizingEvent[] = [
+      told,
+      { ...step, at: told.at + 1, step: 0, entered: others, active: others.length, values },
+      { ...step, at: told.at + 2, step: 1, entered: [number], active: others.length + 1, values },
+    ];
+    const asked = entering(new System(told, events, paths), told.at + 1);
+    expect(asked?.step.step).toBe(1);
+    const right = [...(asked?.truths ?? [])].filter(([, truth]) => truth.right);
+    expect(right).toHaveLength(1);
+    expect(right[0]?.[1].why).toContain("It is broken by");
+    expect(entering(new System(told, events.slice(0, 2), paths), told.at)).toBeNull();
   });
 });

@@ -170,6 +170,8 @@ describe("the words", () => {
     expect(states).toContainEqual(["AC4A", "right"]);
     expect(states).toContainEqual(["AC6A", "wrong"]);
     expect(states).toContainEqual(["AC5A", "missed"]);
-    expect(one.view.el.textContent).toContain("11.8 m is longer than canvas + μ = 11 m.");
+    const wrong = [...one.view.el.querySelectorAll<HTMLElement>("[data-verdict=wrong]")];
+    expect(wrong.map((row) => row.title)).toEqual(["11.8 m is longer than canvas + μ = 11 m."]);
+    expect(wrong[0]?.textContent).toContain("too long by 0.8");
   });
 });

@@ -104,29 +104,34 @@ export function atPreferred(path: PathNote, cuts: Cuts, placements: Readonly<Rec
   const boundaries = [0];
   const elements: Element[][] = [];
   for (const [j, column] of columns.entries()) {
-    const totals = column.map((_, b) => (sizes[j]?.[b] ?? []).reduce((sum, size) => sum + size, 0));
-    const rigid = totals.filter((_, b) => !isElastic(path, columns, j, b));
+    const sum = (b: number, which: (letter: number) => boolean) =>
+      (column[b] ?? []).reduce((all, n, k) => all + (which(n) ? (sizes[j]?.[b]?.[k] ?? 0) : 0), 0);
+    const totals = column.map((_, b) => sum(b, () => true));
+    const soft = column.map((own, b) => own.map((n) => isElastic(path, columns, j, b, n)));
+    const rigid = column.map((own, b) => sum(b, (n) => !soft[b]?.[own.indexOf(n)]));
     // An element of no width, which only the reader can make, is drawn so that it can be taken hold of.
     const width = Math.max(0, ...(rigid.some((own) => own > 0) ? rigid : totals)) || least;
     const start = boundaries.at(-1) ?? 0;
     boundaries.push(start + width);
     elements.push(
       column.map((letters, b) => {
-        const stretch = isElastic(path, columns, j, b) && totals[b] ? width / (totals[b] ?? 1) : 1;
-        const total = (totals[b] ?? 0) * stretch;
-        const soft = letters
+        // Only what is elastic gives way to what is not.
+        const [own, hard] = [totals[b] ?? 0, rigid[b] ?? 0];
+        const stretch = own > hard ? (width - hard) / (own - hard) : 1;
+        const total = own > hard ? width : own;
+        const open = letters
           .map((n) => path.bands[b]?.letters[n])
           .find((own) => own && !own.opaque && !own.transparent);
         const room = Math.max(0, width - total);
-        const placement = soft ? turned(placements[soft.symbol] ?? "center", soft.mirrored) : "left";
-        let at = start + (soft ? ({ left: 0, right: room }[placement] ?? room / 2) : 0);
+        const placement = open ? turned(placements[open.symbol] ?? "center", open.mirrored) : "left";
+        let at = start + (open ? ({ left: 0, right: room }[placement] ?? room / 2) : 0);
         const first = at;
         const pieces = letters.map((letter, k): Piece => {
           const from = at;
-          at += (sizes[j]?.[b]?.[k] ?? 0) * stretch;
+          at += (sizes[j]?.[b]?.[k] ?? 0) * (soft[b]?.[k] ? stretch : 1);
           return { letter, start: from, end: at, part: partOf(columns, j, b, letter) };
         });
-        return { pieces, gaps: soft ? gapsOf(start, start + width, first, at) : [] };
+        return { pieces, gaps: open ? gapsOf(start, start + width, first, at) : [] };
       }),
     );
   }
@@ -142,6 +147,12 @@ function gapsOf(start: number, end: number, first: number, last: number): [numbe
   if (end - last > 1e-6) found.push([last, end]);
   return found;
 }
+
+/** How large an element is drawn, metres. */
+export const sizeIn =
+  ({ elements }: Drawn) =>
+  (column: number, band: number): number =>
+    (elements[column]?.[band]?.pieces ?? []).reduce((sum, { start, end }) => sum + end - start, 0);
 
 /** The matrix as it was solved: every letter where it stands. */
 export function asSolved(path: PathNote, boundaries: number[], placed: readonly PlacedLetter[]): Drawn {
@@ -189,8 +200,9 @@ export function sizesOf(path: PathNote, columns: readonly Column[]): number[][][
   );
 }
 
-function isElastic(path: PathNote, columns: readonly Column[], j: number, b: number): boolean {
-  return (columns[j]?.[b] ?? []).some((n) => path.bands[b]?.letters[n]?.size === null || partOf(columns, j, b, n) > 0);
+/** Whether a letter in a column has no size of its own there: it is unsized, or a piece. */
+function isElastic(path: PathNote, columns: readonly Column[], j: number, b: number, letter: number): boolean {
+  return path.bands[b]?.letters[letter]?.size === null || partOf(columns, j, b, letter) > 0;
 }
 
 /** Which piece of a letter stands in a column, from 1; 0: the letter is whole. */

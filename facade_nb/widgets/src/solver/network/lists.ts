@@ -4,6 +4,7 @@ import { h, keyed, mark, type Row, setText } from "../../dom.ts";
 import { formatNumber } from "../../fields.ts";
 import type { LetterNote } from "../letters.ts";
 import { linked, target } from "../links.ts";
+import { rowsNamed } from "../weighing.ts";
 import type { Arc } from "./scene.ts";
 import { restOf, type Subject } from "./story.ts";
 
@@ -53,12 +54,13 @@ export class LeavingList {
 
   private row(arc: Arc): Row<Arc> {
     const subject = this.subject as Subject;
+    const layers = subject.path?.layers ?? subject.layers ?? [];
     const el = h(
       "li",
       { class: "fnb-net-edge", tabindex: 0, "data-constraint": arc.constraint || null, ...linked([arc.key]) },
       columnText(subject, arc.column, arc.to),
       h("span", { class: "fnb-net-omega" }, arc.omega === null ? "" : `ω ${formatNumber(arc.omega, 2)}`),
-      h("span", { class: "fnb-net-why" }, arc.constraint ? `✕ ${arc.text}` : arc.text),
+      h("span", { class: "fnb-net-why" }, arc.constraint ? `✕ ${rowsNamed(arc.text, layers)}` : arc.text),
     );
     return { el, update: ({ kind }) => mark(el, "data-path", kind === "path") };
   }

@@ -2,22 +2,37 @@
 
 import { h, svg } from "../../dom.ts";
 import { formatNumber } from "../../fields.ts";
-import { hueOf } from "../letters.ts";
+import { hueOf, type LetterNote } from "../letters.ts";
 import { linked, target } from "../links.ts";
 import { isForce, type Moment, type Place, type System } from "./system.ts";
 
-const WIDE = 900;
+const WIDE = 900; // pixels, where it is not known
 const LEFT = 124;
-const RIGHT = 50;
+const RIGHT = 8;
 const BEFORE = 9;
 const AFTER = 26;
 const GAP = 12;
 const ARROW = 34; // pixels of the largest force
 
-export function forces(system: System, moment: Moment, symbols: Record<string, number>): HTMLElement {
+export interface HowDrawn {
+  /** Only the words at preferred sizes. */
+  before?: boolean;
+  /** A letter that is pointed out, and no forces. */
+  marked?: Place;
+  /** Pixels. */
+  width?: number;
+}
+
+export function forces(
+  system: System,
+  moment: Moment,
+  symbols: Record<string, number>,
+  { before = false, marked, width: wide = WIDE }: HowDrawn = {},
+): HTMLElement {
   const { posed, paths } = system;
+  const high = before ? AFTER : BEFORE;
   const canvas = paths[0]?.canvas ?? 1;
-  const scale = (WIDE - LEFT - RIGHT) / canvas / 1.04;
+  const scale = (wide - LEFT - RIGHT) / canvas / 1.04;
   const x = (value: number) => LEFT + value * scale;
   const all = posed.rows.map((_, row) => Math.abs(system.multiplier(system.count + row, moment)));
   const bounds = posed.variables.map((_, v) => Math.abs(system.multiplier(v, moment)));
@@ -31,14 +46,14 @@ export function forces(system: System, moment: Moment, symbols: Record<string, n
   for (const [g, path] of paths.entries()) {
     const top = y;
     if (paths.length > 1) {
-      drawing.append(svg("text", { class: "fnb-forces-group", x: 4, y: y + 4 }, path.group));
+      drawing.append(svg("text", { class: "fnb-forces-group", x: 4, y: y + 4 }, `Group ${path.group}`));
       y += 12;
     }
     for (const [b, band] of path.bands.entries()) {
       const layer = path.layers[band.rows[0] ?? 0] ?? "";
       const label = svg(
         "text",
-        { class: "fnb-forces-layer", x: LEFT - 10, y: y + BEFORE + 18 },
+        { class: "fnb-forces-layer", x: LEFT - 10, y: y + (before ? 17 : BEFORE + 18) },
         layer.length > 19 ? `${layer.slice(0, 18)}…` : layer,
       );
       drawing.append(label);
@@ -54,12 +69,18 @@ export function forces(system: System, moment: Moment, symbols: Record<string, n
             x: x(at).toFixed(1),
             y,
             width: Math.max(0.5, size * scale).toFixed(1),
-            height: BEFORE,
+            height: high,
             "data-ghost": letter.transparent,
+            "data-large": before,
             ...linked(keys, [target.symbol(letter.symbol)]),
           }),
         );
+        if (before && size * scale > 9 * letter.symbol.length) drawing.append(named(letter, x(at + size / 2), y + 17));
         at += size;
+      }
+      if (before) {
+        y += AFTER + GAP;
+        continue;
       }
       for (const [column, own] of path.columns.entries())
         for (const [place, n] of (own.letters[b] ?? []).entries()) {
@@ -69,22 +90,24 @@ export function forces(system: System, moment: Moment, symbols: Record<string, n
           if (!letter || s < 0 || t < 0) continue;
           const [from, to] = [moment.values[s] ?? 0, moment.values[t] ?? 0];
           const row = system.rowOf(where);
-          const force = row ? system.multiplier(row.number, moment) : 0;
-          const wide = (to - from) * scale;
+          const force = row && !marked ? system.multiplier(row.number, moment) : 0;
+          const isMarked = marked && row && row === system.rowOf(marked);
+          const long = (to - from) * scale;
           const box = svg("rect", {
             class: `fnb-forces-letter ${hueOf(symbols, letter.symbol)}`,
             x: x(from).toFixed(1),
             y: y + BEFORE + 2,
-            width: Math.max(0.5, wide).toFixed(1),
+            width: Math.max(0.5, long).toFixed(1),
             height: AFTER,
             "data-ghost": letter.transparent,
             "data-open": !letter.opaque && !letter.transparent,
+            "data-marked": !!isMarked,
             ...linked(system.letterKeys(where), [
               target.symbol(letter.symbol),
               ...(row ? [target.row(posed.axis, row.name)] : []),
             ]),
           });
-          const pulls = force > 0 ? "it is longer than it likes, and pulls" : "it is shorter than it likes, and pushes";
+          const pulls = force > 0 ? "it is stretched, and pulls" : "it is squeezed, and pushes";
           box.append(
             svg(
               "title",
@@ -93,35 +116,43 @@ export function forces(system: System, moment: Moment, symbols: Record<string, n
             ),
           );
           drawing.append(box);
-          if (wide > 9 * letter.symbol.length)
-            drawing.append(
-              svg(
-                "text",
-                { class: "fnb-forces-text", x: ((x(from) + x(to)) / 2).toFixed(1), y: y + BEFORE + 12 },
-                letter.symbol,
-              ),
-            );
+          if (long > 9 * letter.symbol.length)
+            drawing.append(named(letter, (x(from) + x(to)) / 2, y + BEFORE + (marked ? 20 : 12)));
           if (isForce(force)) drawing.append(...arrows(x(from), x(to), y + BEFORE + 21, force, largest));
         }
       y += BEFORE + AFTER + GAP;
     }
-    drawing.append(...walls(system, moment, g, x, top, y - GAP, largest));
+    if (!before && !marked) drawing.append(...walls(system, moment, g, x, top, y - GAP, largest));
     y += 6;
   }
   for (const edge of [0, canvas])
     drawing.prepend(svg("line", { class: "fnb-forces-canvas", x1: x(edge), x2: x(edge), y1: 6, y2: y - 6 }));
-  drawing.setAttribute("viewBox", `0 0 ${WIDE} ${y}`);
-  const moved = moment.solved
-    ? all.some(isForce)
-      ? "Blue letters are longer than they like and pull; red ones are shorter and push. Arrows are the multipliers."
-      : "No forces: every symbol has the size that it likes."
-    : "Multipliers are known when the system is solved.";
+  drawing.setAttribute("viewBox", `0 0 ${wide} ${y}`);
+  const [title, said] = before
+    ? ["Before: ", "each word at preferred sizes, end to end; the dashed lines are the canvas."]
+    : marked
+      ? [
+          "After. ",
+          `Letters are named i-j-k: word, column, letter, counted from 1. The marked one: ${system.ijk(marked)}.`,
+        ]
+      : ["Before (thin) and after. ", arrowsSaid(moment, all)];
   return h(
     "figure",
     { class: "fnb-forces-box" },
-    h("figcaption", {}, h("strong", {}, "Before (thin) and after. "), h("span", { class: "fnb-muted" }, moved)),
+    h("figcaption", {}, h("strong", {}, title), h("span", { class: "fnb-muted" }, said)),
     drawing as never,
   );
+}
+
+function arrowsSaid(moment: Moment, all: readonly number[]): string {
+  if (!moment.solved) return "Multipliers are known when the system is solved.";
+  if (!all.some(isForce)) return "No forces: every symbol has the size that it likes.";
+  return "Arrows are the multipliers: a blue letter is stretched and pulls its ends together, a red one is squeezed and pushes them apart. Orange: the canvas.";
+}
+
+function named({ symbol, mirrored }: LetterNote, x: number, y: number): SVGElement {
+  const turn = mirrored ? `translate(${(2 * x).toFixed(1)} 0) scale(-1 1)` : null;
+  return svg("text", { class: "fnb-forces-text", x: x.toFixed(1), y, transform: turn }, symbol);
 }
 
 /** What a letter does to its two ends: outwards where it pushes, inwards where it pulls. */

@@ -3,16 +3,28 @@
 
 import { h, mark } from "../../dom.ts";
 import { formatNumber } from "../../fields.ts";
-import { asSolved, atPreferred, type Cuts, columnsOf, cutsOf, type Drawn } from "../align/matrix.ts";
-import { columnsTable } from "../align/table.ts";
+import { asSolved, atPreferred, type Cuts, columnsOf, cutsOf, type Drawn, sizeIn } from "../align/matrix.ts";
+import {
+  CONSTRAINTS,
+  costOf,
+  elementText,
+  type Moved,
+  movedCases,
+  movedTruths,
+  type Next,
+  nextCases,
+} from "../align/question.ts";
+import { columnsTable, type MatrixOptions } from "../align/table.ts";
 import { Trial } from "../align/trial.ts";
 import type { Alternative } from "../alternatives.ts";
 import { AxisChoice } from "../axes.ts";
+import { lettersLegend } from "../letters.ts";
 import type { PathNote } from "../network/story.ts";
 import { Placing, type PlacingData } from "../placing.ts";
+import { offers, type Question, Quiz } from "../quiz.ts";
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
-import { Group, judge, type Objective, type Verdict } from "../weighing.ts";
+import { Group, judge, type Objective, rowsNamed, type Verdict } from "../weighing.ts";
 
 interface AlignmentData {
   paths: PathNote[];
@@ -36,7 +48,9 @@ class AlignmentView implements View {
   private readonly choice: AxisChoice;
   private readonly tabs: [Sizes, HTMLButtonElement][];
   private readonly note = h("p", { class: "fnb-empty" });
+  readonly quiz: Quiz;
   private readonly groups = new Map<PathNote, Group>();
+  private readonly cases = new Map<Axis, { moved: Moved[]; next: Next[] }>();
   /** The reader's own alignments, by group. */
   private readonly tried = new Map<PathNote, Cuts>();
   private sizes: Sizes = "auto";
@@ -67,10 +81,15 @@ class AlignmentView implements View {
       ...this.tabs.map(([, tab]) => tab),
     );
     this.controls = [this.choice.el, tabs];
+    this.quiz = new Quiz(() => this.questions());
   }
 
   show(position: number): void {
     const axis = this.choice.at(position);
+    if (this.quiz.on) {
+      this.ask();
+      return;
+    }
     const other = this.context.alternatives.at(position, axis);
     this.unaligned = new Set(other?.groups.flatMap(({ path, aligned }) => (aligned ? [] : [path])));
     const paths = other
@@ -108,10 +127,133 @@ class AlignmentView implements View {
     this.el.replaceChildren(
       ...(said ? [h("p", { class: "fnb-alternative", role: "status" }, said)] : []),
       ...paths.map((path) => this.section(path, axis, solved.includes(path), path.group === now)),
+      legendOf(paths),
     );
     if (!focused) return;
     const handles = [...this.el.querySelectorAll<HTMLElement>("[data-handle]")];
     handles.find((own) => own.dataset.handle === focused)?.focus({ preventScroll: true });
+  }
+
+  private questions(): Question[] {
+    const { round } = this.quiz;
+    const { moved, next } = this.asked();
+    const found: Question[] = [];
+    const [column, boundary] = [next[round % next.length], moved[round % moved.length]];
+    if (column)
+      found.push({
+        name: NEXT,
+        prompt: `${this.named(column.path)}Where does column ${column.column + 1} end?`,
+        truths: () => column.offers,
+        single: true,
+      });
+    if (boundary) {
+      const { path, band } = boundary;
+      const row = path.layers[path.bands[band]?.rows[0] ?? 0] ?? "";
+      const way = boundary.right ? "right" : "left";
+      found.push({
+        name: MOVED,
+        prompt: `${this.named(path)}In the row “${row}” boundary ${boundary.boundary} was moved to the ${way}. What does that break? Tick all.`,
+        truths: () => movedTruths(boundary),
+      });
+    }
+    const nothing = "This alignment has nothing to ask: there is only one way to cut it.";
+    return found.length ? found : [{ prompt: nothing, truths: () => new Map() }];
+  }
+
+  /** What can be asked of the axis that is shown. */
+  private asked(): { moved: Moved[]; next: Next[] } {
+    const axis = this.choice.at(this.context.player.position);
+    let made = this.cases.get(axis);
+    if (!made) {
+      const paths = this.data.paths
+        .filter((path) => path.axis === axis)
+        .sort((a, b) => b.bands.length - a.bands.length); // of one word alone there is little to ask
+      made = {
+        moved: inTurn(paths.map((path) => movedCases(path, this.group(path), this.data.placements))),
+        next: inTurn(paths.map((path) => nextCases(path, this.group(path)))),
+      };
+      this.cases.set(axis, made);
+    }
+    return made;
+  }
+
+  /** The group, where there are several. */
+  private named({ axis, group }: PathNote): string {
+    return this.data.paths.filter((path) => path.axis === axis).length > 1 ? `Group ${group}: ` : "";
+  }
+
+  /** The question: an alignment as far as it is known, what can be chosen, and, once it is checked, the answer. */
+  private ask(): void {
+    const { quiz } = this;
+    const by = `asks ${this.choice.at(this.context.player.position)} ${quiz.stamp}`;
+    if (by === this.by) return;
+    this.by = by;
+    const { moved, next } = this.asked();
+    const [boundary, column] = [moved[quiz.round % moved.length], next[quiz.round % next.length]];
+    if (quiz.asked === NEXT && column) {
+      const cuts = quiz.hides ? column.cuts : cutsOf(column.path);
+      const asked = quiz.hides ? { open: column.column } : null;
+      const marked = { boundary: column.column, band: null };
+      const list = offers(quiz, (key) => {
+        const offer = column.offers.get(key);
+        const elements = column.path.bands.map(({ rows }, b) =>
+          h(
+            "span",
+            { class: "fnb-align-offer" },
+            h("span", { class: "fnb-muted" }, `${column.path.layers[rows[0] ?? 0] ?? ""}: `),
+            h("code", {}, offer ? elementText(column.path, b, offer) : ""),
+          ),
+        );
+        return h("span", { class: "fnb-align-offered" }, ...elements);
+      });
+      this.el.replaceChildren(this.posed(column.path, cuts, { asked, marked }, list));
+    } else if (quiz.asked === MOVED && boundary) {
+      const marked = { boundary: boundary.boundary, band: boundary.band };
+      const asked = quiz.hides ? { open: Number.POSITIVE_INFINITY } : null;
+      const list = offers(quiz, (kind) => CONSTRAINTS[kind] ?? kind);
+      this.el.replaceChildren(this.posed(boundary.path, boundary.cuts, { asked, marked }, list));
+    } else {
+      this.note.textContent = quiz.prompt;
+      this.el.replaceChildren(this.note);
+    }
+  }
+
+  /** An alignment that something is asked about. */
+  private posed(
+    path: PathNote,
+    cuts: Cuts,
+    how: Pick<MatrixOptions, "asked" | "marked">,
+    list: HTMLElement,
+  ): HTMLElement {
+    const drawn = atPreferred(path, cuts, this.data.placements);
+    const verdicts = how.asked ? [] : (judge(this.group(path), columnsOf(cuts), sizeIn(drawn)) ?? []);
+    const tried = JSON.stringify(cuts) !== JSON.stringify(cutsOf(path));
+    const { symbols } = this.context.timeline.data;
+    const exactly = tried ? verdicts : verdicts.map((each, j) => ({ ...each, ...exact(path, j) }));
+    const head = h(
+      "header",
+      {},
+      h("strong", {}, `Group ${path.group}`),
+      h("span", { class: "fnb-muted" }, "at preferred sizes"),
+    );
+    return h(
+      "section",
+      { class: "fnb-align-group", "data-group": path.group },
+      head,
+      columnsTable({
+        path,
+        axis: path.axis,
+        drawn,
+        verdicts: exactly,
+        tried: true,
+        solved: false,
+        symbols,
+        trial: null,
+        ...how,
+      }),
+      how.asked ? null : this.sums(path, drawn, verdicts, tried),
+      list,
+    );
   }
 
   /** Whether every letter of a group has been placed at a position. */
@@ -129,7 +271,7 @@ class AlignmentView implements View {
       (this.sizes === "solved" || (this.sizes === "auto" && placed)) &&
       this.isPlaced(path, 1e9);
     const drawn = solved ? this.solved(path) : atPreferred(path, cuts, this.data.placements);
-    const verdicts = judge(this.group(path), columnsOf(cuts));
+    const verdicts = judge(this.group(path), columnsOf(cuts), sizeIn(drawn));
     const own = judge(this.group(path), columnsOf(cutsOf(path))) ?? [];
     const trial = new Trial(path, cuts, drawn, (next) => this.attempt(path, next), this.context.signal);
     const table = columnsTable({
@@ -148,7 +290,7 @@ class AlignmentView implements View {
       h(
         "header",
         {},
-        h("strong", {}, path.group),
+        h("strong", {}, `Group ${path.group}`),
         h(
           "span",
           { class: "fnb-muted" },
@@ -157,13 +299,13 @@ class AlignmentView implements View {
         h(
           "span",
           { class: "fnb-muted" },
-          solved ? "at solved sizes" : "at preferred sizes",
+          solved ? "at solved sizes; errors, Ω, W, J at preferred sizes" : "at preferred sizes",
           this.unaligned.has(path) ? ", not aligned by the solver" : null,
         ),
         tried ? this.reset(path) : null,
       ),
       table,
-      this.sums(path, drawn, verdicts, own, !!tried),
+      this.sums(path, drawn, verdicts, !!tried),
     );
   }
 
@@ -188,21 +330,16 @@ class AlignmentView implements View {
   }
 
   /** Ω, W, J, and every constraint that is broken. */
-  private sums(
-    path: PathNote,
-    drawn: Drawn,
-    verdicts: Verdict[] | null,
-    own: readonly Verdict[],
-    tried: boolean,
-  ): HTMLElement {
+  private sums(path: PathNote, drawn: Drawn, verdicts: Verdict[] | null, tried: boolean): HTMLElement {
     if (!verdicts) return h("p", { class: "fnb-align-sums" }, "These columns do not hold every word.");
     const omega = tried ? verdicts.reduce((sum, each) => sum + each.omega, 0) : path.error;
-    const width = tried ? Math.max(drawn.width, 0) : path.width;
+    const width = tried || this.unaligned.has(path) ? drawn.width : path.width;
     const fit = this.group(path).objective.fit;
+    const whole = costOf(path, this.group(path));
     const cost = (list: readonly Verdict[], w: number) =>
       list.reduce((sum, each) => sum + each.cost, 0) + fit * Math.abs(w - path.canvas);
     const wide = Math.abs(width - path.canvas) > path.tolerance + 1e-9;
-    const broken = verdicts.flatMap((each, j) => (each.refusal ? [{ j, refusal: each.refusal }] : []));
+    const broken = verdicts.flatMap((each, j) => each.refusals.map((refusal) => ({ j, refusal })));
     const figure = (name: string, value: number, other: number, title: string) =>
       h(
         "span",
@@ -217,8 +354,15 @@ class AlignmentView implements View {
       figure("W =", width, path.width, "Sum of the columns' widths"),
       h("span", { class: "fnb-muted" }, `canvas ${formatNumber(path.canvas)} ± μ ${formatNumber(path.tolerance)} m`),
       tried
-        ? figure("J ≥", cost(verdicts, width), cost(own, path.width), "The objective, as far as columns show it")
-        : null,
+        ? figure("J ≥", cost(verdicts, width), whole, "The objective, as far as columns show it")
+        : this.unaligned.has(path)
+          ? null
+          : figure(
+              "J =",
+              whole,
+              whole,
+              "The objective: errors, empty elements, letters that share an element, and |W − canvas|",
+            ),
       h(
         "ul",
         { class: "fnb-align-broken" },
@@ -227,7 +371,7 @@ class AlignmentView implements View {
           h(
             "li",
             { "data-column": j + 1, "data-constraint": refusal.constraint },
-            `✕ column ${j + 1}: ${refusal.text()}`,
+            `✕ column ${j + 1}: ${rowsNamed(refusal.text(), path.layers)}`,
           ),
         ),
         !wide && !broken.length ? h("li", { class: "fnb-align-fine" }, "✓ It keeps every constraint.") : null,
@@ -252,6 +396,25 @@ function whatIsShown({ aligned, groups }: Alternative): string {
   return some
     ? "Groups that were aligned are shown so; of the others no columns are told: their words stand uncut. Cut them with +, and drag."
     : "No columns of it are told: its words stand uncut. Cut them with +, drag, and see what that breaks.";
+}
+
+function legendOf(paths: readonly PathNote[]): HTMLElement {
+  const letters = paths.flatMap(({ bands }) => bands.flatMap((band) => band.letters));
+  const columns = paths.flatMap((path) => columnsOf(cutsOf(path)));
+  return lettersLegend(letters, {
+    cut: paths.some((path) => path.columns.some(({ after }) => after.some((place) => place & 1))),
+    gaps: letters.some((a) => !a.opaque && !a.transparent),
+    empty: columns.some((column) => column.some((element) => !element.length)),
+  });
+}
+
+const NEXT = "the next column";
+const MOVED = "a moved boundary";
+
+/** The first of each list, then the second of each, and so on. */
+function inTurn<T>(lists: readonly T[][]): T[] {
+  const most = Math.max(0, ...lists.map((list) => list.length));
+  return Array.from({ length: most }, (_, n) => lists.flatMap((list) => list.slice(n, n + 1))).flat();
 }
 
 const counted = (n: number, what: string): string => `${n} ${what}${n === 1 ? "" : "s"}`;

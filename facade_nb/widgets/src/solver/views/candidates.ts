@@ -106,6 +106,7 @@ class CandidatesView implements View {
   private readonly head = h("div", { role: "row", class: "fnb-candidate fnb-candidate-head" });
   private readonly note = h("p", { class: "fnb-empty" });
   private readonly count = h("span", { class: "fnb-muted", role: "status" });
+  private readonly legend = h("p", { class: "fnb-legend", role: "note" });
   private readonly typed = h("input", {
     type: "search",
     class: "fnb-filter",
@@ -146,7 +147,7 @@ class CandidatesView implements View {
     this.el.append(
       h("div", { class: "fnb-candidate-scroll" }, table),
       this.note,
-      h("p", { class: "fnb-candidate-count" }, this.count),
+      h("div", { class: "fnb-candidate-foot" }, h("p", { class: "fnb-candidate-count" }, this.count), this.legend),
     );
     const prompt = "Which candidate becomes the layout?";
     this.quiz = new Quiz(() => [{ prompt, truths: () => this.truths(), single: true }]);
@@ -185,7 +186,9 @@ class CandidatesView implements View {
     setText(this.note, seen.length ? "No candidate passes the filter." : empty);
     this.note.hidden = shown.length > 0;
     const whole = `${own.length} candidate${own.length === 1 ? "" : "s"}`;
+    const bar = this.quiz.hides || !own.length ? [] : barLegend(own);
     setText(this.count, shown.length < own.length ? `${shown.length} of ${whole}` : whole);
+    this.legend.replaceChildren(...bar);
   }
 
   private columnsOf(own: readonly Candidate[]): Column[] {
@@ -358,6 +361,18 @@ class CandidatesView implements View {
     const best = own.find((each) => each.fate === "best");
     return new Map(own.map((each) => [String(each.number), { right: each === best, why: because(each, best) }]));
   }
+}
+
+/** What the bars mean, as far as there are such. */
+function barLegend(own: readonly Candidate[]): Node[] {
+  const kinds: [boolean, string, string][] = [
+    [true, "fnb-bar-least", "J ≥ what its sizes alone cost"],
+    [own.some((each) => each.cost === null && each.floor !== null), "fnb-bar-floor", "J ≥ what the search has proven"],
+    [own.some((each) => each.cost !== null), "fnb-bar-cost", "J"],
+  ];
+  return kinds
+    .filter(([is]) => is)
+    .map(([, name, text]) => h("span", {}, h("i", { class: `fnb-bar-key ${name}` }), text));
 }
 
 function byCounters(a: Candidate, b: Candidate): number {

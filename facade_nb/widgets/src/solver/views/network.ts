@@ -244,10 +244,13 @@ class NetworkView implements View {
       : "";
     setText(
       this.status,
-      `${labelOf(subject)}: ${nodes}${cut}, μ = ${formatNumber(subject.tolerance)} m.${search}${found}`,
+      `${labelOf(subject)}: ${this.directions(subject)}${nodes}${cut}, μ = ${formatNumber(subject.tolerance)} m.${search}${found}`,
     );
     mark(this.plane.canvas, "aria-label", `Network of ${this.status.textContent} Arrow keys go from node to node.`);
     const legend: [string, string][] = [
+      ["node", many ? "node" : `node: what is left of ${subject.bands.length > 1 ? "both words" : "the word"}`],
+      ...(scene.exact ? ([["faint", "on no way to the end"]] as [string, string][]) : []),
+      ...(scene.cut.length ? ([["cut", "within a cut letter"]] as [string, string][]) : []),
       ["step", "automaton steps"],
       [
         "arc",
@@ -296,6 +299,15 @@ class NetworkView implements View {
           ]
         : []),
     );
+  }
+
+  /** Which word is read downwards, and which to the right. */
+  private directions(subject: Subject): string {
+    const [down, right] = this.pairOf(subject).map((b) => {
+      const row = subject.bands[b]?.rows[0];
+      return row === undefined ? "" : ((subject.path?.layers ?? subject.layers)?.[row] ?? "");
+    });
+    return `${down ? `↓ ${down}, ` : ""}${right ? `→ ${right}; ` : ""}`;
   }
 
   private options(subject: Subject): void {
@@ -509,7 +521,7 @@ class NetworkView implements View {
 }
 
 const labelOf = (subject: Subject): string =>
-  `${subject.axis}: ${subject.name}${subject.path || subject.network < 0 ? "" : ` (network ${subject.network})`}`;
+  `${subject.axis}, group ${subject.name}${subject.path || subject.network < 0 ? "" : ` (network ${subject.network})`}`;
 
 const largestOf = (list: readonly Subject[]): Subject | undefined =>
   list.reduce<Subject | undefined>((a, b) => (a && sizeOf(a) >= sizeOf(b) ? a : b), undefined);

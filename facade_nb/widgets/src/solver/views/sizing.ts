@@ -7,8 +7,10 @@ import { AxisChoice } from "../axes.ts";
 import { hueOf } from "../letters.ts";
 import { linked, target } from "../links.ts";
 import type { PathNote } from "../network/story.ts";
+import { offers, type Question, Quiz } from "../quiz.ts";
 import { type Rows, rows } from "../rows.ts";
 import { forces } from "../sizing/forces.ts";
+import { abridged, entering, grown, type Lettered, letteredCases } from "../sizing/question.ts";
 import {
   type Constraint,
   isForce,
@@ -21,6 +23,7 @@ import {
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
 
+const BESIDE = 340; // pixels beside the matrix, for its equations
 const HEIGHT = 20;
 const MOST = 18;
 
@@ -31,6 +34,10 @@ export const sizing: ViewKind = {
   make: (context) => new SizingView(context),
 };
 
+const SIZES = "sizes";
+const EQUATION = "an equation";
+const ACTIVE = "the active set";
+
 type Tab = "all" | "equations" | "inequalities" | "active" | "written";
 
 const TABS: [Tab, string, string][] = [
@@ -40,6 +47,21 @@ const TABS: [Tab, string, string][] = [
   ["active", "active", "What is active at this moment"],
   ["written", "written out", "Letter by letter, as the supplement's Figure 7"],
 ];
+
+/** What the matrix and its equations are read by. */
+function systemLegend(): HTMLElement {
+  const swatch = (name: string) => h("i", { class: `fnb-legend-swatch ${name}` });
+  return h(
+    "p",
+    { class: "fnb-legend", role: "note" },
+    h("span", {}, swatch("fnb-size-plus"), "+1"),
+    h("span", {}, swatch("fnb-size-minus"), "−1"),
+    h("span", {}, swatch("fnb-size-place"), "ends of columns (xj) and letters"),
+    h("span", {}, swatch("fnb-hue-1 fnb-size-size"), "size of a symbol"),
+    h("span", {}, "i-j-k: word, column, letter, counted from 1; from s to t"),
+    h("span", {}, h("b", { class: "fnb-size-dot" }, "●"), "active"),
+  );
+}
 
 class SizingView implements View {
   readonly el: HTMLElement;
@@ -55,9 +77,14 @@ class SizingView implements View {
   private readonly list: Rows<Constraint>;
   private readonly written = h("div", { class: "fnb-size-written" });
   private readonly table: HTMLElement;
+  private readonly legend = systemLegend();
   private readonly tabs: [Tab, HTMLButtonElement][];
   private readonly body: HTMLElement;
   private readonly said = h("p", { class: "fnb-alternative", role: "status", hidden: true });
+  readonly quiz: Quiz;
+  private readonly lettered = new Map<System, Lettered[]>();
+  /** Pixels that there are for a drawing. */
+  private width = 900;
   private tab: Tab = "all";
   private system: System | null = null;
   private moment: Moment | null = null;
@@ -116,16 +143,31 @@ class SizingView implements View {
       this.picture,
       h("div", { class: "fnb-size-halves" }, this.terms, this.steps),
       choose,
+      this.legend,
       this.table,
       this.written,
     );
     this.el = h("div", { class: "fnb-sizing" }, this.said, this.note);
+    this.quiz = new Quiz(() => this.questions());
+    if (typeof ResizeObserver === "undefined") return;
+    const observer = new ResizeObserver(() => {
+      const width = Math.round(this.el.clientWidth / 20) * 20 - 24;
+      if (width <= 0 || width === this.width) return;
+      this.width = width;
+      context.refresh();
+    });
+    observer.observe(this.el);
+    context.signal.addEventListener("abort", () => observer.disconnect());
   }
 
   show(position: number): void {
     const axis = this.choice.at(position);
     for (const [name, tab] of this.tabs) mark(tab, "aria-pressed", String(name === this.tab));
     const system = this.systems[axis];
+    if (this.quiz.on) {
+      this.ask(system, axis, position);
+      return;
+    }
     const moment = system?.at(position);
     const other = this.context.alternatives.at(position, axis);
     const said = other
@@ -133,7 +175,15 @@ class SizingView implements View {
       : this.context.alternatives.trouble;
     setText(this.said, said);
     this.said.hidden = !said;
-    const by = [axis, this.tab, moment?.posed, moment?.step?.at, moment?.solved?.at, this.now(system, position)].join();
+    const by = [
+      axis,
+      this.tab,
+      moment?.posed,
+      moment?.step?.at,
+      moment?.solved?.at,
+      this.now(system, position),
+      this.width,
+    ].join();
     if (by === this.by) return;
     this.by = by;
     if (!system || !moment?.posed) {
@@ -145,14 +195,15 @@ class SizingView implements View {
     }
     this.system = system;
     this.moment = moment;
-    this.rowsBy = [axis, moment.step?.at, moment.solved?.at].join();
+    this.rowsBy = [axis, moment.step?.at, moment.solved?.at, this.width].join();
     if (this.body.parentNode !== this.el) this.el.replaceChildren(this.said, this.body);
     this.sum.replaceChildren(...this.summary(system, moment));
-    this.picture.replaceChildren(forces(system, moment, this.context.timeline.data.symbols));
+    this.picture.replaceChildren(forces(system, moment, this.context.timeline.data.symbols, { width: this.width }));
     this.terms.replaceChildren(this.objective(system, moment));
     this.steps.replaceChildren(this.iterations(system, moment, position));
     const written = this.tab === "written";
     this.table.hidden = written;
+    this.legend.hidden = written;
     this.written.hidden = !written;
     if (written) {
       this.list.set([]);
@@ -161,7 +212,7 @@ class SizingView implements View {
     }
     this.written.replaceChildren();
     const count = system.count;
-    const cell = Math.max(4, Math.min(17, Math.floor(480 / count)));
+    const cell = Math.max(2, Math.min(17, Math.floor((this.width - BESIDE) / count)));
     this.table.style.setProperty("--fnb-cell", `${cell}px`);
     this.table.style.setProperty("--fnb-matrix", `${cell * count}px`);
     this.header(system, cell);
@@ -172,6 +223,66 @@ class SizingView implements View {
       active: (own: Constraint) => moment.active.has(own.number),
     };
     this.list.set(system.constraints.filter(kinds[this.tab as keyof typeof kinds]));
+  }
+
+  private questions(): Question[] {
+    const { position } = this.context.player;
+    const system = this.systems[this.choice.at(position)];
+    const solved = system?.solved && system.at(system.solved.at);
+    if (!system || !solved)
+      return [{ prompt: "This axis has no sizes that could be asked for.", truths: () => new Map() }];
+    const found: Question[] = [];
+    const truths = grown(system, solved);
+    if (truths.size)
+      found.push({ name: SIZES, prompt: "Which symbols end larger than they like? Tick them.", truths: () => truths });
+    const letter = this.letter(system);
+    if (letter) {
+      const named = `${letter.row.symbol} (${system.ijk(letter.place)})`;
+      const prompt = `Which equation says how long the marked letter ${named} is?`;
+      found.push({ name: EQUATION, prompt, truths: () => letter.truths, single: true });
+    }
+    const next = entering(system, position);
+    if (next) {
+      const few = next.step.entered.length > 1 ? "Which constraints become" : "Which constraint becomes";
+      found.push({
+        name: ACTIVE,
+        prompt: `${few} active next?`,
+        truths: () => next.truths,
+        single: next.step.entered.length === 1,
+      });
+    }
+    return found;
+  }
+
+  /** The letter whose equation is asked for: another one each time. */
+  private letter(system: System): Lettered | undefined {
+    const made = this.lettered.get(system) ?? letteredCases(system);
+    this.lettered.set(system, made);
+    return made[this.quiz.round % made.length];
+  }
+
+  /** The question: what is known, what can be chosen, and, once it is checked, the answer. */
+  private ask(system: System | undefined, axis: Axis, position: number): void {
+    const { quiz } = this;
+    const { asked } = quiz;
+    const next = system && asked === ACTIVE ? entering(system, position) : null;
+    const by = ["asks", axis, quiz.stamp, next?.step.at, this.width].join();
+    if (by === this.by) return;
+    this.by = by;
+    this.said.hidden = true;
+    if (!system?.solved || !asked) {
+      this.note.textContent = quiz.prompt;
+      this.el.replaceChildren(this.note);
+      return;
+    }
+    const { symbols } = this.context.timeline.data;
+    const chip = (symbol: string) => h("span", { class: `fnb-size-chip ${hueOf(symbols, symbol)}` }, symbol);
+    const list = offers(quiz, (key) => (asked === SIZES ? chip(key) : h("code", { title: key }, abridged(key))));
+    const moment = system.at(next ? (quiz.hides ? next.before.at : next.step.at) : system.solved.at);
+    const letter = asked === EQUATION ? this.letter(system) : undefined;
+    const how = { before: asked === SIZES && quiz.hides, ...(letter ? { marked: letter.place } : {}) };
+    const answer = asked === SIZES && !quiz.hides ? this.objective(system, moment) : null;
+    this.el.replaceChildren(forces(system, moment, symbols, how), h("div", { class: "fnb-size-asked" }, list, answer));
   }
 
   /** Which of its own events is told right now. */
@@ -185,7 +296,7 @@ class SizingView implements View {
     const equations = system.constraints.filter((own) => own.number >= system.count && own.kind === "=").length;
     const text = `${system.count} variables, ${equations} equations, ${posed.rows.length - equations} inequalities. `;
     const at = moment.solved
-      ? `Solved: deviation √Σ(size − preferred)² = ${formatNumber(moment.solved.deviation)} m, after ${moment.solved.iterations} iterations.`
+      ? `Solved: deviation √Σ(size − preferred)² = ${formatNumber(moment.solved.deviation)} m.`
       : moment.step
         ? `Round ${moment.step.round} (${moment.step.round === 1 ? "sizes" : "places"}), step ${moment.step.step}: ${moment.active.size} active.`
         : "Posed; nothing is solved yet.";
@@ -238,7 +349,11 @@ class SizingView implements View {
           h(
             "thead",
             {},
-            h("tr", {}, ...["", "preferred", "size", "less | more", "squared"].map((text) => h("th", {}, text))),
+            h(
+              "tr",
+              {},
+              ...["", "preferred, m", "size, m", "less | more", "squared, m²"].map((text) => h("th", {}, text)),
+            ),
           ),
           h("tbody", {}, ...sized.map((v) => line(v, true)), ...free.map((v) => line(v, false))),
           h(
@@ -273,7 +388,7 @@ class SizingView implements View {
       const button = h(
         "button",
         { type: "button", class: "fnb-size-step", "data-now": moment.step === step, "data-ahead": step.at > position },
-        h("span", {}, `${step.round === 1 ? "sizes" : "places"} ${step.step}`),
+        h("span", {}, `round ${step.round}, step ${step.step}`),
         h("span", { class: "fnb-size-moves" }, moves.join("; ") || "nothing changes"),
         h("span", { class: "fnb-size-figure" }, `${step.active} active`),
         h("span", { class: "fnb-size-figure", title: "The round's objective" }, formatNumber(step.objective, 5)),
@@ -285,13 +400,19 @@ class SizingView implements View {
       "div",
       {},
       h("h4", {}, "Active set, step by step"),
+      h(
+        "p",
+        { class: "fnb-muted" },
+        "Round 1 finds the sizes, round 2, with these, where letters stand. Last: the round's objective, m².",
+      ),
       list.length ? h("ol", {}, ...list) : h("p", { class: "fnb-muted" }, "No step is told."),
     );
   }
 
   private header(system: System, cell: number): void {
-    const wide = cell >= 8;
+    const wide = cell >= 9;
     mark(this.table, "data-narrow", !wide);
+    mark(this.table, "data-blank", cell < 13);
     const names = system.posed.variables.map((name, v) => {
       const own = system.posed.meaning[v];
       const label = h(

@@ -5,7 +5,7 @@ import { h, mark, setText } from "../../dom.ts";
 import { formatNumber } from "../../fields.ts";
 import { AxisChoice } from "../axes.ts";
 import { type Candidate, combined, type GroupNote, inOrder, type Judged, judge, type WordEvent } from "../bounds.ts";
-import { boxes, type DrawnLetter, spelled } from "../letters.ts";
+import { boxes, type DrawnLetter, lettersLegend, spelled } from "../letters.ts";
 import { linked, target } from "../links.ts";
 import { Quiz, type Truth } from "../quiz.ts";
 import { type Rows, rows } from "../rows.ts";
@@ -199,8 +199,15 @@ class WordsView implements View {
     const before = this.built[axis];
     this.sections = before ?? new Map();
     this.built[axis] = this.sections;
+    const letters = story.rounds.flatMap((round) => [...round.words.values()].flat().flatMap((word) => word.letters));
+    const legend = lettersLegend(letters, { free: letters.some(({ size }) => size === null) });
     const swap = () =>
-      this.el.replaceChildren(this.note, ...[...this.sections.values()].map((section) => section.el), this.tuples);
+      this.el.replaceChildren(
+        this.note,
+        ...[...this.sections.values()].map((section) => section.el),
+        this.tuples,
+        legend,
+      );
     if (before) {
       swap();
       return;
@@ -355,7 +362,7 @@ class Section {
       "div",
       { role: "columnheader", class: "fnb-scale", "aria-label": "drawn to scale" },
       this.band,
-      ...this.ticks(),
+      ...this.ticks(own),
     );
     this.ruler.replaceChildren(
       h(
@@ -365,7 +372,7 @@ class Section {
         h("span", { role: "columnheader" }, "w", index),
       ),
       scale,
-      h("span", { role: "columnheader", class: "fnb-word-size" }, "|w", index.cloneNode(true), "|"),
+      h("span", { role: "columnheader", class: "fnb-word-size" }, "|w", index.cloneNode(true), "|, m"),
       h("span", { role: "columnheader" }, this.quiz.hides ? "fits?" : ""),
     );
     if (!own) {
@@ -383,10 +390,13 @@ class Section {
     band.style.width = `${(100 * (own.high - low)) / this.span}%`;
   }
 
-  private ticks(): HTMLElement[] {
+  private ticks(own: Judged | null): HTMLElement[] {
     const canvas = h("b", { class: "fnb-tick" }, `canvas ${formatNumber(this.canvas)} m`);
     canvas.style.left = `${(100 * this.canvas) / this.span}%`;
-    return [canvas];
+    if (!own || own.high <= this.canvas) return [canvas];
+    const band = h("b", { class: "fnb-tick fnb-tick-band" }, `± μ ${formatNumber(own.high - this.canvas, 2)}`);
+    band.style.left = canvas.style.left;
+    return [canvas, band];
   }
 
   /** A word, and all that its row depends on besides. */
@@ -448,11 +458,11 @@ class Section {
       h(
         "span",
         { role: "cell", class: "fnb-word-reason" },
-        this.quiz.on ? this.box(key, word) : reasonText(word, event.word === this.taken),
-        why ? ` ${why}` : "",
+        this.quiz.on ? this.box(key, word) : null,
+        hides ? null : reasonText(word, event.word === this.taken),
       ),
     );
-    mark(row, "title", hides ? null : sentence(word, own));
+    mark(row, "title", hides ? null : why || sentence(word, own));
     return row;
   }
 
