@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import Any, ClassVar, Self
+from weakref import WeakKeyDictionary
 
 from ipywidgets import Widget, widget_serialization
 from traitlets import Instance, Unicode
 
-__all__ = ["Bundled", "Code", "Message", "bundle"]
+__all__ = ["Bundled", "Code", "Message", "ModelWire", "bundle"]
 
 Message = dict[str, Any]
 
@@ -126,3 +127,25 @@ class Bundled(Widget):
 
     def _answer(self, message: Message) -> None:
         """Do what the front end asks for."""
+
+
+class ModelWire(Bundled):
+    """The wire between one model and the browser. Get it by `of`: there is one for each model."""
+
+    _wires: ClassVar[WeakKeyDictionary[Any, Any]]
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls._wires = WeakKeyDictionary()
+
+    @classmethod
+    def of(cls, model: Any) -> Self:
+        """The wire of a model, made when first asked for, or anew if it was closed."""
+        wire: Self | None = cls._wires.get(model)
+        if wire is None or wire.comm is None:
+            wire = cls._wires[model] = cls(model)
+        return wire
+
+    def __init__(self, model: Any, **traits: Any) -> None:
+        self.model = model
+        super().__init__(**traits)

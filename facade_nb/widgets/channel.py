@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import traceback
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from traitlets import Dict, List, Unicode
 
@@ -13,7 +12,7 @@ from .. import gallery
 from ..design import DesignError
 from ..render import GEOMETRIES, MATERIALS, elevation_svg
 from ..solver import Layout
-from .bundled import Bundled, Message
+from .bundled import Message, ModelWire
 from .commands import COMMANDS
 from .model import FacadeModel
 from .wire import describe_design, describe_drafts, describe_faults, describe_selection, describe_status
@@ -30,7 +29,7 @@ The front end has one message under way, so this is also how long a solve is lef
 """
 
 
-class Channel(Bundled):
+class Channel(ModelWire):
     """One model's line to the browser. Get it by `Channel.of`: there is one per model."""
 
     front = "studio"
@@ -46,26 +45,18 @@ class Channel(Bundled):
     ack = Dict().tag(sync=True)
 
     def __init__(self, model: FacadeModel) -> None:
-        self.model = model
         self._drawn: tuple[Layout | None, str] | None = None
         self._answering = False
         self._answered: dict[str, Any] = {}
         self._failure = ""
         self._later: asyncio.TimerHandle | None = None
         super().__init__(
+            model,
             gallery=list(gallery.names()),
             catalogue={"geometries": list(GEOMETRIES), "materials": list(MATERIALS)},
         )
         self.publish()
         model.observe(self._on_version, "version")
-
-    @classmethod
-    def of(cls, model: FacadeModel) -> Channel:
-        """The channel of a model, made when first asked for, or anew if it was closed."""
-        channel = _channels.get(model)
-        if channel is None or channel.comm is None:
-            channel = _channels[model] = cls(model)
-        return channel
 
     def _refill(self) -> None:
         self._drawn = None
@@ -152,6 +143,3 @@ class Channel(Bundled):
         self._publish_soon()
         if reply is not None:
             self.send({**reply, **tag})
-
-
-_channels: WeakKeyDictionary[FacadeModel, Channel] = WeakKeyDictionary()

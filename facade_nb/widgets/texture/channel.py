@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import traceback
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from traitlets import Bool, Bytes, Dict, Float, List, TraitError, Unicode
 
-from ..bundled import Bundled, Message
-from .model import TextureModel, told
+from ..bundled import Message, ModelWire
+from ..wire import describe_faults
+from .model import TextureModel
 from .packet import derivation, light_piece, scene_piece, tiles_piece
 from .still import still
 
@@ -22,7 +22,7 @@ _SEEN = ("grammar", *_PLAIN)
 def _same_all(model: TextureModel) -> dict[str, Any]:
     return {
         "text": model.text,
-        "faults": told(model.faults),
+        "faults": describe_faults(model.faults),
         "size": list(model.size),
         "seed": list(model.seed),
         "hour": model.hour,
@@ -33,7 +33,7 @@ def _same_all(model: TextureModel) -> dict[str, Any]:
     }
 
 
-class TextureChannel(Bundled):
+class TextureChannel(ModelWire):
     """One texture model's line to the browser. Get it by `TextureChannel.of`: there is one for each."""
 
     front = "texture"
@@ -54,20 +54,11 @@ class TextureChannel(Bundled):
     steps = List(Dict()).tag(sync=True)
 
     def __init__(self, model: TextureModel) -> None:
-        self.model = model
         self._tiles: tuple[str, ...] | None = None
         self._stills = False  # whether a page needs the still picture to follow
-        super().__init__(**_same_all(model))
+        super().__init__(model, **_same_all(model))
         self._refill()
         model.observe(self._on_model)
-
-    @classmethod
-    def of(cls, model: TextureModel) -> TextureChannel:
-        """The channel of a model, made when first asked for, or anew if it was closed."""
-        channel = _channels.get(model)
-        if channel is None or channel.comm is None:
-            channel = _channels[model] = cls(model)
-        return channel
 
     def close(self) -> None:
         """Close the wire; the model lives on."""
@@ -132,6 +123,3 @@ class TextureChannel(Bundled):
             self.model.enter(str(value))
         elif name in _PLAIN:
             setattr(self.model, name, tuple(value) if isinstance(value, list) else value)
-
-
-_channels: WeakKeyDictionary[TextureModel, TextureChannel] = WeakKeyDictionary()

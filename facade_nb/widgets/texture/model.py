@@ -8,7 +8,6 @@ from typing import Any
 from traitlets import Bool, Float, HasTraits, Instance, TraitError, Tuple, Unicode, validate
 
 from ...design import DesignError
-from ...design.errors import Fault
 from ...render import Grammar
 from ...render.texture.atlas import Tiles
 from ...render.texture.steps import Step
@@ -122,17 +121,3 @@ class TextureModel(HasTraits):
         if not 0 <= proposal["value"] <= 24:
             raise TraitError(f"hour: expected 0 to 24; found {proposal['value']}")
         return proposal["value"]
-
-
-def told(faults: Sequence[Fault]) -> list[dict[str, Any]]:
-    """Faults as the front end has them."""
-    return [
-        {
-            "place": fault.place,
-            "message": fault.message,
-            "line": fault.line,
-            "column": fault.column,
-            "excerpt": fault.excerpt,
-        }
-        for fault in faults
-    ]

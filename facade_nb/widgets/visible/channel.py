@@ -5,11 +5,10 @@ from __future__ import annotations
 import traceback
 from collections.abc import Iterable
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from traitlets import Bytes, Int, List, Unicode
 
-from ..bundled import Bundled, Message
+from ..bundled import Message, ModelWire
 from .chunks import CHUNKS, chunk
 from .model import TraceModel
 
@@ -23,7 +22,7 @@ def _piece() -> Bytes:
     return Bytes().tag(sync=True)
 
 
-class TraceChannel(Bundled):
+class TraceChannel(ModelWire):
     """One trace model's line to the browser. Get it by `TraceChannel.of`: there is one for each.
 
     The pieces are traits, so that a reload of the page and a saved notebook have those that were needed. One is made
@@ -50,21 +49,12 @@ class TraceChannel(Bundled):
     picked = List(Unicode()).tag(sync=True)
 
     def __init__(self, model: TraceModel) -> None:
-        self.model = model
         self._provided: dict[str, None] = {}
-        super().__init__(position=model.position, picked=model.picked)
+        super().__init__(model, position=model.position, picked=model.picked)
         self.provide(_FIRST)
         model.observe(self._on_trace, "trace")
         model.observe(self._on_moment, ["position", "picked"])
         self.observe(self._on_page, ["position", "picked"])
-
-    @classmethod
-    def of(cls, model: TraceModel) -> TraceChannel:
-        """The channel of a trace model, made when first asked for, or anew if it was closed."""
-        channel = _channels.get(model)
-        if channel is None or channel.comm is None:
-            channel = _channels[model] = cls(model)
-        return channel
 
     def close(self) -> None:
         """Close the wire; the model lives on."""
@@ -113,6 +103,3 @@ class TraceChannel(Bundled):
 
     def _on_page(self, change: Any) -> None:
         setattr(self.model, change["name"], change["new"])
-
-
-_channels: WeakKeyDictionary[TraceModel, TraceChannel] = WeakKeyDictionary()
