@@ -297,6 +297,14 @@ class TestViews:
             ElementTree.fromstring(b64decode(data))  # it is well-formed
         assert len(static) < 120_000
 
+    @pytest.mark.parametrize("name", ["bookshop", "concert-hall", "terraced-house"])
+    def test_the_largest_designs_have_static_forms_that_are_kept(self, name: str) -> None:
+        trace = solve(gallery.load(name), trace=True).trace
+        for cls in VIEWS:
+            made = cls(trace)._repr_mimebundle_()
+            static = made[0].get("text/html", "")
+            assert "<img " in static or "<table" in static, cls.__name__
+
     def test_the_state_goes_there_and_back(self, trace: Trace) -> None:
         view = WordsView(trace, step=1.0, tolerance=0.5, predict=True)
         state = view.get_state()

@@ -12,6 +12,7 @@ from facade_nb import gallery
 from facade_nb.solver.events import ActiveSetStep, EdgeRefused, EdgeWeighed, NodeTaken, PathChosen
 from facade_nb.widgets import AlignmentView, NetworkView, SizingView
 from facade_nb.widgets.visible import chunks, networks
+from facade_nb.widgets.visible.sizing import said
 
 from .pieces import TRACES
 from .test_visible import unpack
@@ -83,6 +84,14 @@ class TestNetworkView:
         assert "<td>f / C / A</td>" in html
         assert "<td>D / e / B</td>" in html
 
+    def test_a_larger_one_is_drawn_with_dots_and_its_words(self) -> None:
+        html = NetworkView(gallery.load("apartment-house")).to_html()
+        assert any("x, group 1: 12 × 20 nodes" in text for text in texts(html))
+        assert sum(1 for _ in drawing(html).iter(f"{SVG}circle")) == 240
+        red = [own for own in drawing(html).iter(f"{SVG}path") if own.get("stroke") == "#d0202c"]
+        assert len(red) == 17 + 7  # x, group 1 and y, group 1
+        assert "<td>1 to 19</td><td>f A B D" in html  # a word alone: nothing is decided
+
     def test_the_frame_is_that_of_the_edges(self) -> None:
         frame = NetworkView(gallery.load("figure-8")).frame
         assert {"omega", "fate", "constraint", "chosen"} <= {*frame.columns}
@@ -101,6 +110,14 @@ class TestAlignmentView:
         assert np.allclose(widths[:5], widths[5:], atol=0.1)  # e is cut where B and A meet
         assert "Ω = 0 m, W = 12 m" in texts(html)
 
+    def test_every_column_of_the_static_form_has_its_size_and_error(self) -> None:
+        written = texts(AlignmentView(gallery.load("apartment-house")).to_html())
+        first = written[written.index("x, group 1") : written.index("x, group 2")]
+        sizes = first[first.index("size") + 1 : first.index("error ω")]
+        assert sizes == ["0.6", "3", *["1.2", "0.817"] * 6, "1.2", "3", "0.6"]
+        assert first[first.index("error ω") + 1 :].count("0.017") == 6
+        assert "first floor corners" in first
+
     def test_the_piece_has_the_tolerance_that_the_path_keeps(self) -> None:
         told = unpack(chunks.chunk(TRACES["figure-8"](), "alignment"))
         (own,) = (path for path in told["paths"] if path["axis"] == "x")
@@ -112,8 +129,26 @@ class TestSizingView:
     def test_the_static_form_lists_sizes_and_rows(self) -> None:
         html = SizingView(gallery.load("residential-house")).to_html()
         assert "<td>x</td><td>D</td><td>1.1</td><td>1.19</td><td>0.0081</td>" in html
-        assert "<td>1:0-3-0 = |D|</td><td>=</td><td>0.18</td>" in html
+        assert "<td>default: 1-4-1.t − 1-4-1.s = |D|</td><td>=</td><td>0.18</td>" in html
         assert "<td>f</td><td>free</td>" in html
+
+    def test_the_static_form_draws_forces(self) -> None:
+        view = SizingView(gallery.load("residential-house"))
+        strokes = [own.get("stroke") for own in drawing(view.to_html()).iter(f"{SVG}path")]
+        rows = view.frame
+        sized = rows[rows.name.str.contains(r" = \|") & (rows.multiplier.abs() > 1e-6)]
+        letters = sum(name.count("-") // 2 for name in sized.name)
+        assert strokes.count("#2f6fb2") + strokes.count("#d0202c") >= 2 * letters > 0
+
+    def test_rows_are_called_as_in_the_page(self) -> None:
+        groups = ["one", "two"]
+        assert said("0:0 < 0:1", groups) == "one: x0 < x1"
+        assert said("1:0-2-0 = |A|", groups) == "two: 1-3-1.t − 1-3-1.s = |A|"
+        assert said("0:0-1-0 + 0:0-2-0 = |e|", ["one"]) == "(1-2-1.t − 1-2-1.s) + (1-3-1.t − 1-3-1.s) = |e|"
+        assert said("0:0-2-0: gap before ≥ 0", ["one"]) == "γ before 1-3-1 ≥ 0"
+        assert said("0:0-2-0: gaps equal", ["one"]) == "γ before 1-3-1 = γ after it"
+        assert said("0:0-3-0.s < 0:0-3-0.t", ["one"]) == "1-4-1.s < 1-4-1.t"
+        assert said("extent of g = |g|", groups) == "extent of the content of g = |g|"
 
     def test_the_frame_is_that_of_the_equations(self) -> None:
         frame = SizingView(gallery.load("figure-8")).frame

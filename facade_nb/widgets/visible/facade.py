@@ -5,13 +5,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ...design import DesignError
+from ...solver import Layout, Trace
 from ..parts import picture
+from .sheet import MUTED, Sheet
+from .timeline import timeline
 from .view import TraceView
 
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["FacadeView"]
+__all__ = ["FacadeView", "drawn"]
+
+
+_SIMPLE = (
+    "Its full drawing is too large for a saved page: here are its shapes, in the colours of their symbols."
+)
 
 
 class FacadeView(TraceView):
@@ -26,8 +34,44 @@ class FacadeView(TraceView):
         return self.model.trace.path()
 
     def to_html(self) -> str:
-        """The elevation; empty where there is no layout."""
-        try:
-            return picture(self.model.trace.replay())
-        except DesignError:
-            return ""
+        """The elevation; one that is too large for that as rectangles; empty where there is no layout."""
+        return drawn(self.model.trace)
+
+
+def drawn(trace: Trace) -> str:
+    """The static form of the façade that the events build."""
+    try:
+        layout = trace.replay()
+    except DesignError:
+        return ""
+    return picture(layout) or _outlined(layout, timeline(trace)["symbols"])
+
+
+def _outlined(layout: Layout, hues: dict[str, int]) -> str:
+    """Every shape as a rectangle in the colour of its horizontal symbol, layer by layer."""
+    width, height = layout.canvas.width, layout.canvas.height
+    scale = min(860 / width, 620 / height)
+    sheet = Sheet(width * scale + 20)
+    top = sheet.height
+    made: dict[tuple[str, int], list[tuple[float, float, float, float]]] = {}
+    for shape in layout.shapes:
+        left, bottom, right, upper = shape.rect
+        rect = (
+            10 + left * scale,
+            top + (height - upper) * scale,
+            (right - left) * scale,
+            (upper - bottom) * scale,
+        )
+        made.setdefault((shape.layer, hues.get(shape.x, 0)), []).append(rect)
+    for (_, hue), rects in made.items():
+        sheet.boxes(rects, hue)
+    sheet.height = top + height * scale + 16
+    sheet.text(
+        10,
+        sheet.height,
+        _SIMPLE,
+        fill=MUTED,
+        size=11,
+    )
+    sheet.height += 8
+    return sheet.image(f"Elevation of {layout.name}")

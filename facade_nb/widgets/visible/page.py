@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from traitlets import Bool, Int, List, Unicode
 
-from ...design import DesignError
-from ..parts import picture
+from .facade import drawn
 from .player import PlayerView
 from .view import TraceView
 
@@ -48,8 +47,4 @@ class SolverView(TraceView):
 
     def to_html(self) -> str:
         """The elevation where there is a layout, and the table of the stages."""
-        try:
-            drawn = picture(self.model.trace.replay())
-        except DesignError:
-            drawn = ""
-        return drawn + PlayerView(self.model).to_html()
+        return drawn(self.model.trace) + PlayerView(self.model).to_html()

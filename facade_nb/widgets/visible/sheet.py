@@ -9,7 +9,7 @@ from html import escape
 from ...render.style import num
 from ...solver.events import LetterNote
 
-__all__ = ["ARC", "HUES", "INK", "MUTED", "PATH", "STEP", "Sheet", "spelled", "table"]
+__all__ = ["ARC", "HUES", "INK", "MUTED", "PATH", "STEP", "Sheet", "shortened", "spelled", "table"]
 
 HUES = (
     "#d9b48f", "#8fb8d8", "#b9cf8c", "#e3a1a1", "#b7a8d8", "#8ecfc0", "#ead27a", "#c9c4bb", "#e2b0d2", "#a3b1bd",
@@ -27,6 +27,7 @@ _SANS, _MONO = (
 
 _STYLE = (
     f"text{{font-family:{_SANS}}}.m{{font-family:{_MONO}}}.b{{font-weight:600}}.am{{text-anchor:middle}}"
+    f".n{{font-size:11px;text-anchor:middle;fill:{INK}}}.q{{fill:{MUTED}}}"
     f".ae{{text-anchor:end}}.l{{font:11px {_MONO};text-anchor:middle;fill:{INK}}}.d{{opacity:.45}}"
     f".g{{fill:none;stroke:{MUTED};stroke-dasharray:3 2}}"
     + "".join(f".h{n}{{fill:{hue};stroke:{INK}}}" for n, hue in enumerate(HUES))
@@ -90,6 +91,39 @@ class Sheet:
         )
         return (x0 + 2 * x + x1) / 4, (y0 + 2 * y + y1) / 4
 
+    def boxes(self, rects: Iterable[tuple[float, float, float, float]], hue: int) -> None:
+        """Draw many rectangles of one colour: x, y, width and height of each."""
+        path = "".join(f"M{x:.1f} {y:.1f}h{w:.1f}v{h:.1f}h-{w:.1f}z" for x, y, w, h in rects)
+        self._parts.append(f'<path class="h{hue % len(HUES)}" stroke-width=".4" d="{path}"/>')
+
+    def arrow(self, x0: float, x1: float, y: float, *, stroke: str) -> None:
+        """Draw an arrow from x0 to x1."""
+        back = 3.0 if x1 > x0 else -3.0
+        self._parts.append(
+            f'<path d="M{num(x0)} {num(y)}H{num(x1)}M{num(x1 - back)} {num(y - 3)}L{num(x1)} {num(y)}'
+            f'L{num(x1 - back)} {num(y + 3)}" fill="none" stroke="{stroke}" stroke-width="1.6"/>'
+        )
+
+    def dot(self, x: float, y: float, r: float, *, stroke: str = INK) -> None:
+        """Draw a small circle."""
+        self._parts.append(
+            f'<circle cx="{num(x)}" cy="{num(y)}" r="{num(r)}" fill="{PAPER}" stroke="{stroke}"/>'
+        )
+
+    def labels(self, cells: Iterable[tuple[float, float, str]], y: float, *, muted: bool = False) -> float:
+        """Write texts between two x each; those that have no room stand on a second line. Gives the last line's y."""
+        last, end = y, -1e9
+        for x0, x1, text in cells:
+            half, middle = 3.4 * len(text), (x0 + x1) / 2
+            if x1 - x0 < 2 * half:
+                if middle - half < end + 3:
+                    continue
+                end, last = middle + half, y + 13
+            at = y if x1 - x0 >= 2 * half else y + 13
+            look = "n q" if muted else "n"
+            self._parts.append(f'<text class="{look}" x="{num(middle)}" y="{num(at)}">{escape(text)}</text>')
+        return last
+
     def node(self, x: float, y: float, w: float, h: float, lines: Sequence[str]) -> None:
         """Draw a box around a point, with lines of text in it."""
         self._parts.append(
@@ -111,14 +145,14 @@ class Sheet:
 
     def letter(
         self, x: float, y: float, w: float, h: float, letter: LetterNote, hue: int, *, free: bool = False,
-        dim: bool = False,
+        dim: bool = False, named: bool = True,
     ) -> None:  # fmt: skip
         """Draw a letter: solid, dashed where it is transparent, and without a fill where its size is free."""
         look = "g" if letter.transparent or free else f"h{hue % len(HUES)}"
         self._parts.append(
             f'<rect class="{look}{" d" if dim else ""}" x="{num(x)}" y="{num(y)}" width="{num(w)}" height="{num(h)}"/>'
         )
-        if w >= 8 * len(letter.symbol):
+        if named and w >= 8 * len(letter.symbol):
             text = letter.symbol + ("′" if letter.mirrored else "")
             self._parts.append(
                 f'<text class="l{" d" if dim else ""}" x="{num(x + w / 2)}" y="{num(y + h / 2 + 4)}">'
@@ -134,6 +168,11 @@ class Sheet:
         )
         data = b64encode(drawn.encode()).decode("ascii")
         return f'<img alt="{escape(alt)}" src="data:image/svg+xml;base64,{data}">'
+
+
+def shortened(text: str, most: int) -> str:
+    """A text of at most so many signs."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
 def spelled(letters: Sequence[LetterNote]) -> str:

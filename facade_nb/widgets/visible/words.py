@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from traitlets import Float
 
-from ...solver.events import AxisPosed, LetterNote, WordJudged
-from .sheet import ACCENT, BAD, GOOD, MUTED, SECOND, Sheet, spelled
+from ...solver.events import AxisPosed, CandidateJudged, LetterNote, WordJudged
+from .sheet import ACCENT, BAD, GOOD, MUTED, SECOND, Sheet, shortened, spelled
 from .timeline import timeline
 from .view import TraceView
 
@@ -16,9 +16,14 @@ if TYPE_CHECKING:
 
 __all__ = ["WordsView"]
 
-_ROWS, _LETTERS = 14, 120
-"""So many words of a pattern are drawn in the static form, and about so many letters."""
+_ROWS, _LETTERS, _ALL = 14, 120, 900
+"""So many words of a pattern are drawn in the static form, about so many letters, and so many of all patterns."""
 _ROW, _LEFT, _SCALE, _RIGHT = 22.0, 210.0, 420.0, 150.0
+
+_LEGEND = (
+    "Metres. Orange line: the canvas; shaded: canvas ± μ; dashed: transparent, or of free size, then it takes what "
+    "is left. Bold: taken."
+)
 
 
 class WordsView(TraceView):
@@ -48,18 +53,36 @@ class WordsView(TraceView):
         trace = self.model.trace
         sheet = Sheet(_LEFT + _SCALE + _RIGHT)
         hues: dict[str, int] = timeline(trace)["symbols"]
+        taken = {
+            (e.axis, name): word
+            for e in trace.of_kind(CandidateJudged)
+            if e.fate == "best"
+            for name, word in e.words.items()
+        }
+        room = min(_LETTERS, _ALL // max(1, len(taken)))
         for posed in trace.of_kind(AxisPosed):
             told = trace.of_kind(WordJudged, posed.axis)
             last = told[-1].tolerance if told else 0.0
             for name in dict.fromkeys(name for group in posed.groups for name in group.patterns):
                 own = [e for e in told if e.pattern == name and e.tolerance == last]
                 if own:
-                    _draw(sheet, posed, name, own, hues)
+                    _draw(sheet, posed, name, own, hues, taken.get((posed.axis, name), ""), room)
+        sheet.height += 8
+        sheet.text(12, sheet.height, _LEGEND, fill=MUTED, size=11)
+        sheet.height += 10
         return sheet.image(f"Words of {self.model.name}")
 
 
-def _draw(sheet: Sheet, posed: AxisPosed, name: str, own: list[WordJudged], hues: dict[str, int]) -> None:
-    chosen = _chosen(own)
+def _draw(
+    sheet: Sheet,
+    posed: AxisPosed,
+    name: str,
+    own: list[WordJudged],
+    hues: dict[str, int],
+    taken: str,
+    room: int,
+) -> None:
+    chosen = _chosen(own, taken, room)
     scale = _SCALE / max(own[0].high, *(e.size for e in chosen)) / 1.02
     sheet.height += 22
     bounds = f"{'' if own[0].low is None else f'{max(own[0].low, 0):.4g} ≤ '}|w| ≤ {own[0].high:.4g} m"
@@ -67,31 +90,33 @@ def _draw(sheet: Sheet, posed: AxisPosed, name: str, own: list[WordJudged], hues
     sheet.text(_LEFT + _SCALE, sheet.height, bounds, fill=MUTED, anchor="end")
     sheet.height += 8
     for e in chosen:
-        _draw_word(sheet, posed.canvas, scale, e, hues)
+        _draw_word(sheet, posed.canvas, scale, e, hues, taken=e.word == taken)
     if len(own) > len(chosen):
         sheet.height += 16
         sheet.text(12, sheet.height - 4, f"… {len(own) - len(chosen)} more", fill=MUTED)
     sheet.height += 10
 
 
-def _chosen(own: list[WordJudged]) -> list[WordJudged]:
-    """The words that are drawn: where they are too many, those nearest to the canvas, in their order."""
-    near = sorted(own, key=lambda e: (not e.kept, abs(e.size - (e.high - e.tolerance))))
-    room = _LETTERS
-    taken: set[int] = set()
+def _chosen(own: list[WordJudged], taken: str, room: int) -> list[WordJudged]:
+    """The words that are drawn: where they are too many, that which was taken, and those near it or the canvas."""
+    middle = next((e.size for e in own if e.word == taken), own[0].high - own[0].tolerance)
+    near = sorted(own, key=lambda e: (e.word != taken, not e.kept, abs(e.size - middle)))
+    found: set[int] = set()
     for e in near[:_ROWS]:
-        if taken and room < len(e.letters):
+        if found and room < len(e.letters):
             break
         room -= len(e.letters)
-        taken.add(id(e))
-    return [e for e in own if id(e) in taken]
+        found.add(id(e))
+    return [e for e in own if id(e) in found]
 
 
-def _draw_word(sheet: Sheet, canvas: float, scale: float, e: WordJudged, hues: dict[str, int]) -> None:
+def _draw_word(
+    sheet: Sheet, canvas: float, scale: float, e: WordJudged, hues: dict[str, int], *, taken: bool
+) -> None:
     y = sheet.height
     values = ", ".join(f"{name} = {value}" for name, value in e.counters.items())
     sheet.text(12, y + 15, values, fill=MUTED, mono=True, size=11)
-    sheet.text(96, y + 15, _short(spelled(e.letters), 16), mono=True, size=11)
+    sheet.text(96, y + 15, shortened(spelled(e.letters), 16), mono=True, size=11, bold=taken)
     low = max(e.low, 0.0) if e.low is not None else 0.0
     sheet.box(_LEFT + low * scale, y, (e.high - low) * scale, _ROW, fill=SECOND, opacity=0.1)
     at = 0.0
@@ -102,9 +127,13 @@ def _draw_word(sheet: Sheet, canvas: float, scale: float, e: WordJudged, hues: d
         )  # fmt: skip
         at += size
     sheet.line(_LEFT + canvas * scale, y, _LEFT + canvas * scale, y + _ROW, stroke=ACCENT, dash="3 2")
-    sheet.text(_LEFT + _SCALE + 8, y + 15, f"{e.size:.4g}", anchor="start")
+    sheet.text(_LEFT + _SCALE + 8, y + 15, f"{e.size:.4g}{' +' if any(map(_is_free, e.letters)) else ''}")
     sheet.text(
-        _LEFT + _SCALE + 58, y + 15, f"{'✓' if e.kept else '✕'} {e.reason}", fill=GOOD if e.kept else BAD
+        _LEFT + _SCALE + 58,
+        y + 15,
+        f"{'✓' if e.kept else '✕'} {e.reason}{', taken' if taken else ''}",
+        fill=GOOD if e.kept else BAD,
+        bold=taken,
     )
     sheet.height += _ROW
 
@@ -118,7 +147,3 @@ def _sizes(e: WordJudged, canvas: float) -> list[float]:
 
 def _is_free(letter: LetterNote) -> bool:
     return letter.size is None
-
-
-def _short(text: str, most: int) -> str:
-    return text if len(text) <= most else f"{text[: most - 1]}…"
