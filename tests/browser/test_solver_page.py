@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 import shutil
 from pathlib import Path
 
@@ -267,6 +268,13 @@ def test_the_notebook_shows_its_saved_state_and_can_be_played_without_a_kernel(
         # What was not needed before is not in the saved state, and that is said.
         house.get_by_role("button", name="Code", exact=True).click()
         expect(house.locator(".fnb-code-title")).to_contain_text("run the notebook to see it")
+        # A prediction needs no kernel: the pieces of its view are in the saved state.
+        asking = page.locator(".fnb-part-alignment")
+        asking.scroll_into_view_if_needed()
+        expect(asking.locator(".fnb-quiz-prompt")).to_contain_text("Where does column")
+        asking.get_by_role("radio").first.check()
+        asking.get_by_role("button", name="Check", exact=True).click()
+        expect(asking.locator(".fnb-quiz-outcome")).to_have_text(re.compile(r"^(Right|No)\. .+"))
         figure = page.locator(".fnb-part-words")
         figure.scroll_into_view_if_needed()
         expect(figure.locator(".fnb-tuple-box h4")).to_have_text("Candidates for alignment (6)")

@@ -73,6 +73,23 @@ def test_a_row_lights_its_letters_on_the_facade(watch: Watch) -> None:
     expect(page.locator(".fnb-traced-lit").first).to_be_attached()
 
 
+def test_the_table_stays_in_its_view(watch: Watch) -> None:
+    """Beside the façade on a page there is half the room: every multiplier is in sight, one below the other."""
+    lab = watch("SizingView(traced('apartment-house'), player=False)")
+    page = lab.page
+    lab.button("Show the horizontal axis").click()
+    for width in (1400, 900, 640):
+        page.set_viewport_size({"width": width, "height": 1000})
+        page.wait_for_timeout(400)
+        right = page.locator(".fnb-view").evaluate("e => e.getBoundingClientRect().right")
+        cells = page.locator(".fnb-rows .fnb-size-row").evaluate_all(
+            "rows => rows.map(row => row.lastElementChild.getBoundingClientRect().right)"
+        )
+        assert len(cells) > 10
+        assert max(cells) <= right
+        assert max(cells) - min(cells) < 1
+
+
 @pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
 def test_looks(watch: Watch, out: Path, theme: str) -> None:
     """Screenshots for people; no text of the pictures is cut off by the view."""

@@ -149,6 +149,7 @@ function question(quiz: Quiz, model: WidgetModel, refresh: () => void, signal: A
   const show = () => {
     mark(toggle, "aria-pressed", String(quiz.on));
     bar.hidden = !quiz.on;
+    mark(bar, "data-hides", quiz.hides);
     if (!quiz.on) return;
     const now = [quiz.asked, quiz.prompt, ...quiz.truths.keys()].join("|");
     const other = about !== "" && now !== about;

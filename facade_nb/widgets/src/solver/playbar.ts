@@ -13,7 +13,7 @@ export function shares(stages: readonly Stage[]): number[] {
     const sum = weights.reduce((total, weight) => total + weight, 0);
     return weights.map((weight) => weight / sum);
   };
-  const named = share(stages.map(({ title }, n) => title.length + (opens(stages, n) ? 3.6 : 1.3)));
+  const named = share(stages.map(({ title }, n) => title.length + (opens(stages, n) ? 3.8 : 1.8)));
   const events = share(stages.map(({ first, last }) => Math.sqrt(last - first + 1)));
   return named.map((own, n) => 0.93 * own + 0.07 * (events[n] ?? 0));
 }

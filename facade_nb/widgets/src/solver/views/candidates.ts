@@ -120,6 +120,7 @@ class CandidatesView implements View {
   private scale = 1;
   private axis: Axis | null = null;
   private headed = "";
+  private explained = "";
   private by = "";
 
   constructor(private readonly context: ViewContext) {
@@ -186,9 +187,12 @@ class CandidatesView implements View {
     setText(this.note, seen.length ? "No candidate passes the filter." : empty);
     this.note.hidden = shown.length > 0;
     const whole = `${own.length} candidate${own.length === 1 ? "" : "s"}`;
-    const bar = this.quiz.hides || !own.length ? [] : barLegend(own);
+    const kinds = this.quiz.hides ? "" : axis;
+    if (kinds !== this.explained) {
+      this.explained = kinds;
+      this.legend.replaceChildren(...(kinds && own.length ? barLegend(own) : []));
+    }
     setText(this.count, shown.length < own.length ? `${shown.length} of ${whole}` : whole);
-    this.legend.replaceChildren(...bar);
   }
 
   private columnsOf(own: readonly Candidate[]): Column[] {

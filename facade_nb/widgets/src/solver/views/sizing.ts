@@ -23,7 +23,7 @@ import {
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
 
-const BESIDE = 340; // pixels beside the matrix, for its equations
+const BESIDE = 370; // pixels beside the matrix, for its equations
 const HEIGHT = 20;
 const MOST = 18;
 
@@ -212,7 +212,7 @@ class SizingView implements View {
     }
     this.written.replaceChildren();
     const count = system.count;
-    const cell = Math.max(2, Math.min(17, Math.floor((this.width - BESIDE) / count)));
+    const cell = Math.max(1, Math.min(17, Math.floor((2 * (this.width - BESIDE)) / count) / 2));
     this.table.style.setProperty("--fnb-cell", `${cell}px`);
     this.table.style.setProperty("--fnb-matrix", `${cell * count}px`);
     this.header(system, cell);
