@@ -93,7 +93,7 @@ def _measure(lab: Notebook, page: Page, name: str, code: str) -> None:
     lab.run(CODE.replace("NAME", code))
     expect(page.locator(".fnb-plane-canvas")).to_be_visible(timeout=60_000)
     page.wait_for_timeout(800)
-    nodes = page.locator(".fnb-net-status").inner_text().split(" nodes")[0].split(": ")[-1]
+    nodes = page.locator(".fnb-net-status").inner_text().split(" nodes")[0].split("; ")[-1]
     still, _ = page.evaluate(MOVE.replace(".fnb-plane-canvas", "body"), FRAMES)
     times, _ = page.evaluate(MOVE, FRAMES)
     steps = [page.evaluate(DRAWN) for _ in range(20)]

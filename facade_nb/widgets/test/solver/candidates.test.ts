@@ -61,6 +61,17 @@ describe("the candidates", () => {
     expect(column(one, "k")[0]).toBe("3");
   });
 
+  it("say what bars and fates mean, and μ, where it is the same for all", async () => {
+    const one = await open("apartment-house");
+    const legend = one.view.el.querySelector(".fnb-legend")?.textContent ?? "";
+    expect(legend).toContain("μ = 10.5 m for all");
+    expect(legend).toContain("boundwas given up: it cannot cost less than the best");
+    expect(legend).not.toContain("other axis");
+    one.view.quiz?.ask(true);
+    one.go(one.player.position);
+    expect(one.view.el.querySelector(".fnb-legend")?.textContent).toBe("");
+  });
+
   it("are filtered by text and by numbers", async () => {
     const one = await open("apartment-house");
     expect(one.view.el.querySelector("[role=status]")?.textContent).toBe("504 candidates");

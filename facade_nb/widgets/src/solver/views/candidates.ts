@@ -367,16 +367,34 @@ class CandidatesView implements View {
   }
 }
 
-/** What the bars mean, as far as there are such. */
+/** What became of a candidate, where the word alone does not say it. */
+const SHORT: Record<string, string> = {
+  tied: "costs as little as the best",
+  dearer: "was aligned, costs more",
+  bound: "was given up: it cannot cost less than the best",
+  "no alignment": "nothing keeps μ and the constraints",
+  "other axis": "has no counterpart on the other axis",
+};
+
+/** What the bars and the fates mean, as far as there are such; the tolerance, where it has no column. */
 function barLegend(own: readonly Candidate[]): Node[] {
   const kinds: [boolean, string, string][] = [
     [true, "fnb-bar-least", "J ≥ what its sizes alone cost"],
     [own.some((each) => each.cost === null && each.floor !== null), "fnb-bar-floor", "J ≥ what the search has proven"],
     [own.some((each) => each.cost !== null), "fnb-bar-cost", "J"],
   ];
-  return kinds
+  const bars = kinds
     .filter(([is]) => is)
     .map(([, name, text]) => h("span", {}, h("i", { class: `fnb-bar-key ${name}` }), text));
+  const fates = new Set(own.map((each) => each.fate));
+  const shorts = Object.entries(SHORT).filter(([fate]) => fates.has(fate));
+  const tolerances = new Set(own.map((each) => each.tolerance));
+  const [tolerance] = tolerances;
+  return [
+    ...(tolerances.size === 1 ? [h("span", {}, `μ = ${formatNumber(tolerance)} m for all`)] : []),
+    ...bars,
+    ...shorts.map(([fate, text]) => h("span", {}, h("b", {}, fate), text)),
+  ];
 }
 
 function byCounters(a: Candidate, b: Candidate): number {
