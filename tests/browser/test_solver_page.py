@@ -177,6 +177,21 @@ def test_the_page_brings_the_view_of_the_stage(watch: Watch) -> None:
     lab.expect_python("[view.follow, view.views]", [False, ["facade", "player", "analysis"]])
 
 
+def test_every_stage_has_its_name_on_the_track(watch: Watch) -> None:
+    lab = watch("PlayerView(traced('apartment-house'))")
+    page = lab.page
+    for width in (1400, 1000, 850):
+        page.set_viewport_size({"width": width, "height": 1000})
+        for stage in ("x: Candidates", "Merging"):  # the one that is played is bold
+            lab.button(stage).click()
+            cut = page.locator(".fnb-play-stage").evaluate_all(
+                "tabs => tabs.filter(tab => tab.scrollWidth > tab.clientWidth).map(tab => tab.innerText)"
+            )
+            assert cut == [], (width, stage)
+    first = page.locator(".fnb-play-stage i:visible")
+    assert [text.strip() for text in first.all_inner_texts()] == ["x", "y"]
+
+
 def test_letters_light_up_on_the_facade_of_the_page(watch: Watch) -> None:
     lab = watch("SolverView(traced('apartment-house'), views=['facade', 'words'], follow=False)")
     page = lab.page

@@ -146,6 +146,20 @@ describe("the words", () => {
     expect(lit).toEqual(["(AB)3A"]);
   });
 
+  it("say what the looks of letters mean, as far as they occur", async () => {
+    one = await show(words, "figure-7");
+    const legend = () => text(".fnb-legend > span", one.view.el).map((own) => own.replace(/^(A|a|B)/, ""));
+    expect(legend()).toEqual([
+      "a letter, in its symbol's colour",
+      "not opaque",
+      "transparent: it may be cut",
+      "its size is free",
+    ]);
+    one.end();
+    one = await show(words, "residential-house");
+    expect(legend()).not.toContain("mirrored");
+  });
+
   it("can be predicted", async () => {
     one = await show(words, "figure-7", { tolerance: 1, step: 1 });
     const quiz = one.view.quiz;
