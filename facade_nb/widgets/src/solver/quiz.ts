@@ -147,7 +147,8 @@ export class Quiz {
     const { right, wrong, missed } = this.answer();
     if (this.single) {
       const [chosen] = [...right, ...wrong];
-      if (chosen === undefined) return "Nothing was chosen.";
+      if (chosen === undefined)
+        return [...this.truths.values()].some((own) => own.right) ? "Nothing was chosen." : "Right: there is none.";
       return `${right.length ? "Right." : "No."} ${this.truths.get(chosen)?.why ?? ""}`.trim();
     }
     if (!wrong.length && !missed.length) return right.length ? "All right." : "Right: there are none.";

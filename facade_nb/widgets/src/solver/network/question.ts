@@ -45,7 +45,8 @@ export function choicesOf(story: Story, subject: Subject, base: () => Base, posi
           : `J ≥ ${formatNumber(bound)} m this way; another edge promises ${formatNumber(least)} m.`;
         return { arc: { ...stepArc(story, subject, step, "weighed"), kind: "choice", text: "" }, right, why };
       });
-    if (choices.some(({ right }) => right) && choices.length > 1) return choices;
+    const different = distinct(choices);
+    if (different.some(({ right }) => right) && different.length > 1) return different;
   }
   const network = base();
   const columns = subject.path?.columns ?? [];
@@ -56,7 +57,7 @@ export function choicesOf(story: Story, subject: Subject, base: () => Base, posi
     const own = arcs.find((arc) => arc.key === key && arc.to.join() === column.after.join());
     if (own && arcs.length > 1) {
       const others = arcs.filter((arc) => arc !== own).slice(0, CHOICES - 1);
-      return [own, ...others]
+      const ways = [own, ...others]
         .sort((x, y) => x.to.join().localeCompare(y.to.join(), "en", { numeric: true }))
         .map((arc) => ({
           arc,
@@ -66,10 +67,19 @@ export function choicesOf(story: Story, subject: Subject, base: () => Base, posi
               ? `The path goes here: ω = ${formatNumber(arc.omega)} m, Ω = ${formatNumber(subject.path?.error)} m in all.`
               : arc.text || `ω = ${formatNumber(arc.omega)} m here; but no alignment that goes on so is better in all.`,
         }));
+      const different = distinct(ways);
+      if (different.length > 1) return different;
     }
     from = column.after;
   }
   return [];
+}
+
+/** An edge may wait behind several paths; it is one choice, and right if it is right for one of them. */
+function distinct(choices: readonly Choice[]): Choice[] {
+  const found = new Map<string, Choice>();
+  for (const own of choices) if (own.right || !found.has(keyOf(own))) found.set(keyOf(own), own);
+  return [...found.values()];
 }
 
 /** The choices with their radio buttons and, once it is checked, the reason of each. */

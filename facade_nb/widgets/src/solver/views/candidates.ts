@@ -150,8 +150,18 @@ class CandidatesView implements View {
       this.note,
       h("div", { class: "fnb-candidate-foot" }, h("p", { class: "fnb-candidate-count" }, this.count), this.legend),
     );
-    const prompt = "Which candidate becomes the layout?";
-    this.quiz = new Quiz(() => [{ prompt, truths: () => this.truths(), single: true }]);
+    this.quiz = new Quiz(() => {
+      const truths = this.truths();
+      return truths.size > 1
+        ? [
+            {
+              prompt: "Which candidate becomes the layout? If none does, choose none.",
+              truths: () => truths,
+              single: true,
+            },
+          ]
+        : [{ prompt: "There are no two candidates to choose from.", truths: () => new Map() }];
+    });
   }
 
   show(position: number): void {
