@@ -106,6 +106,12 @@ def test_a_chosen_candidate_is_shown_in_all_views(watch: Watch) -> None:
     expect(page.locator(".fnb-net-status")).to_contain_text("The path has 5 columns")
     expect(page.locator(".fnb-align-group header")).to_contain_text("5 columns")
     assert page.locator(".fnb-alignment .fnb-align-row").first.inner_text() != layout
+    # Its words are marked, and another candidate's are not.
+    lab.button("Words").click()
+    expect(page.locator(".fnb-words .fnb-alternative")).to_contain_text("Its words are marked.")
+    marked = page.locator(".fnb-words .fnb-word[data-chosen] .fnb-word-text")
+    assert [text.replace("\n", "") for text in marked.all_inner_texts()] == ["eBe", "AC5A"]
+    lab.button("Words").click()
     # The façade has its five windows, where the layout has fewer.
     expect(page.locator(".fnb-traced-note")).to_contain_text("Candidate 0 (s = 1, t = 5), not the layout")
     expect(page.locator(".fnb-traced-other [data-x=C]")).to_have_count(5)

@@ -129,7 +129,11 @@ export class Alternatives {
     this.tell();
   }
 
+  /** A candidate is picked with its words, also where Python has named it alone. */
   private tell(): void {
+    const { note, links } = this;
+    const words = Object.entries(note?.words ?? {}).map(([name, word]) => target.word(note?.axis ?? "x", name, word));
+    if (!words.every((key) => links.picked.has(key))) links.pick([...new Set([...links.picked, ...words])]);
     for (const watcher of [...this.watchers]) watcher();
   }
 }

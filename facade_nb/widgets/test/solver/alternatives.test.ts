@@ -39,6 +39,19 @@ describe("the words of a candidate", () => {
   );
 });
 
+describe("a candidate that Python has named", () => {
+  it("is picked with its words, as by a click", async () => {
+    const { links } = await chosen("figure-7", "x", 0);
+    expect([...links.picked]).toEqual([
+      target.candidate("x", 0),
+      target.word("x", "balconies", "e B e"),
+      target.word("x", "rooms", "A C C C C C A"),
+    ]);
+    links.toggle([...links.picked]); // a second click lets go of all
+    expect([...links.picked]).toEqual([]);
+  });
+});
+
 describe("a candidate that was aligned", () => {
   it("has its own columns", async () => {
     const { own, timeline } = await chosen("figure-7", "x", 0);

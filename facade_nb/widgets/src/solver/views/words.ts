@@ -89,6 +89,7 @@ class WordsView implements View {
   private sections = new Map<string, Section>();
   /** The sections of both axes: long tables stay as they are while the other axis is spoken of. */
   private readonly built: Partial<Record<Axis, Map<string, Section>>> = {};
+  private readonly said = h("p", { class: "fnb-alternative", role: "status", hidden: true });
   private readonly note = h("p", { class: "fnb-empty" });
   private readonly tuples = h("div", { class: "fnb-tuples" });
   private axis: Axis | null = null;
@@ -134,6 +135,10 @@ class WordsView implements View {
     const story = this.stories[axis];
     const round = story.roundAt(position);
     if (axis !== this.axis) this.build(axis, story);
+    const { alternatives } = this.context;
+    const other = alternatives.at(position, axis);
+    setText(this.said, other ? `${other.name}. ${other.fate} Its words are marked.` : alternatives.trouble);
+    this.said.hidden = !this.said.textContent;
     const started = round !== undefined && round.first <= position;
     setText(this.note, this.told(axis, story, round, started));
     this.note.hidden = started;
@@ -203,6 +208,7 @@ class WordsView implements View {
     const legend = lettersLegend(letters, { free: letters.some(({ size }) => size === null) });
     const swap = () =>
       this.el.replaceChildren(
+        this.said,
         this.note,
         ...[...this.sections.values()].map((section) => section.el),
         this.tuples,
