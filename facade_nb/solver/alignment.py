@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
 
@@ -119,16 +120,30 @@ def _searched(group: Group, first: str) -> Found:
     second = next(own for own in SEARCHES if own != first)
     best = Found(cut=True)
     for turn in zip(_TURNS[first], _TURNS[second], strict=True):
+        begin, check = time.monotonic(), None
         for search, nodes in zip((first, second), turn, strict=True):
             try:
-                found = (search_ida if search == "ida" else search_best)([group], keep=1, nodes=nodes)
-            except Stopped:  # out of memory
-                continue
+                found = (search_ida if search == "ida" else search_best)(
+                    [group], keep=1, nodes=nodes, check=check
+                )
+            except Stopped:  # out of memory, or time
+                found = Found(cut=True)
             if not found.cut:
                 return found
             for priced in found.ties:
                 best.offer(priced, 1)
+            check = _until(time.monotonic() + max(1.0, 2.0 * (time.monotonic() - begin)))
     return best
+
+
+def _until(end: float) -> Callable[[], None]:
+    """The second search has about twice the time that the first one took."""
+
+    def check() -> None:
+        if time.monotonic() > end:
+            raise Stopped
+
+    return check
 
 
 def alignment_of(group: Group, priced: Priced, index: int) -> Alignment:
