@@ -281,7 +281,7 @@ class TestNoLayout:
     def test_out_of_time(self, house: Path, capsys: pytest.CaptureFixture[str]) -> None:
         from facade_nb.solver import solving
 
-        solving._cache.clear()
+        solving.forget()
         assert main(["solve", str(house), "--time-limit", "0"]) == 3
         assert "Out of time after" in told(capsys)
 
