@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush, heapreplace
@@ -31,8 +32,12 @@ __all__ = ["AxisSearch", "Best", "Solved", "forget_groups"]
 _NODES = 1_000_000
 """A search of more paths gives up; under the paper's objective, and where structures are refused, of fewer."""
 
-_LIKELY = {True: 24, False: 3}
-"""Of so many candidates any layout is looked for when the time is up: by sweeps, and by dives."""
+_LIKELY = {"sweep": 24, "mend": 3, "dive": 3}
+"""In these ways a layout is looked for when the time is up, of so many candidates."""
+
+_LONG = 0.5
+"""When searches have taken so many seconds, candidates are swept, in this part of the time that they take:"""
+_LOOK = 0.3
 
 _kept: Kept[tuple[list[Priced], float]] = Kept(512)
 """What has been found for groups, so that those that an edit leaves alone are not searched again."""
@@ -139,6 +144,8 @@ class AxisSearch:
     by_words: dict[object, GroupSearch] = field(default_factory=dict)
     inputs: list[tuple[str, ...]] | None = None
     stream: CandidateStream | None = None
+    _others: Iterator[_Case] | None = None
+    _looked: float = 0.0
 
     def enumerate(self, across: Mapping[str, Range] | None = None) -> None:
         """List the words that fit; `across` is what the other axis says of counters."""
@@ -209,7 +216,7 @@ class AxisSearch:
         self.runs.clear()
         self.rows.clear()
         self.by_words.clear()
-        self.stream = None
+        self.stream = self._others = None
 
     def in_order(self) -> Iterator[Candidate]:
         """Candidates in lexicographic order, as the paper takes them."""
@@ -266,7 +273,7 @@ class AxisSearch:
                     paused = any(run.paused for run in case.runs)
                     beyond = top + 2 * EPS if limit >= top and not paused else own
                     heappush(queue, (max(beyond, case.floor), n))
-                    improved = self._dive(case, best.cost)
+                    improved = self._dive(case, best.cost) or self._around(best.cost)
                     if improved is not None:
                         best.solved, dived = improved, True
         except Stopped as stop:
@@ -288,11 +295,16 @@ class AxisSearch:
                 for run in case.runs:
                     run.give_up()
         try:
-            for sweep in (True, False):
-                for case in islice(self._likely(), _LIKELY[sweep]):
+            for way, most in _LIKELY.items():
+                for case in islice(self._likely(), most):
                     if not case.runs:
                         self.open(case)
-                    solved = self._dive(case, inf if best is None else best.cost, at_once=True, sweep=sweep)
+                    if way == "mend":
+                        for run in case.runs:
+                            run.mend()
+                    solved = self._dive(
+                        case, inf if best is None else best.cost, at_once=True, sweep=way != "dive"
+                    )
                     if solved is not None:
                         best = solved
                 if best is not None:
@@ -300,6 +312,21 @@ class AxisSearch:
         except Stopped:
             pass  # what was found until now is all there is
         return best
+
+    def _around(self, cost: float) -> Solved | None:
+        """A layout of another candidate that costs less, while the search of some takes long."""
+        spent = sum(run.spent for run in self.runs.values())
+        if spent < _LONG or self._looked > _LOOK * spent:
+            return None
+        begin = time.perf_counter()
+        if self._others is None:
+            self._others = islice(self._likely(), _LIKELY["sweep"])
+        other = next(self._others, None)
+        if other is not None and not other.runs:
+            self.open(other)
+        solved = None if other is None else self._dive(other, cost, at_once=True, sweep=True)
+        self._looked += time.perf_counter() - begin
+        return solved
 
     def _likely(self) -> Iterator[_Case]:
         """The candidates that have been begun, by what they cost at least, and then others."""

@@ -13,18 +13,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from math import inf
-from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .columns import EPS, Band, Group, Option
+from .columns import EPS, Group, Option
+from .runs import Bools, Cuts, Floats, Row, Sum
 
-__all__ = ["Cuts", "Floats", "Table"]
-
-Floats = NDArray[np.float64]
-Cuts = NDArray[np.intp]
-_Bools = NDArray[np.bool_]
+__all__ = ["Table", "with_gaps", "without_gaps"]
 
 _PLACES = 160
 """Places closer than this part of the canvas count as one."""
@@ -36,128 +31,6 @@ _NEVER = 1e6
 """Instead of infinity, where sums are taken apart again."""
 
 
-class _Sum(NamedTuple):
-    """What a column comes to, of some of its elements; every field has the shape of the columns."""
-
-    high: Floats
-    rest: Floats
-    """Least size of an element without letters that are not opaque; infinite where there is none."""
-    least: Floats
-    """Least size of any element."""
-    empties: Floats
-    loose: Floats
-    softs: Floats
-    soft_sizes: Floats
-    some: _Bools
-    """Some row comes further; else it is no column."""
-    elastic: _Bools
-    bad: _Bools
-
-    def plus(self, other: _Sum) -> _Sum:
-        """With the elements of both."""
-        return _Sum(
-            np.maximum(self.high, other.high),
-            np.minimum(self.rest, other.rest),
-            np.minimum(self.least, other.least),
-            self.empties + other.empties,
-            self.loose + other.loose,
-            self.softs + other.softs,
-            self.soft_sizes + other.soft_sizes,
-            self.some | other.some,
-            self.elastic | other.elastic,
-            self.bad | other.bad,
-        )
-
-    def within(self, wider: _Sum) -> _Sum:
-        """The same as a part of wider tables."""
-        for mine, field in zip(self, wider, strict=True):
-            field[: mine.shape[0], : mine.shape[1]] = mine
-        n, m = self.high.shape
-        return wider.at((slice(n), slice(m)))
-
-    def at(self, index: Any) -> _Sum:
-        """Of some of the columns, or in another shape."""
-        return _Sum(*[np.asarray(field[index]) for field in self])
-
-
-class _Row:
-    """A band's spots, and what stands between each two of them, shape (spots, spots)."""
-
-    def __init__(self, band: Band) -> None:
-        letters = band.letters
-        self.wild = any(letter.transparent for letter in letters)
-        spots = [
-            (i, mid) for i, letter in enumerate(letters) for mid in ((0, 1) if letter.transparent else (0,))
-        ]
-        spots.append((len(letters), 0))
-        self.letter = np.array([i for i, _ in spots])
-        self.mid = np.array([bool(mid) for _, mid in spots])
-        self.before = np.flatnonzero(~self.mid)
-        """The spot before each letter, and the last one."""
-        self.last = len(spots) - 1
-        sizes = [0.0 if letter.transparent else letter.size or 0.0 for letter in letters]
-        ends = np.concatenate([[0.0], np.cumsum(sizes)])
-        joints = np.concatenate([[0.0], np.cumsum([min(a, b) for a, b in pairwise(sizes)]), [0.0]])
-        softs = _counted([not letter.opaque and not letter.transparent for letter in letters])
-        transparent = _counted([letter.transparent for letter in letters])
-        first = self.letter[:, None]
-        end = (self.letter + self.mid)[None, :]  # one beyond the last letter that is touched
-        forward = np.arange(self.last + 1)[None, :] >= np.arange(self.last + 1)[:, None]
-        touched = np.where(forward, end - first, 0)
-        end = np.maximum(end, first)
-        pieces = transparent[end] - transparent[first]
-        some = touched > 0
-        elastic = some & (pieces > 0)
-        rigid = some & ~elastic
-        size = np.where(rigid, ends[end] - ends[first], 0.0)
-        soft = rigid & (softs[end] > softs[first])
-        loose = np.where(rigid, joints[np.maximum(end - 1, 0)] - joints[first], 0.0)
-        self.elements = _Sum(
-            size,
-            np.where(rigid & ~soft, size, inf),
-            np.where(rigid, size, inf),
-            (~some).astype(float),
-            loose,
-            soft.astype(float),
-            np.where(soft, size, 0.0),
-            some & ~np.eye(self.last + 1, dtype=bool),
-            elastic,
-            ~forward | (elastic & (pieces < touched)),
-        )
-
-    def nearest(self, ends: Floats, places: Floats, near: float) -> Cuts:
-        """For each place the spot that is nearest, letters ending at `ends`; or the one within a placeholder."""
-        k = np.clip(np.searchsorted(ends, places, "right") - 1, 0, len(ends) - 2)
-        left, right = places - ends[k], ends[k + 1] - places
-        spots: Cuts = self.before[np.where(left <= right, k, k + 1)]
-        if self.wild:
-            inside = self.mid[np.minimum(self.before[k] + 1, self.last)] & (left > near) & (right > near)
-            spots = np.maximum.accumulate(np.where(inside, self.before[k] + 1, spots))
-        return spots
-
-    def fill(self, band: Band, sizes: Mapping[int, float], canvas: float) -> None:
-        """Have whole placeholders be as long as they are to be; those that are free fill the canvas."""
-        free = [i for i, letter in enumerate(band.letters) if letter.transparent and i not in sizes]
-        taken = sum(sizes.get(i, letter.size or 0.0) for i, letter in enumerate(band.letters))
-        for i, letter in enumerate(band.letters):
-            if letter.transparent:
-                size = sizes.get(i, max(0.0, canvas - taken) / max(1, len(free)))
-                self.elements.high[self.before[i], self.before[i + 1]] = size
-
-    def sized(self, band: Band, sizes: Mapping[str, float]) -> list[tuple[int, float]]:
-        """Transparent letters that are to have a size, by number."""
-        found: list[tuple[int, float]] = []
-        for i, letter in enumerate(band.letters):
-            size = sizes.get(letter.symbol) if letter.size is None else letter.size
-            if letter.transparent and not band.is_free(letter) and size is not None:
-                found.append((i, size))
-        return found
-
-
-def _counted(flags: Sequence[bool]) -> Cuts:
-    return np.concatenate([[0], np.cumsum(flags)]).astype(np.intp)
-
-
 class Table:
     """What runs of letters of every row cost together; `cuts[b, j]` is the spot of row b at boundary j."""
 
@@ -165,11 +38,11 @@ class Table:
         self.group, self._check = group, check
         objective, share = group.objective, group.share
         self._by_empty, self._by_loose = objective.empty * share, objective.loose * share
-        self._rows = [_Row(band) for band in group.bands]
+        self._rows = [Row(band) for band in group.bands]
         most = max((row.last + 1 for row in self._rows), default=1)
         shape = (len(self._rows), most, most)
         numbers, flags = np.zeros((7, *shape)), np.zeros((3, *shape), dtype=bool)
-        self._elements = _Sum(*numbers, *flags)
+        self._elements = Sum(*numbers, *flags)
         for b, row in enumerate(self._rows):
             row.elements = row.elements.within(self._elements.at(b))
         self._sized: list[list[tuple[int, float]]] = [[] for _ in self._rows]
@@ -296,11 +169,11 @@ class Table:
         """The rows that are."""
         return [b for b, row in enumerate(self._rows) if cuts[b, -1] == row.last]
 
-    def _sum(self, begin: Cuts, end: Cuts, rows: Sequence[int]) -> _Sum:
+    def _sum(self, begin: Cuts, end: Cuts, rows: Sequence[int]) -> Sum:
         """What stands in columns between spots, of some rows."""
         which = np.array(rows, dtype=np.intp)[:, None]
         own = self._elements.at((which, begin[rows], end[rows]))
-        return _Sum(
+        return Sum(
             own.high.max(axis=0, initial=0.0),
             own.rest.min(axis=0, initial=inf),
             own.least.min(axis=0, initial=inf),
@@ -308,7 +181,7 @@ class Table:
             *[field.any(axis=0) for field in own[7:]],
         )
 
-    def _price(self, own: _Sum) -> Floats:
+    def _price(self, own: Sum) -> Floats:
         """ω + empty·E + loose·Λ of columns; infinite where C1 or the tolerance forbids them."""
         backed = own.rest < inf
         high = own.high
@@ -406,7 +279,8 @@ class Table:
         # solid runs, in as many columns joined as there is time for
         most = max(1, min(m, _SPANS // (m * (n + 1) ** 2 + 1)))
         i, j = np.triu_indices(m + 1, 1)
-        near = j - i <= most
+        near = np.flatnonzero(j - i <= most)
+        near = near[np.lexsort((i[near], j[near]))]  # by where they end
         i, j = i[near], j[near]
         joined = self._sum(cuts[:, i], cuts[:, j], rows)
         own = row.elements.at(np.ix_(row.before, row.before))
@@ -414,34 +288,10 @@ class Table:
         costs = self._price(both) + fit * (both.high - (at[j] - at[i])[:, None, None])
         costs = np.where(own.elastic | (own.empties > 0), inf, costs)
         if elsewhere is not None:
-            first, end = (int(row.letter[cuts[b, k]]) for k in (elsewhere, elsewhere + 1))
-            costs[(i <= elsewhere) & (j > elsewhere), first, end] = inf
-        of = {pair: k for k, pair in enumerate(zip(i.tolist(), j.tolist(), strict=True))}
-        sizes = dict(self._sized[b])
-        reached = np.full((m + 1, n + 1), inf)
-        reached[0, 0] = 0.0
-        came = np.zeros((m + 1, n + 1, 2), dtype=np.intp)
-        placeholders = [p for p, letter in enumerate(band.letters) if letter.transparent]
-        letters = np.arange(n + 1)
-        for k in range(1, m + 1):
-            now, origin = reached[k - 1] + empty[k - 1], np.stack([np.full(n + 1, k - 1), letters], axis=1)
-            for begin in range(max(0, k - most), k):
-                through = reached[begin][:, None] + costs[of[begin, k]]
-                which = np.argmin(through, axis=0)
-                value = through[which, letters]
-                better = value < now - EPS
-                now = np.where(better, value, now)
-                origin[better, 0], origin[better, 1] = begin, which[better]
-            for p in placeholders:
-                through = reached[:k, p] + (spanned[k] - spanned[:k]) + bare[:k] + bare[k - 1]
-                if p in sizes:
-                    through = through + np.abs(at[k] - at[:k] - sizes[p])
-                begin = int(np.argmin(through))
-                if through[begin] < now[p + 1] - EPS:
-                    now[p + 1] = through[begin]
-                    origin[p + 1] = begin, p
-            reached[k], came[k] = now, origin
-        if reached[m, n] >= _NEVER:
+            p, q = row.letter[cuts[b, elsewhere : elsewhere + 2]]
+            costs[(i <= elsewhere) & (j > elsewhere), p, q] = inf
+        came = self._shortest(b, at, empty, spanned, bare, i, j, costs)
+        if came is None:
             return cuts
         kept, spots = [m], [row.last]
         k, q = m, n
@@ -457,6 +307,61 @@ class Table:
         out = cuts[:, kept[::-1]]
         out[b] = spots[::-1]
         return out
+
+    def _shortest(
+        self,
+        b: int,
+        at: Floats,
+        empty: Floats,
+        spanned: Floats,
+        bare: Floats,
+        i: Cuts,
+        j: Cuts,
+        costs: Floats,
+    ) -> Cuts | None:
+        """The shortest path of a row through columns and letters: per boundary and letter whence it comes, or None.
+
+        Parameters
+        ----------
+        at, empty, spanned
+            Where boundaries are; what a column costs with nothing of the row in it; up to each boundary, with pieces.
+        bare
+            What it costs if a letter begins or ends in a column.
+        i, j, costs
+            Boundaries between which columns are joined, by where they end, and the cost of runs of letters in these.
+        """
+        letters, m = self.group.bands[b].letters, len(at) - 1
+        n = len(letters)
+        sizes = dict(self._sized[b])
+        held = np.array([p for p, letter in enumerate(letters) if letter.transparent])
+        wanted = np.array([sizes.get(p, 0.0) for p in held.tolist()])
+        strict = np.array([1.0 if p in sizes else 0.0 for p in held.tolist()])
+        first, every = np.searchsorted(j, np.arange(m + 2)), np.arange(n + 1)
+        reached = np.full((m + 1, n + 1), inf)
+        reached[0, 0] = 0.0
+        came = np.zeros((m + 1, n + 1, 2), dtype=np.intp)
+        for k in range(1, m + 1):
+            now, origin = reached[k], came[k]
+            now[:] = reached[k - 1] + empty[k - 1]
+            origin[:, 0], origin[:, 1] = k - 1, every
+            these = slice(first[k], first[k + 1])
+            through = (reached[i[these]][:, :, None] + costs[these]).reshape(-1, n + 1)
+            which = through.argmin(axis=0)
+            value = through[which, every]
+            better = np.flatnonzero(value < now - EPS)
+            now[better] = value[better]
+            begins, letter = np.divmod(which[better], n + 1)
+            origin[better, 0], origin[better, 1] = i[these][begins], letter
+            missed = np.abs((at[k] - at[:k])[:, None] - wanted) * strict
+            through = (
+                reached[:k, held] + (spanned[k] - spanned[:k] + bare[:k] + bare[k - 1])[:, None] + missed
+            )
+            begins = through.argmin(axis=0)
+            value = through[begins, np.arange(len(held))]
+            better = np.flatnonzero(value < now[held + 1] - EPS)
+            now[held[better] + 1] = value[better]
+            origin[held[better] + 1, 0], origin[held[better] + 1, 1] = begins[better], held[better]
+        return came if reached[m, n] < _NEVER else None
 
     def joined(self, cuts: Cuts) -> Cuts:
         """The same without empty columns, and with those joined that cost less as one, or where no letter ends."""
@@ -474,7 +379,7 @@ class Table:
             cuts = np.delete(cuts, best + 1, axis=1)
         return cuts
 
-    def _idle(self, cuts: Cuts, rows: Sequence[int]) -> _Bools:
+    def _idle(self, cuts: Cuts, rows: Sequence[int]) -> Bools:
         """Whether no letter ends or begins at each inner boundary."""
         event = np.zeros(cuts.shape[1] - 2, dtype=bool)
         for b in rows:

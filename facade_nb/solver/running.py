@@ -12,7 +12,7 @@ from .dive import Dives
 from .ida import search_ida
 from .pricing import Priced
 from .search import BestFirst, Found, Stopped
-from .sweeping import can_sweep, sweeps
+from .sweeping import can_sweep, mended, sweeps
 from .tracing import Walk
 
 __all__ = ["GROWTH", "STEP", "TIES", "GroupSearch"]
@@ -42,7 +42,8 @@ class GroupSearch:
     so far allows less than the next of them it goes no further than that; if it ends there with more answers than
     are kept, the search is repeated in steps. That makes an answer the same whatever was searched before.
 
-    A search that takes long is helped by sweeps, and by dives, which take as long again.
+    A search that takes long is helped by sweeps, and by dives, which take as long again. `spent` is how many seconds it
+    has taken.
     """
 
     def __init__(
@@ -57,15 +58,15 @@ class GroupSearch:
         fits: Callable[[Priced], bool] | None = None,
         strain: Callable[[Priced], float] | None = None,
     ) -> None:
-        self.groups, self.log, self._fits = groups, log, fits
+        self.groups, self.log, self._fits, self._strain = groups, log, fits, strain
         self._plain = any(group.objective.plain for group in groups)
         self._options = (method, nodes, check, accept)
         self._dives: Dives | CompiledDives | None = None
-        self._sweeps = sweeps(groups, check, strain) if accept is None and can_sweep(groups) else None
+        self._sweeps = sweeps(groups, check, fits) if accept is None and can_sweep(groups) else None
         self._swept: Priced | None = None
         self._was_swept = False
         self._slow = _SLOW if all(group.stiff for group in groups) else _SLOW_ELASTIC
-        self._spent = self._dived = 0.0
+        self.spent = self._dived = 0.0
         self._again = False
         if known is None:
             self._begin()
@@ -95,7 +96,7 @@ class GroupSearch:
             with self.log.turn():
                 self._go_on(limit, top)
             self.log.known(self.floor, len(self.ties), self.cut)
-        self._spent += time.perf_counter() - begin
+        self.spent += time.perf_counter() - begin
         self._tidy()
 
     def expect(self, priced: Priced) -> None:
@@ -110,8 +111,12 @@ class GroupSearch:
     @property
     def long(self) -> bool:
         """The search has taken long."""
-        slow = self._sweeps is not None and self._spent > self._slow
-        return not self.done and (slow or self._found.nodes >= _LONG)
+        return not self.done and ((self._sweeps is not None and self.slow) or self._found.nodes >= _LONG)
+
+    @property
+    def slow(self) -> bool:
+        """The search has taken so long that sweeps may help."""
+        return self.spent > self._slow
 
     def dive(self, *, at_once: bool = False, sweep: bool = False) -> None:
         """Look for some alignment as long as the search has taken; or, `at_once`, until there is one.
@@ -122,7 +127,8 @@ class GroupSearch:
         if self.done or accept is not None:
             return
         able = self._sweeps is not None or self._was_swept
-        self._sweep()
+        if at_once or self.slow:
+            self._sweep()
         if (sweep and able) or (self._found.nodes < _LONG and self._swept is not None):
             return
         if self._dives is None:
@@ -130,7 +136,7 @@ class GroupSearch:
             if self._swept is not None:
                 self._dives.offer(self._swept)
         begin, before = time.perf_counter(), self._dived
-        while not self._dives.done and (self._dived <= self._spent or (at_once and self._dives.best is None)):
+        while not self._dives.done and (self._dived <= self.spent or (at_once and self._dives.best is None)):
             self._dives.dive()
             self._dived = before + time.perf_counter() - begin
 
@@ -145,6 +151,12 @@ class GroupSearch:
         except Stopped:
             if self._swept is None:
                 raise  # else that is what there was time for
+
+    def mend(self) -> None:
+        """Where sweeps have come to nothing that can be sized: make something that can of what they have come to."""
+        _, _, check, _ = self._options
+        if not self.done and self._was_swept and self._swept is None and self._strain is not None:
+            self._swept = mended(self.groups, self._strain, check)
 
     def give_up(self) -> None:
         """Let go of the search, but not of what it has found."""

@@ -18,10 +18,11 @@ from math import inf
 from statistics import median
 
 from .columns import EPS, Group
-from .laying import Cuts, Table, with_gaps, without_gaps
+from .laying import Table, with_gaps, without_gaps
 from .pricing import Columns, Priced, price
+from .runs import Cuts
 
-__all__ = ["can_sweep", "sweeps"]
+__all__ = ["can_sweep", "mended", "sweeps"]
 
 _SWEEPS = 12
 _ROUNDS = 3
@@ -50,40 +51,67 @@ def can_sweep(groups: Sequence[Group]) -> bool:
 def sweeps(
     groups: Sequence[Group],
     check: Callable[[], None] | None = None,
-    strain: Callable[[Priced], float] | None = None,
+    fits: Callable[[Priced], bool] | None = None,
 ) -> Iterator[Priced]:
     """Alignments that keep all constraints, each cheaper than the one before.
 
-    Parameters
-    ----------
-    check
-        May raise `Stopped`.
-    strain
-        Says by how much an alignment cannot be sized; 0: it can. Where none can, the cheapest is mended.
+    `check` may raise `Stopped`; `fits` says whether an alignment will do.
     """
-    best = least = inf
+    best = inf
+    for priced, _, _ in _rounds(groups, check):
+        if priced.cost < best - EPS and (fits is None or fits(priced)):
+            best = priced.cost
+            yield priced
+
+
+def mended(
+    groups: Sequence[Group], strain: Callable[[Priced], float], check: Callable[[], None] | None = None
+) -> Priced | None:
+    """An alignment that can be sized, near the cheapest that sweeps find.
+
+    `strain` says by how much one cannot; 0: it can. Step by step, columns are joined, or one run of letters stands
+    elsewhere, as long as that lessens the strain.
+    """
+    found = min(_rounds(groups, check), key=lambda one: one[0].cost, default=None)
+    if found is None:
+        return None
+    priced, tables, cuts = found
+    now = strain(priced)
+    while now > 0.0:
+        for g, move in _moves(tables, cuts):
+            if check is not None:
+                check()
+            changed = [*cuts[:g], move, *cuts[g + 1 :]]
+            other = _priced(tables, changed) if tables[g].cost(move) < inf else None
+            left = inf if other is None else strain(other)
+            if other is not None and left < _LESS * now:
+                cuts, now, priced = changed, left, other
+                break
+        else:
+            return None
+    return priced
+
+
+def _rounds(
+    groups: Sequence[Group], check: Callable[[], None] | None
+) -> Iterator[tuple[Priced, list[Table], list[Cuts]]]:
+    """Sweeps, with the sizes that unsized symbols have come to; with the spots at which all letters stand."""
+    least = inf
     assumed = _assumed(groups)
-    refused: tuple[dict[str, float], list[Cuts]] | None = None
     for _ in range(_ROUNDS if assumed else 1):
-        before, cheapest = least, None
-        for priced, cuts in _swept(groups, assumed, check):
-            good = priced.cost < best - EPS and (strain is None or strain(priced) == 0.0)
-            if priced.cost < least - EPS:
-                least, cheapest = priced.cost, priced
-                refused = refused if good else (assumed, cuts)
-            if good:
-                best = priced.cost
-                yield priced
-        if cheapest is None or least >= before - EPS:
-            break
+        cheapest: Priced | None = None
+        for own in _swept(groups, assumed, check):
+            yield own
+            if own[0].cost < least - EPS:
+                least, cheapest = own[0].cost, own[0]
+        if cheapest is None:
+            return
         assumed = {symbol: cheapest.unsized.get(symbol, size) for symbol, size in assumed.items()}
-    if best == inf and refused is not None and strain is not None:
-        yield from _mended(groups, *refused, strain, check)
 
 
 def _swept(
     groups: Sequence[Group], assumed: Mapping[str, float], check: Callable[[], None] | None
-) -> Iterator[tuple[Priced, list[Cuts]]]:
+) -> Iterator[tuple[Priced, list[Table], list[Cuts]]]:
     """Alignments of groups for some sizes of the unsized symbols that they share; the first one's in several ways."""
     tables = [_table(group, assumed, check) for group in groups]
     others: list[Cuts] = []
@@ -95,7 +123,7 @@ def _swept(
     for first in _ways(tables[0]):
         priced = _priced(tables, [first, *others])
         if priced is not None:
-            yield priced, [first, *others]
+            yield priced, tables, [first, *others]
 
 
 def _table(group: Group, assumed: Mapping[str, float], check: Callable[[], None] | None) -> Table:
@@ -126,37 +154,6 @@ def _ways(table: Table) -> Iterator[Cuts]:
             cost = now
             yield cuts
             cuts = table.again(cuts)
-
-
-def _mended(
-    groups: Sequence[Group],
-    assumed: Mapping[str, float],
-    cuts: list[Cuts],
-    strain: Callable[[Priced], float],
-    check: Callable[[], None] | None,
-) -> Iterator[Priced]:
-    """An alignment that can be sized, near one that cannot.
-
-    Step by step, columns are joined, or one run of letters stands elsewhere, as long as that lessens the strain.
-    """
-    tables = [_table(group, assumed, check) for group in groups]
-    first = _priced(tables, cuts)
-    now = inf if first is None else strain(first)
-    going = True
-    while going:
-        going = False
-        for g, move in _moves(tables, cuts):
-            if check is not None:
-                check()
-            changed = [*cuts[:g], move, *cuts[g + 1 :]]
-            priced = _priced(tables, changed) if tables[g].cost(move) < inf else None
-            left = inf if priced is None else strain(priced)
-            if left < _LESS * now:
-                cuts, now, going = changed, left, True
-                if priced is not None and now == 0.0:
-                    yield priced
-                    return
-                break
 
 
 def _moves(tables: Sequence[Table], cuts: Sequence[Cuts]) -> Iterator[tuple[int, Cuts]]:

@@ -19,7 +19,7 @@ from facade_nb.solver.pricing import Priced
 from facade_nb.solver.problem import axis_problem
 from facade_nb.solver.search import Stopped, search
 from facade_nb.solver.sizing import size_axis, strain
-from facade_nb.solver.sweeping import can_sweep, sweeps
+from facade_nb.solver.sweeping import can_sweep, mended, sweeps
 from tests.bench import bench_anytime
 from tests.bench.designs import harder
 from tests.oracle import check, make_case
@@ -169,8 +169,9 @@ class TestPlaceholders:
             return left
 
         assert all(strained(priced) > 0.0 for priced in sweeps([own]))
-        (mended,) = sweeps([own], strain=strained)
-        sized = size_axis([own], ((mended, 0),), 12.5, symbols.__getitem__)
+        found = mended([own], strained)
+        assert found is not None
+        sized = size_axis([own], ((found, 0),), 12.5, symbols.__getitem__)
         assert sized is not None and min(sized.sizes.values()) > 0.0
 
     def test_a_stack_with_insertions_has_a_layout(self) -> None:
