@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush, heapreplace
-from itertools import islice, product
+from itertools import count, islice, product
 from math import inf
 
 from ..design.model import Symbol
@@ -145,6 +145,8 @@ class AxisSearch:
     inputs: list[tuple[str, ...]] | None = None
     stream: CandidateStream | None = None
     _others: Iterator[_Case] | None = None
+    _further: CandidateStream | None = None
+    _extra: list[_Case] = field(default_factory=list)
     _looked: float = 0.0
 
     def enumerate(self, across: Mapping[str, Range] | None = None) -> None:
@@ -216,7 +218,8 @@ class AxisSearch:
         self.runs.clear()
         self.rows.clear()
         self.by_words.clear()
-        self.stream = self._others = None
+        self._extra.clear()
+        self.stream = self._others = self._further = None
 
     def in_order(self) -> Iterator[Candidate]:
         """Candidates in lexicographic order, as the paper takes them."""
@@ -309,9 +312,25 @@ class AxisSearch:
                         best = solved
                 if best is not None:
                     break
+            for better in self._polished(best):
+                best = better
         except Stopped:
             pass  # what was found until now is all there is
         return best
+
+    def _polished(self, best: Solved | None) -> Iterator[Solved]:
+        """Layouts of the same candidate that cost less, each a little different from the one before."""
+        cases = [*self.cases, *self._extra]
+        case = next((own for own in cases if best is not None and own.candidate is best.candidate), None)
+        if case is None:
+            return
+        for run in case.runs:
+            for _ in run.polish():
+                found = [own.known for own in case.runs]
+                solved = self.size(case, found) if all(found) else None
+                if solved is not None and solved.beats(best):
+                    best = solved
+                    yield solved
 
     def _around(self, cost: float) -> Solved | None:
         """A layout of another candidate that costs less, while the search of some takes long."""
@@ -333,10 +352,15 @@ class AxisSearch:
         begun = sorted(self.cases, key=lambda case: case.floor)
         yield from begun
         known = {tuple(map(id, case.candidate.words.values())) for case in begun}
-        stream = self._stream()
-        while (candidate := stream.take()) is not None:
-            if tuple(map(id, candidate.words.values())) not in known:
-                yield self.case(candidate)
+        self._further = self._further or self._stream()
+        for n in count():
+            if n == len(self._extra):
+                candidate = self._further.take()
+                if candidate is None:
+                    return
+                self._extra.append(self.case(candidate))
+            if tuple(map(id, self._extra[n].candidate.words.values())) not in known:
+                yield self._extra[n]
 
     def _dive(self, case: _Case, cost: float, *, at_once: bool = False, sweep: bool = False) -> Solved | None:
         """A layout of the candidate that costs less than `cost`, by structures that may not be the best."""

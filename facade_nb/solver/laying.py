@@ -387,6 +387,14 @@ class Table:
             event |= ~self._rows[b].mid[own[1:-1]] & ((own[1:-1] > own[:-2]) | (own[2:] > own[1:-1]))
         return ~event
 
+    def spots(self, columns: Sequence[Sequence[Option]]) -> Cuts:
+        """Where rows stand at the boundaries of columns."""
+        out = np.zeros((len(self._rows), len(columns) + 1), dtype=np.intp)
+        for j, column in enumerate(columns, 1):
+            for b, option in enumerate(column):
+                out[b, j] = self._rows[b].before[option.target >> 3] + bool(option.target & 4)
+        return out
+
     def structure(self, cuts: Cuts) -> tuple[tuple[Option, ...], ...] | None:
         """The options that these elements are; None where C3 or C4 forbids one, or a boundary is no letter's end."""
         group = self.group

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from math import inf
 
 from .columns import EPS, Group
@@ -12,7 +12,7 @@ from .dive import Dives
 from .ida import search_ida
 from .pricing import Priced
 from .search import BestFirst, Found, Stopped
-from .sweeping import can_sweep, mended, sweeps
+from .sweeping import can_sweep, mended, polished, sweeps
 from .tracing import Walk
 
 __all__ = ["GROWTH", "STEP", "TIES", "GroupSearch"]
@@ -158,6 +158,15 @@ class GroupSearch:
         if not self.done and self._was_swept and self._swept is None and self._strain is not None:
             self._swept = mended(self.groups, self._strain, check)
 
+    def polish(self) -> Iterator[None]:
+        """Make the best that is known better, bit by bit."""
+        _, _, check, accept = self._options
+        if self.done or accept is not None or not self._was_swept or not self.known or self._fits is None:
+            return
+        for better in polished(self.groups, self.known[0], self._fits, check):
+            self._swept = better
+            yield
+
     def give_up(self) -> None:
         """Let go of the search, but not of what it has found."""
         if not self.done:
@@ -166,7 +175,10 @@ class GroupSearch:
     @property
     def known(self) -> list[Priced]:
         """The optimal structures, where they are known; else the best so far."""
-        best = self._swept if self._dives is None else self._dives.best
+        dived = None if self._dives is None else self._dives.best
+        best = min(
+            (own for own in (self._swept, dived) if own is not None), key=lambda own: own.cost, default=None
+        )
         return self._found.ties or ([best] if best is not None else [])
 
     def _go_on(self, limit: float, top: float) -> None:

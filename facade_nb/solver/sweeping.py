@@ -22,7 +22,7 @@ from .laying import Table, with_gaps, without_gaps
 from .pricing import Columns, Priced, price
 from .runs import Cuts
 
-__all__ = ["can_sweep", "mended", "sweeps"]
+__all__ = ["can_sweep", "mended", "polished", "sweeps"]
 
 _SWEEPS = 12
 _ROUNDS = 3
@@ -90,6 +90,29 @@ def mended(
         else:
             return None
     return priced
+
+
+def polished(
+    groups: Sequence[Group],
+    start: Priced,
+    fits: Callable[[Priced], bool],
+    check: Callable[[], None] | None = None,
+) -> Iterator[Priced]:
+    """Alignments cheaper than one that will do, each by a little change of the one before, until none is."""
+    tables = [_table(group, start.unsized, check) for group in groups]
+    cuts = [table.spots(columns) for table, columns in zip(tables, start.structure, strict=True)]
+    best, going = start.cost, True
+    while going:
+        going = False
+        for g, move in _moves(tables, cuts):
+            if check is not None:
+                check()
+            changed = [*cuts[:g], move, *cuts[g + 1 :]]
+            other = _priced(tables, changed) if tables[g].cost(move) < inf else None
+            if other is not None and other.cost < best - EPS and fits(other):
+                best, cuts, going = other.cost, changed, True
+                yield other
+                break
 
 
 def _rounds(
