@@ -107,7 +107,7 @@ class _Case:
     runs: list[GroupSearch] = field(default_factory=list)
     solved: Solved | None = None
     unsizable: bool = False
-    dived: bool = False
+    dived: float = inf
 
     @property
     def floor(self) -> float:
@@ -366,16 +366,15 @@ class AxisSearch:
         """A layout of the candidate that costs less than `cost`, by structures that may not be the best."""
         if not at_once and not any(run.long for run in case.runs):
             return None
-        before = sum(known[0].cost for run in case.runs if (known := run.known))
         for run in case.runs:
             run.dive(at_once=at_once or not run.long, sweep=sweep)
         found = [run.known for run in case.runs]
         if not all(found):
             return None
         total = sum(known[0].cost for known in found)
-        if total >= cost - EPS or (total >= before - EPS and case.dived):
+        if total >= min(cost, case.dived) - EPS:
             return None
-        case.dived = True
+        case.dived = total
         return self.size(case, found)
 
     def _left_out(self) -> float:

@@ -170,6 +170,7 @@ class GroupSearch:
     def give_up(self) -> None:
         """Let go of the search, but not of what it has found."""
         if not self.done:
+            self._swept = next(iter(self.known), None)
             self._first = self._dives = None
 
     @property
