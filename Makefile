@@ -30,7 +30,7 @@ bench: setup-test  ## print what is measured
 front: setup-test  ## build the front end into facade_nb/widgets/static
 	@node scripts/front.mjs
 
-notebooks: setup-test  ## run the notebooks again that hold widgets: their saved state has the front end
+notebooks: setup-test  ## run the notebooks and tutorials again that hold widgets: their saved state has the front end
 	@$(VENV)/python scripts/notebooks.py
 
 watch: setup-test  ## build the front end again after every change

@@ -1,6 +1,6 @@
 """Run notebooks and save them as they are kept here: with outputs and widget state, without times.
 
-python scripts/notebooks.py [NAME ...]     all that have widgets, or those named: studio, solver, texture
+python scripts/notebooks.py [NAME ...]     all that have widgets, or those named: solver, how-the-solver-thinks
 """
 
 import sys
@@ -12,13 +12,22 @@ from nbclient import NotebookClient
 
 ROOT = Path(__file__).resolve().parents[1]
 WIDGETS = ("studio", "solver", "texture")
+"""Those in `notebooks` that have widgets; all in `tutorials` have."""
 STATIC = ("texture",)
 """Saved with static forms alone: the tiles would make their state too large."""
 
 
+def paths(names: Sequence[str]) -> list[Path]:
+    """Those that are named; without names all that have widgets."""
+    tutorials = sorted((ROOT / "tutorials").glob("*.ipynb"))
+    every = {path.stem: path for path in [*sorted((ROOT / "notebooks").glob("*.ipynb")), *tutorials]}
+    if unknown := [name for name in names if name not in every]:
+        sys.exit(f"expected some of {', '.join(every)}, not {', '.join(unknown)}")
+    return [every[name] for name in names or (*WIDGETS, *(path.stem for path in tutorials))]
+
+
 def main(names: Sequence[str]) -> None:
-    for name in names or WIDGETS:
-        path = ROOT / "notebooks" / f"{name}.ipynb"
+    for path in paths(names):
         notebook = nbformat.read(path, as_version=4)
         client = NotebookClient(
             notebook, timeout=120, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
@@ -27,7 +36,7 @@ def main(names: Sequence[str]) -> None:
         notebook.metadata.pop("language_info", None)
         for cell in notebook.cells:
             cell.metadata.pop("execution", None)
-        if name in STATIC:
+        if path.stem in STATIC:
             notebook.metadata.pop("widgets", None)
         nbformat.write(notebook, path)
         print(f"{path.relative_to(ROOT)}  {path.stat().st_size / 1000:.1f} kB")

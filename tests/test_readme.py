@@ -29,7 +29,7 @@ def test_python_of_the_readme_runs() -> None:
 
 
 def test_files_of_the_readme_exist() -> None:
-    for name in re.findall(r"`(notebooks/[a-z]+\.ipynb)`", README):
+    for name in re.findall(r"`((?:notebooks|tutorials)/[a-z-]+\.ipynb)`", README):
         assert (ROOT / name).exists()
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import re
+import runpy
 from pathlib import Path
 
 import nbformat
@@ -12,6 +15,10 @@ ROOT = Path(__file__).resolve().parents[2]
 NOTEBOOKS = sorted(path for folder in ("notebooks", "tutorials") for path in (ROOT / folder).glob("*.ipynb"))
 LARGEST = 500_000  # bytes
 WIDGET = "application/vnd.jupyter.widget-view+json"
+STATE = "application/vnd.jupyter.widget-state+json"
+PLACES = re.compile(
+    r"(?<![\w.:/])/(tmp|home|root|work|Users|usr|opt|var)/|\b[A-Z]:\\\\|site-packages|ipykernel_"
+)
 
 every_notebook = pytest.mark.parametrize(
     "path", NOTEBOOKS, ids=lambda path: f"{path.parent.name}/{path.stem}"
@@ -30,6 +37,16 @@ def has_static_form(data: dict[str, str]) -> bool:
 
 def test_there_are_notebooks() -> None:
     assert ROOT / "notebooks" / "studio.ipynb" in NOTEBOOKS
+    assert ROOT / "tutorials" / "how-the-solver-thinks.ipynb" in NOTEBOOKS
+
+
+def test_all_that_are_saved_with_widgets_are_made_by_one_command() -> None:
+    made = runpy.run_path(str(ROOT / "scripts" / "notebooks.py"))["paths"]([])
+    saved = [
+        path for path in NOTEBOOKS if STATE in nbformat.read(path, as_version=4).metadata.get("widgets", {})
+    ]
+    assert len(saved) >= 3
+    assert set(saved) <= set(made)
 
 
 @every_notebook
@@ -64,3 +81,10 @@ def test_is_saved_with_static_forms_where_a_widget_would_be_blank(path: Path) ->
     assert not [output for output in saved if output.output_type == "error"]
     widgets = [output.data for output in saved if WIDGET in output.get("data", {})]
     assert not [data for data in widgets if not has_static_form(data)]
+
+
+@every_notebook
+def test_what_is_saved_names_no_place_on_a_machine(path: Path) -> None:
+    notebook = nbformat.read(path, as_version=4)
+    saved = json.dumps(outputs(notebook), ensure_ascii=False)
+    assert [saved[max(0, found.start() - 60) : found.end() + 60] for found in PLACES.finditer(saved)] == []

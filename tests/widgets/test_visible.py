@@ -297,6 +297,18 @@ class TestViews:
             ElementTree.fromstring(b64decode(data))  # it is well-formed
         assert len(static) < 120_000
 
+    @every_view
+    def test_the_static_form_of_a_view_that_asks_is_folded_away(
+        self, cls: type[TraceView], trace: Trace
+    ) -> None:
+        shown = cls(trace)._repr_mimebundle_()[0]["text/html"]
+        folded = cls(trace, predict=True)._repr_mimebundle_()[0]["text/html"]
+        assert "<details" not in shown
+        within = re.fullmatch(r"<details><summary>The answer</summary>(.+)</details>", folded, re.S)
+        assert within
+        drawn = re.compile(r"base64,[^\"]*")  # an elevation has new ids each time
+        assert drawn.sub("", within[1]) == drawn.sub("", shown)
+
     @pytest.mark.parametrize("name", ["bookshop", "concert-hall", "terraced-house"])
     def test_the_largest_designs_have_static_forms_that_are_kept(self, name: str) -> None:
         trace = solve(gallery.load(name), trace=True).trace

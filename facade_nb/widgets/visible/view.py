@@ -90,6 +90,8 @@ class TraceView(AnyWidget):
         made = super()._repr_mimebundle_(**options)
         if made is not None:
             static = self.to_html()
+            if static and self.predict:  # the static form is the answer: a reader should ask for it
+                static = f"<details><summary>The answer</summary>{static}</details>"
             if static and len(static.encode()) <= _LARGEST:
                 made[0]["text/html"] = static
         return made
