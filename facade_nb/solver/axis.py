@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush, heapreplace
-from itertools import count, islice, product
+from itertools import islice, product
 from math import inf
 
 from ..design.model import Symbol
+from .anytime import Anytime
 from .candidates import Candidate, CandidateStream, candidates
 from .clock import Progress
 from .columns import EPS, Group, lone_unsized, make_group
-from .compiled import start_afresh
 from .floors import GroupKey, inputs_of, rows_of
 from .instances import Instances, Range
 from .keeping import Kept
@@ -27,17 +26,10 @@ from .sizing import Sized, size_axis, strain
 from .tracing import Recorder, sizing
 from .words import axis_words
 
-__all__ = ["AxisSearch", "Best", "Solved", "forget_groups"]
+__all__ = ["AxisSearch", "Best", "Case", "Solved", "forget_groups"]
 
 _NODES = 1_000_000
 """A search of more paths gives up; under the paper's objective, and where structures are refused, of fewer."""
-
-_LIKELY = {"sweep": 24, "mend": 3, "dive": 3}
-"""In these ways a layout is looked for when the time is up, of so many candidates."""
-
-_LONG = 0.5
-"""When searches have taken so many seconds, candidates are swept, in this part of the time that they take:"""
-_LOOK = 0.3
 
 _kept: Kept[tuple[list[Priced], float]] = Kept(512)
 """What has been found for groups, so that those that an edit leaves alone are not searched again."""
@@ -96,7 +88,7 @@ class Best:
 
 
 @dataclass(slots=True)
-class _Case:
+class Case:
     """A candidate being solved."""
 
     candidate: Candidate
@@ -138,16 +130,13 @@ class AxisSearch:
     extend: Callable[[], None] | None = None
     progress: Progress = field(default_factory=Progress)
     found: dict[str, Instances] = field(default_factory=dict)
-    cases: list[_Case] = field(default_factory=list)
+    cases: list[Case] = field(default_factory=list)
     runs: dict[object, GroupSearch] = field(default_factory=dict)
     rows: dict[object, _Rows] = field(default_factory=dict)
     by_words: dict[object, GroupSearch] = field(default_factory=dict)
     inputs: list[tuple[str, ...]] | None = None
     stream: CandidateStream | None = None
-    _others: Iterator[_Case] | None = None
-    _further: CandidateStream | None = None
-    _extra: list[_Case] = field(default_factory=list)
-    _looked: float = 0.0
+    soon: Anytime = field(default_factory=Anytime)
 
     def enumerate(self, across: Mapping[str, Range] | None = None) -> None:
         """List the words that fit; `across` is what the other axis says of counters."""
@@ -155,9 +144,10 @@ class AxisSearch:
         if self.trace is not None:
             self.trace.words(self.problem, self.found, self.tolerance)
         self.progress.at("candidates", self.problem.axis)
-        self.stream = self._stream()
+        self.stream = self.fresh_stream()
 
-    def _stream(self) -> CandidateStream:
+    def fresh_stream(self) -> CandidateStream:
+        """All candidates, by growing lower bound."""
         return CandidateStream(self.problem, self.words(), self.tolerance, self.objective, self.check)
 
     def words(self) -> dict[str, Sequence[Word]]:
@@ -189,21 +179,21 @@ class AxisSearch:
             rows=self.rows,
             by_words=self.by_words,
         )
-        other.stream = other._stream()
+        other.stream = other.fresh_stream()
         return other
 
     @property
     def floor(self) -> float:
         """Lower bound of J over all candidates."""
-        return (self.stream or self._stream()).bound
+        return (self.stream or self.fresh_stream()).bound
 
-    def case(self, candidate: Candidate) -> _Case:
+    def case(self, candidate: Candidate) -> Case:
         """A candidate to be solved."""
-        return _Case(candidate, candidate.bound)
+        return Case(candidate, candidate.bound)
 
     def start_over(self) -> None:
         """Be ready to go through all candidates once more; what has been learnt of their groups stays."""
-        self.stream = self._stream()
+        self.stream = self.fresh_stream()
         self.cases.clear()
 
     def forget(self) -> None:
@@ -218,8 +208,8 @@ class AxisSearch:
         self.runs.clear()
         self.rows.clear()
         self.by_words.clear()
-        self._extra.clear()
-        self.stream = self._others = self._further = None
+        self.soon = Anytime()
+        self.stream = None
 
     def in_order(self) -> Iterator[Candidate]:
         """Candidates in lexicographic order, as the paper takes them."""
@@ -233,7 +223,7 @@ class AxisSearch:
         may have a cheap one, and when the least lower bound is above the best answer, that is optimal.
         """
         best = Best()
-        stream = self.stream = self.stream or self._stream()
+        stream = self.stream = self.stream or self.fresh_stream()
         queue: list[tuple[float, int]] = []
         steps: list[float] = []
         floor, dived = 0.0, False
@@ -276,7 +266,7 @@ class AxisSearch:
                     paused = any(run.paused for run in case.runs)
                     beyond = top + 2 * EPS if limit >= top and not paused else own
                     heappush(queue, (max(beyond, case.floor), n))
-                    improved = self._dive(case, best.cost) or self._around(best.cost)
+                    improved = self.soon.dive(self, case, best.cost) or self.soon.around(self, best.cost)
                     if improved is not None:
                         best.solved, dived = improved, True
         except Stopped as stop:
@@ -285,97 +275,9 @@ class AxisSearch:
                 best.bound = min(best.bound, floor)
                 return best
         if not best.complete:
-            best.solved = self._hasty(best.solved)
+            best.solved = self.soon.hasty(self, best.solved)
         best.bound = min(best.bound, floor, self._left_out())
         return best
-
-    def _hasty(self, best: Solved | None) -> Solved | None:
-        """The best layout that can soon be had of the likeliest candidates, for when the time is up."""
-        if self.extend is not None:
-            self.extend()
-        if start_afresh():
-            for case in self.cases:
-                for run in case.runs:
-                    run.give_up()
-        try:
-            for way, most in _LIKELY.items():
-                for case in islice(self._likely(), most):
-                    if not case.runs:
-                        self.open(case)
-                    if way == "mend":
-                        for run in case.runs:
-                            run.mend()
-                    solved = self._dive(
-                        case, inf if best is None else best.cost, at_once=True, sweep=way != "dive"
-                    )
-                    if solved is not None:
-                        best = solved
-                if best is not None:
-                    break
-            for better in self._polished(best):
-                best = better
-        except Stopped:
-            pass  # what was found until now is all there is
-        return best
-
-    def _polished(self, best: Solved | None) -> Iterator[Solved]:
-        """Layouts of the same candidate that cost less, each a little different from the one before."""
-        cases = [*self.cases, *self._extra]
-        case = next((own for own in cases if best is not None and own.candidate is best.candidate), None)
-        if case is None:
-            return
-        for run in case.runs:
-            for _ in run.polish():
-                found = [own.known for own in case.runs]
-                solved = self.size(case, found) if all(found) else None
-                if solved is not None and solved.beats(best):
-                    best = solved
-                    yield solved
-
-    def _around(self, cost: float) -> Solved | None:
-        """A layout of another candidate that costs less, while the search of some takes long."""
-        spent = sum(run.spent for run in self.runs.values())
-        if spent < _LONG or self._looked > _LOOK * spent:
-            return None
-        begin = time.perf_counter()
-        if self._others is None:
-            self._others = islice(self._likely(), _LIKELY["sweep"])
-        other = next(self._others, None)
-        if other is not None and not other.runs:
-            self.open(other)
-        solved = None if other is None else self._dive(other, cost, at_once=True, sweep=True)
-        self._looked += time.perf_counter() - begin
-        return solved
-
-    def _likely(self) -> Iterator[_Case]:
-        """The candidates that have been begun, by what they cost at least, and then others."""
-        begun = sorted(self.cases, key=lambda case: case.floor)
-        yield from begun
-        known = {tuple(map(id, case.candidate.words.values())) for case in begun}
-        self._further = self._further or self._stream()
-        for n in count():
-            if n == len(self._extra):
-                candidate = self._further.take()
-                if candidate is None:
-                    return
-                self._extra.append(self.case(candidate))
-            if tuple(map(id, self._extra[n].candidate.words.values())) not in known:
-                yield self._extra[n]
-
-    def _dive(self, case: _Case, cost: float, *, at_once: bool = False, sweep: bool = False) -> Solved | None:
-        """A layout of the candidate that costs less than `cost`, by structures that may not be the best."""
-        if not at_once and not any(run.long for run in case.runs):
-            return None
-        for run in case.runs:
-            run.dive(at_once=at_once or not run.long, sweep=sweep)
-        found = [run.known for run in case.runs]
-        if not all(found):
-            return None
-        total = sum(known[0].cost for known in found)
-        if total >= min(cost, case.dived) - EPS:
-            return None
-        case.dived = total
-        return self.size(case, found)
 
     def _left_out(self) -> float:
         """No candidate with a word that was left out, for there are too many, costs less than this."""
@@ -386,14 +288,14 @@ class AxisSearch:
             bound = min(bound, min(self.objective.fit, weight) * left)
         return bound
 
-    def solve(self, case: _Case) -> Solved | None:
+    def solve(self, case: Case) -> Solved | None:
         """Align a candidate in all groups and size it; None: it cannot be done."""
         solved = self._turn(case)
         while solved is None and any(run.paused for run in case.runs):
             solved = self._turn(case)
         return solved
 
-    def _turn(self, case: _Case, limit: float = inf, top: float = inf) -> Solved | None:
+    def _turn(self, case: Case, limit: float = inf, top: float = inf) -> Solved | None:
         """Align a candidate in all groups, each within what the others leave of the limit, and size it.
 
         A little more than the limit may be looked at, but nothing that costs more than `top`.
@@ -421,7 +323,7 @@ class AxisSearch:
             return self._turn(case, limit, top)
         return case.solved
 
-    def open(self, case: _Case) -> None:
+    def open(self, case: Case) -> None:
         """Find the candidate's groups, and the searches that other candidates share with it."""
         rows, keys, clusters = self._rows(case.candidate)
         groups: list[Group | None] = [None] * len(rows)
@@ -436,7 +338,7 @@ class AxisSearch:
         case.runs = runs  # all of them or none: the clock may have stopped this before
         self._tell(case)
 
-    def _tell(self, case: _Case) -> None:
+    def _tell(self, case: Case) -> None:
         """Let the stream know what has been proven about words that other candidates have as well."""
         if self.stream is not None:
             for run, cluster in zip(case.runs, case.clusters, strict=True):
@@ -528,7 +430,7 @@ class AxisSearch:
             clusters.append(sorted([g, *(o for c in joined for o in c)]))
         return rows, keys, clusters
 
-    def size(self, case: _Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
+    def size(self, case: Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
         """Size every combination of equally good structures; the least deviation wins."""
         best: Solved | None = None
         for combination in islice(product(*ties), 2 * TIES):

@@ -14,16 +14,15 @@ from ..design.errors import DesignError, Fault, NoLayout
 from ..design.model import AXES, Axis, Design
 from .adopting import adopted, upper_bound
 from .analysis import analyse
+from .assembling import axis_layout, axis_warnings
 from .axis import AxisSearch, Best, Solved, forget_groups
 from .clock import Clock
 from .columns import EPS
 from .compiled import start_afresh
 from .failure import explain, ran_out
-from .forces import Sizing
 from .instances import Range, ranges
 from .keeping import Kept
-from .layout import AxisLayout, GroupLayout, Layout, PlacedLetter, PlacedShape, Rect, RowLayout
-from .letters import Letter
+from .layout import AxisLayout, Layout, PlacedShape, Rect
 from .merging import find_holes, hole_warnings, merge
 from .objective import Objective
 from .problem import AxisProblem, axis_problem
@@ -457,9 +456,9 @@ class _Run:
             answer = best.solved
             assert answer is not None
             counters.update(answer.candidate.counters)
-            axes[axis] = _axis_layout(self.design, walk.problem, best, answer)
+            axes[axis] = axis_layout(self.design, walk.problem, best, answer)
             complete = complete and best.complete
-            warnings += _warnings(walk, answer)
+            warnings += axis_warnings(walk, answer)
             if self.trace is not None:
                 self.trace.answer(walk, answer, axes[axis], best.complete)
         with stage(self.trace, "", "merging"):
@@ -514,57 +513,3 @@ def _values_in(walk: AxisSearch, counter: str) -> set[int]:
         if counter in pattern.counters
     ]
     return set.intersection(*sets)
-
-
-def _axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solved) -> AxisLayout:
-    layers: dict[str, list[str]] = {}
-    for layer in design.stack:
-        layers.setdefault(layer.along(problem.axis).group, []).append(layer.name)
-    groups: dict[str, GroupLayout] = {}
-    for g, (name, patterns) in enumerate(problem.groups):
-        group, (priced, k) = answer.groups[g], answer.parts[g]
-        structure, placement = priced.structure[k], answer.sized.placements[g]
-        placed: dict[int, tuple[tuple[PlacedLetter, ...], ...]] = {}
-        for b, (band, intervals) in enumerate(zip(group.bands, placement, strict=True)):
-            letters, places = band.letters, iter(intervals)
-            placed[b] = tuple(
-                [
-                    tuple([_placed(letters[n], *next(places)) for n in column[b].letters])
-                    for column in structure
-                ]
-            )
-        rows = [
-            RowLayout(layers[name][i], pattern, placed[group.band_of[i]])
-            for i, pattern in enumerate(patterns)
-        ]
-        groups[name] = GroupLayout(priced.omegas[k], answer.sized.boundaries[g], tuple(rows))
-    gap = max(0.0, answer.cost - best.bound) if best.bound < inf else 0.0
-    proven = best.complete and gap <= 1e-6
-    return AxisLayout(
-        answer.cost,
-        0.0 if proven else gap,
-        answer.sized.deviation,
-        proven,
-        dict(answer.sized.sizes),
-        groups,
-        Sizing(answer.sized.system, answer.sized.solution),
-    )
-
-
-def _placed(letter: Letter, start: float, end: float) -> PlacedLetter:
-    return PlacedLetter(letter.symbol, start, end, letter.mirrored, letter.transparent)
-
-
-def _warnings(walk: AxisSearch, answer: Solved) -> Iterator[str]:
-    for (name, _), group in zip(walk.problem.groups, answer.groups, strict=True):
-        if group.waived and any(band.soft for band in group.bands):
-            yield (
-                f"No symbol of group {name!r} on {walk.problem.axis} is opaque, so nothing need stand behind its "
-                "non-opaque letters."
-            )
-    for name, found in walk.found.items():
-        for counter in found.endless:
-            yield (
-                f"Counter {counter!r} in pattern {name!r} repeats nothing that has a size; "
-                f"it was tried up to {answer.candidate.counters.get(counter, 0)} only."
-            )

@@ -184,7 +184,7 @@ class TestPlaceholders:
         assert walk.stream is not None
         candidate = walk.stream.take()
         assert candidate is not None
-        solved = walk._hasty(None)
+        solved = walk.soon.hasty(walk, None)
         assert solved is not None
         assert solved.cost < 2.5
 

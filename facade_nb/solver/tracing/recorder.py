@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ...design.errors import NoLayout
     from ...design.model import Design
     from ..analysis import Analysis
-    from ..axis import AxisSearch, Solved, _Case
+    from ..axis import AxisSearch, Case, Solved
     from ..candidates import Candidate
     from ..columns import Group, Option
     from ..instances import Instances
@@ -343,7 +343,7 @@ class Recorder:
         for case in search.cases:
             self.tried(search, case)
 
-    def tried(self, search: AxisSearch, case: _Case) -> None:
+    def tried(self, search: AxisSearch, case: Case) -> None:
         """A candidate has had its turns."""
         axis, solved = search.problem.axis, case.solved
         if self._judged >= CANDIDATES:
