@@ -18,11 +18,13 @@ from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.design import Counter, Symbol, edit, parse
 from facade_nb.solver import Letter, Objective, align, clock, compiled, solving
 from facade_nb.solver.analysis import analyse
+from facade_nb.solver.axis import AxisSearch
 from facade_nb.solver.clock import Clock
 from facade_nb.solver.instances import instances
 from facade_nb.solver.merging import merge
 from facade_nb.solver.problem import axis_problem
 from facade_nb.solver.search import Stopped
+from tests.bench import bench_anytime
 from tests.oracle.designs import design, make_design
 from tests.oracle.nasty import NASTY, nasty
 
@@ -412,3 +414,29 @@ def test_an_alignment_that_takes_too_much_memory_is_refused(monkeypatch: pytest.
     thread.start()
     thread.join()
     assert "words of 12 and 10 and 10 letters takes more memory than it may" in str(refused[0])
+
+
+@pytest.mark.parametrize("megabytes", [32, 44, 68, 74])
+def test_memory_that_ends_in_the_middle_of_a_large_allocation(
+    megabytes: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Then much of it may still be free; it is out of memory all the same, and no fault of the compiled code."""
+    monkeypatch.setattr(compiled, "_MOST", megabytes * 2**20)
+    design = bench_anytime.stack(26, 1, 0.34)
+    walk = AxisSearch(axis_problem(design, "x"), Objective(), 0.5 * design.canvas.width)
+    walk.enumerate({})
+    assert walk.stream is not None
+    candidate = walk.stream.take()
+    assert candidate is not None
+    ended: list[BaseException] = []
+
+    def run() -> None:  # a thread has a memory of its own
+        try:
+            walk.solve(walk.case(candidate))
+        except BaseException as error:
+            ended.append(error)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join()
+    assert [type(error) for error in ended] == [Stopped]
