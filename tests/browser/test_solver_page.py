@@ -166,6 +166,35 @@ def test_the_code_of_what_is_played(watch: Watch) -> None:
     expect(page.locator(".fnb-code-title")).to_contain_text("solver.tracing.activeset.steps")
 
 
+def test_the_events_keep_back_what_a_view_asks_for(watch: Watch) -> None:
+    lab = watch("view = SolverView(traced('residential-house'), at='x/candidates+3'); view")
+    page = lab.page
+    events = page.locator(".fnb-event")
+    expect(events.filter(has_text="Candidate 0")).to_contain_text("best")
+    asking = page.locator(".fnb-view", has=page.locator(".fnb-candidates"))
+    asking.get_by_role("button", name="Predict").click()
+    shown = page.locator(".fnb-page").inner_text()
+    assert "best" not in shown
+    assert "WordJudged" not in shown  # a word that is taken is the layout's
+    kept = page.locator(".fnb-events-kept")
+    expect(kept).to_contain_text("kept back while a view asks")
+    expect(page.locator(".fnb-play-caption")).to_have_text("")
+    # Also where the list is scrolled to its end.
+    last = int(kept.inner_text().split()[1]) - 1
+    page.locator(".fnb-events .fnb-rows").evaluate("e => e.scrollTo(0, 1e6)")
+    expect(page.locator(".fnb-event-at").last).to_have_text(str(last))
+    # The view is taken off the page, and with it its question.
+    lab.button("x: Analysis").click()
+    expect(kept).to_be_hidden()
+    lab.button("x: Candidates").click()
+    expect(kept).to_be_visible()
+    asking.get_by_role("radio").first.check()
+    lab.button("Check").click()
+    expect(kept).to_be_hidden()
+    lab.button("Step forward").click()
+    expect(page.locator(".fnb-event[data-now]")).to_contain_text("Candidate 0")
+
+
 def test_the_page_brings_the_view_of_the_stage(watch: Watch) -> None:
     lab = watch("view = SolverView(traced('residential-house'), at='x/analysis+3'); view")
     page = lab.page

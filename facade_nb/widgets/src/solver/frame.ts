@@ -18,6 +18,8 @@ export interface Panel {
   refresh(): void;
   /** Whether it is drawn with every step, also out of sight: the page is going to scroll to it. */
   follow(on: boolean): void;
+  /** Take it off the page, and with it what it asks. */
+  hide(): void;
 }
 
 /** Make a view of a kind in its panel, and have it follow the player and the links until the signal ends. */
@@ -29,8 +31,9 @@ export async function panel(
   signal: AbortSignal,
 ): Promise<Panel> {
   const made = await Promise.all(kind.needs.map((name) => session.piece(name)));
-  const pieces = Object.fromEntries(kind.needs.map((name, n) => [name, made[n]]));
-  const { player, links, alternatives } = loaded;
+  const pieces: Record<string, unknown> = Object.fromEntries(kind.needs.map((name, n) => [name, made[n]]));
+  for (const name of kind.wants ?? []) pieces[name] = await session.piece(name).catch(() => undefined);
+  const { player, links, alternatives, asking } = loaded;
   let view: View | null = null;
   const light = () => {
     if (view?.light) view.light();
@@ -58,8 +61,13 @@ export async function panel(
     ),
   );
   if (view.quiz) {
-    const { toggle, bar, show } = question(view.quiz, model, refresh, signal);
-    ask = show;
+    const { quiz } = view;
+    const { toggle, bar, show } = question(quiz, model, refresh, signal);
+    ask = () => {
+      show();
+      asking.set(quiz, quiz.hides && quiz.truths.size && !signal.aborted ? quiz.from : null);
+    };
+    signal.addEventListener("abort", () => asking.set(quiz, null));
     controls.append(toggle);
     el.append(bar);
   }
@@ -95,6 +103,7 @@ export async function panel(
   player.watch(soon, signal);
   links.watch(() => el.hidden || light(), signal);
   alternatives.watch(soon, signal);
+  asking.watch(soon, signal);
   links.listen(el, signal);
   signal.addEventListener("abort", () => {
     clearTimeout(resting);
@@ -105,7 +114,11 @@ export async function panel(
     followed = on;
     if (on && stale) inFrame(draw);
   };
-  return { el, refresh, follow };
+  const hide = () => {
+    el.hidden = true;
+    if (view.quiz) asking.set(view.quiz, null);
+  };
+  return { el, refresh, follow, hide };
 }
 
 /** A widget that shows one view, with a player of its own above it if its traits say so. */
@@ -117,7 +130,7 @@ export async function alone(
   signal: AbortSignal,
 ): Promise<HTMLElement> {
   const el = h("div", { class: "fnb-solver-alone" });
-  if (model.get<boolean>("player")) el.append(playbar(session, loaded.player, signal));
+  if (model.get<boolean>("player")) el.append(playbar(session, loaded.player, loaded.asking, signal));
   el.append((await panel(kind, session, model, loaded, signal)).el);
   return el;
 }
@@ -149,7 +162,6 @@ function question(quiz: Quiz, model: WidgetModel, refresh: () => void, signal: A
   const show = () => {
     mark(toggle, "aria-pressed", String(quiz.on));
     bar.hidden = !quiz.on;
-    mark(bar, "data-hides", quiz.hides);
     if (!quiz.on) return;
     const now = [quiz.asked, quiz.prompt, ...quiz.truths.keys()].join("|");
     const other = about !== "" && now !== about;

@@ -115,7 +115,7 @@ export async function page(
       if (shown) bring(name, slot);
       const panel = panels.get(name);
       if (!panel) continue;
-      if (!shown) panel.el.hidden = true;
+      if (!shown) panel.hide();
       panel.follow(shown && (name === told || BESIDE.includes(name)));
     }
     for (const column of columns) column.hidden = [...column.children].every((slot) => (slot as HTMLElement).hidden);
@@ -142,7 +142,7 @@ export async function page(
   const el = h(
     "div",
     { class: "fnb-page" },
-    h("div", { class: "fnb-page-top" }, playbar(session, player, signal)),
+    h("div", { class: "fnb-page-top" }, playbar(session, player, loaded.asking, signal)),
     h(
       "div",
       { class: "fnb-page-chips", role: "group", "aria-label": "Views" },

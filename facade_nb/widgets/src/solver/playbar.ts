@@ -2,6 +2,7 @@
 
 import { h, mark, setText } from "../dom.ts";
 import { type IconName, icon, setIcon } from "../icons.ts";
+import type { Asking } from "./asking.ts";
 import { fragmentOf } from "./moments.ts";
 import { type Player, SPEEDS } from "./player.ts";
 import type { Session } from "./session.ts";
@@ -62,7 +63,7 @@ function control(label: string, name: IconName, act: () => void): HTMLButtonElem
   return button;
 }
 
-export function playbar(session: Session, player: Player, signal: AbortSignal): HTMLElement {
+export function playbar(session: Session, player: Player, asking: Asking, signal: AbortSignal): HTMLElement {
   const { timeline } = player;
   const { stages, marks } = timeline.data;
   const scale = new Scale(stages);
@@ -110,11 +111,12 @@ export function playbar(session: Session, player: Player, signal: AbortSignal): 
     "aria-valuemax": timeline.last,
   });
   track.append(past);
-  for (const one of marks) {
+  const ticks = marks.map((one) => {
     const tick = h("i", { class: "fnb-play-mark", "data-kind": one.kind, title: one.text });
     tick.style.left = `${100 * scale.place(one.at)}%`;
     track.append(tick);
-  }
+    return tick;
+  });
   track.append(cursor);
 
   const scrub = (event: PointerEvent) => {
@@ -176,13 +178,21 @@ export function playbar(session: Session, player: Player, signal: AbortSignal): 
     past.style.width = left;
     for (const [n, tab] of tabs.entries()) mark(tab, "aria-current", n === here ? "step" : null);
     mark(track, "aria-valuenow", String(position));
-    mark(track, "aria-valuetext", said[position] ?? timeline.kindAt(position));
     setText(count, `${position + 1} / ${timeline.count}`);
-    setText(caption, said[position] ?? "");
-    mark(caption, "title", said[position] ?? null);
+    // What an event says may be the answer to what a view asks.
+    const text = asking.on ? "" : said[position];
+    mark(track, "aria-valuetext", text ?? timeline.kindAt(position));
+    setText(caption, text ?? "");
+    mark(caption, "title", text || null);
   };
-  show();
+  const keep = () => {
+    const { from } = asking;
+    for (const [n, tick] of ticks.entries()) tick.hidden = (marks[n]?.at ?? 0) >= from;
+    show();
+  };
+  keep();
   player.watch(show, signal);
+  asking.watch(keep, signal);
   session.piece<{ text: string[] }>("captions").then(
     ({ text }) => {
       said = text;

@@ -26,6 +26,8 @@ export interface Question {
   truths: () => Truths;
   /** Whether one thing is to be chosen, not all that are right. */
   single?: boolean;
+  /** Position of the first event that would give the answer away; the first of all where it is not said. */
+  from?: number;
 }
 
 /** The questions of a view: it draws what can be chosen, and asks here how it stands. */
@@ -72,6 +74,10 @@ export class Quiz {
 
   get single(): boolean {
     return this.question.single ?? false;
+  }
+
+  get from(): number {
+    return this.question.from ?? 0;
   }
 
   get truths(): Truths {

@@ -74,6 +74,11 @@ export class Timeline {
     return this.data.stages[this.stageAt(position)]?.axis || "x";
   }
 
+  /** The first event of a stage of an axis; the first of all where there is no such stage. */
+  begins(stage: string, axis: Axis): number {
+    return this.data.stages.find((own) => own.stage === stage && own.axis === axis)?.first ?? 0;
+  }
+
   /** A position as text: the axis, the stage, and how many events into it, `x/words+12` (visible/timeline.py). */
   momentOf(position: number): string {
     const at = this.stageAt(position);

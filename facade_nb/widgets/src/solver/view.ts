@@ -33,5 +33,7 @@ export interface ViewKind {
   subtitle: string;
   /** Pieces of the trace (visible/chunks.py). */
   needs: readonly string[];
+  /** Pieces that it can do without: a page that was saved may not have them. */
+  wants?: readonly string[];
   make(context: ViewContext): View;
 }

@@ -2,6 +2,7 @@
 
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { h } from "../../src/dom.ts";
+import { Asking } from "../../src/solver/asking.ts";
 import { Links, linked, target } from "../../src/solver/links.ts";
 import { fragmentOf, momentIn } from "../../src/solver/moments.ts";
 import { unpack } from "../../src/solver/packing.ts";
@@ -106,14 +107,24 @@ describe("the bar of the player", () => {
     const timeline = await timelineOf("apartment-house");
     const player = new Player(timeline, 0);
     const end = new AbortController();
+    const asking = new Asking();
     const session = { piece: (name: string) => unpack(pieceOf("apartment-house", name)) } as unknown as Session;
-    const bar = playbar(session, player, end.signal);
+    const bar = playbar(session, player, asking, end.signal);
     expect(bar.querySelectorAll(".fnb-play-stage")).toHaveLength(timeline.data.stages.length);
     expect(bar.querySelectorAll(".fnb-play-mark")).toHaveLength(timeline.data.marks.length);
     const caption = bar.querySelector(".fnb-play-caption");
     await vi.waitFor(() => expect(caption?.textContent).toBe("solve was asked for Apartment house."));
     player.step(1);
     expect(caption?.textContent).toMatch(/^Horizontally, 21 m to fill/);
+    // While a view asks, it says nothing, and marks nothing from where the answer is told.
+    const marks = () => bar.querySelectorAll<HTMLElement>(".fnb-play-mark:not([hidden])").length;
+    const from = timeline.data.marks[2]?.at ?? 0;
+    asking.set(bar, from);
+    expect([caption?.textContent, caption?.getAttribute("title")]).toEqual(["", null]);
+    expect(marks()).toBe(2);
+    asking.set(bar, null);
+    expect(caption?.textContent).toMatch(/^Horizontally/);
+    expect(marks()).toBe(timeline.data.marks.length);
     const track = bar.querySelector(".fnb-play-track");
     expect(track?.getAttribute("aria-valuenow")).toBe("1");
     track?.dispatchEvent(new KeyboardEvent("keydown", { key: "End" }));

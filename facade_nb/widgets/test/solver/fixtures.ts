@@ -3,6 +3,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { Alternatives } from "../../src/solver/alternatives.ts";
+import { Asking } from "../../src/solver/asking.ts";
 import { Links } from "../../src/solver/links.ts";
 import { unpack } from "../../src/solver/packing.ts";
 import { Player } from "../../src/solver/player.ts";
@@ -39,6 +40,7 @@ export interface Shown {
   view: View;
   player: Player;
   links: Links;
+  asking: Asking;
   timeline: Timeline;
   /** Go to a position, and show it at once. */
   go(position: number): void;
@@ -52,9 +54,10 @@ export async function show(kind: ViewKind, design: string, traits: Record<string
   const player = new Player(timeline, -1);
   const links = new Links([]);
   const pieces: Record<string, unknown> = {};
-  for (const name of kind.needs) pieces[name] = await unpack(pieceOf(design, name));
+  for (const name of [...kind.needs, ...(kind.wants ?? [])]) pieces[name] = await unpack(pieceOf(design, name));
   const session = { live: true } as unknown as Session;
   const alternatives = new Alternatives((name) => unpack(pieceOf(design, name)), timeline, links, end.signal);
+  const asking = new Asking();
   let view: View | null = null;
   const refresh = () => {
     view?.show(player.position);
@@ -66,6 +69,7 @@ export async function show(kind: ViewKind, design: string, traits: Record<string
     player,
     links,
     alternatives,
+    asking,
     session,
     model: new FakeModel(traits),
     pieces,
@@ -80,6 +84,7 @@ export async function show(kind: ViewKind, design: string, traits: Record<string
     view,
     player,
     links,
+    asking,
     timeline,
     go(position) {
       player.go(position);

@@ -2,6 +2,7 @@
 
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { Alternatives } from "../../src/solver/alternatives.ts";
+import { Asking } from "../../src/solver/asking.ts";
 import { panel } from "../../src/solver/frame.ts";
 import { afterDrawing, cancelFrame, inFrame } from "../../src/solver/frames.ts";
 import { Links } from "../../src/solver/links.ts";
@@ -85,7 +86,7 @@ describe("a view that is out of sight", () => {
     const session = { live: true } as unknown as Session;
     const links = new Links([]);
     const alternatives = new Alternatives(() => Promise.reject(new Error("none")), timeline, links, end.signal);
-    const loaded = { timeline, player, links, alternatives };
+    const loaded = { timeline, player, links, alternatives, asking: new Asking() };
     const made = await panel(kind, session, new FakeModel({}), loaded, end.signal);
     return { player, shown, made };
   }

@@ -293,6 +293,17 @@ export class System {
   }
 }
 
+/** The system of each axis that has one. */
+export function systemsOf(events: readonly SizingEvent[], paths: readonly PathNote[]): Partial<Record<Axis, System>> {
+  const found: Partial<Record<Axis, System>> = {};
+  for (const axis of ["x", "y"] as const) {
+    const posed = events.findLast((own): own is SystemPosed => own.event === "SystemPosed" && own.axis === axis);
+    const own = paths.filter((path) => path.axis === axis);
+    if (posed) found[axis] = new System(posed, events, own);
+  }
+  return found;
+}
+
 const spell = ({ group, band, column, place }: Place): string => `${group}:${band}-${column}-${place}`;
 const finite = (value: number | null | undefined): number | null =>
   value === null || value === undefined || Math.abs(value) >= FREE ? null : value;

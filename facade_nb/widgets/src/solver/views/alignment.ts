@@ -138,6 +138,7 @@ class AlignmentView implements View {
     const { round } = this.quiz;
     const { moved, next } = this.asked();
     const found: Question[] = [];
+    const from = this.context.timeline.begins("alignment", this.choice.at(this.context.player.position));
     const [column, boundary] = [next[round % next.length], moved[round % moved.length]];
     if (column)
       found.push({
@@ -145,6 +146,7 @@ class AlignmentView implements View {
         prompt: `${this.named(column.path)}Where does column ${column.column + 1} end?`,
         truths: () => column.offers,
         single: true,
+        from,
       });
     if (boundary) {
       const { path, band } = boundary;
@@ -154,6 +156,7 @@ class AlignmentView implements View {
         name: MOVED,
         prompt: `${this.named(path)}In the row “${row}” boundary ${boundary.boundary} was moved to the ${way}. What does that break? Tick all.`,
         truths: () => movedTruths(boundary),
+        from,
       });
     }
     const nothing = "This alignment has nothing to ask: there is only one way to cut it.";

@@ -97,17 +97,20 @@ class AnalysisView implements View {
     this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.controls = [this.choice.el];
     this.el.append(this.note, this.pairs, this.systems);
+    const from = () => context.timeline.begins("analysis", this.choice.at(context.player.position));
     this.quiz = new Quiz(() => [
       {
         name: "all pairs",
         prompt: "Which pairs contradict those before them? Which counters and sizes do the others fix? Tick them.",
         truths: () => this.truths(),
+        from: from(),
       },
       ...this.equations().map((one) => ({
         name: pairName(one),
         prompt: `What does the equation of ${pairName(one)} say?`,
         truths: () => this.spelled(one),
         single: true,
+        from: from(),
       })),
     ]);
   }

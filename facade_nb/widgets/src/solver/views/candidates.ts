@@ -158,6 +158,7 @@ class CandidatesView implements View {
               prompt: "Which candidate becomes the layout? If none does, choose none.",
               truths: () => truths,
               single: true,
+              from: context.timeline.begins("words", this.choice.at(context.player.position)), // words that are taken
             },
           ]
         : [{ prompt: "There are no two candidates to choose from.", truths: () => new Map() }];

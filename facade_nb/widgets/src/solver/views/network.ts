@@ -121,7 +121,9 @@ class NetworkView implements View {
       this.beside,
     );
     this.el = h("div", { class: "fnb-network" }, this.said, this.note);
-    this.quiz = new Quiz(() => [{ prompt: "Which edge is next?", truths: () => this.truths(), single: true }]);
+    this.quiz = new Quiz(() => [
+      { prompt: "Which edge is next?", truths: () => this.truths(), single: true, from: this.tells() },
+    ]);
     const observer = new MutationObserver(() => {
       this.looked = null;
       setTimeout(() => this.plane.invalidate(), 50); // when the page has its colours
@@ -371,6 +373,16 @@ class NetworkView implements View {
   private choices(position = this.context.player.position): Choice[] {
     const subject = this.scene?.subject;
     return subject ? choicesOf(this.story, subject, () => this.base(subject, true), position) : [];
+  }
+
+  /** The first event that gives the answer away: the step that comes next, or, after the search, all of it. */
+  private tells(): number {
+    const { position } = this.context.player;
+    const subject = this.scene?.subject;
+    if (!subject) return 0;
+    const next = this.story.next(subject, position, TAKEN);
+    const at = next === undefined ? undefined : this.story.data.steps.at[next];
+    return at ?? this.context.timeline.begins("alignment", subject.axis);
   }
 
   private truths(): ReadonlyMap<string, Truth> {

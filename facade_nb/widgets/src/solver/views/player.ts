@@ -30,12 +30,15 @@ class PlayerView implements View {
   readonly controls: HTMLElement[];
   private readonly list: Rows<number>;
   private readonly positions: number[];
+  private readonly kept = h("p", { class: "fnb-events-kept", role: "status", hidden: true });
   private readonly code = h("div", { class: "fnb-code-panel", hidden: true });
   private readonly title = h("p", { class: "fnb-code-title" });
   private readonly text = h("pre", { class: "fnb-code-text", tabindex: 0, "aria-label": "Code of what is played" });
   private data: CodeData | null = null;
   private shown = "";
   private now = -1;
+  /** How many events are listed: while a view asks, not those that give its answer away. */
+  private told = -1;
 
   constructor(private readonly context: ViewContext) {
     const { text } = context.pieces.captions as Captions;
@@ -50,7 +53,7 @@ class PlayerView implements View {
       context.signal,
     );
     this.code.append(this.title, this.text);
-    const log = h("div", { class: "fnb-events", role: "table", "aria-label": "Events" }, this.list.el);
+    const log = h("div", { class: "fnb-events", role: "table", "aria-label": "Events" }, this.list.el, this.kept);
     this.el = h("div", { class: "fnb-player" }, log, this.code);
     const toggle = h(
       "button",
@@ -74,9 +77,16 @@ class PlayerView implements View {
   }
 
   show(position: number): void {
-    if (position !== this.now) {
+    const told = Math.min(this.positions.length, this.context.asking.from);
+    if (position !== this.now || told !== this.told) {
       this.now = position;
-      this.list.set(this.positions, position);
+      this.told = told;
+      this.list.set(this.positions.slice(0, told), position < told ? position : told - 1);
+      const rest = this.positions.length - told;
+      this.kept.hidden = !rest;
+      const first = rest === 1 ? "Event" : "Events";
+      const range = rest === 1 ? `${told + 1}` : `${told + 1} to ${this.positions.length}`;
+      setText(this.kept, `${first} ${range}: kept back while a view asks`);
     }
     this.showCode(position);
   }

@@ -16,8 +16,8 @@ import {
   isForce,
   type Moment,
   type SizingEvent,
-  System,
-  type SystemPosed,
+  type System,
+  systemsOf,
   writtenOut,
 } from "../sizing/system.ts";
 import type { Axis } from "../timeline.ts";
@@ -66,7 +66,7 @@ function systemLegend(): HTMLElement {
 class SizingView implements View {
   readonly el: HTMLElement;
   readonly controls: HTMLElement[];
-  private readonly systems: Partial<Record<Axis, System>> = {};
+  private readonly systems: Partial<Record<Axis, System>>;
   private readonly choice: AxisChoice;
   private readonly note = h("p", { class: "fnb-empty" });
   private readonly sum = h("p", { class: "fnb-size-sum", role: "status" });
@@ -95,15 +95,7 @@ class SizingView implements View {
   constructor(private readonly context: ViewContext) {
     const { events } = context.pieces.sizing as { events: SizingEvent[] };
     const { paths } = context.pieces.alignment as { paths: PathNote[] };
-    for (const axis of ["x", "y"] as const) {
-      const posed = events.findLast((own): own is SystemPosed => own.event === "SystemPosed" && own.axis === axis);
-      if (posed)
-        this.systems[axis] = new System(
-          posed,
-          events,
-          paths.filter((path) => path.axis === axis),
-        );
-    }
+    this.systems = systemsOf(events, paths);
     this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.controls = [this.choice.el];
     this.tabs = TABS.map(([name, text, title]) => {
@@ -232,14 +224,20 @@ class SizingView implements View {
     if (!system || !solved)
       return [{ prompt: "This axis has no sizes that could be asked for.", truths: () => new Map() }];
     const found: Question[] = [];
+    const from = system.posed.at;
     const truths = grown(system, solved);
     if (truths.size)
-      found.push({ name: SIZES, prompt: "Which symbols end larger than they like? Tick them.", truths: () => truths });
+      found.push({
+        name: SIZES,
+        prompt: "Which symbols end larger than they like? Tick them.",
+        truths: () => truths,
+        from,
+      });
     const letter = this.letter(system);
     if (letter) {
       const named = `${letter.row.symbol} (${system.ijk(letter.place)})`;
       const prompt = `Which equation says how long the marked letter ${named} is?`;
-      found.push({ name: EQUATION, prompt, truths: () => letter.truths, single: true });
+      found.push({ name: EQUATION, prompt, truths: () => letter.truths, single: true, from });
     }
     const next = entering(system, position);
     if (next) {
@@ -249,6 +247,7 @@ class SizingView implements View {
         prompt: `${few} active next?`,
         truths: () => next.truths,
         single: next.step.entered.length === 1,
+        from: next.step.at,
       });
     }
     return found;

@@ -127,7 +127,10 @@ class WordsView implements View {
       }),
     ];
     const prompt = "Which words fit? Tick them; the shaded band is canvas ± μ.";
-    this.quiz = new Quiz(() => [{ prompt, truths: () => this.truths() }]);
+    this.quiz = new Quiz(() => {
+      const from = context.timeline.begins("words", this.choice.at(context.player.position));
+      return [{ prompt, truths: () => this.truths(), from }];
+    });
   }
 
   show(position: number): void {
