@@ -167,3 +167,58 @@ def test_the_next_active_constraint_is_predicted(watch: Watch) -> None:
     expect(page.locator(".fnb-quiz-outcome")).to_contain_text(
         "Right. It is broken by 0.0123 m at these sizes"
     )
+
+
+def test_the_forces_stand_on_the_facade(watch: Watch, out: Path) -> None:
+    lab = watch(
+        "layout = traced('residential-house'); "
+        "view = FacadeView(layout, player=False); display(SizingView(layout, player=False), view)"
+    )
+    page = lab.page
+    lab.button("Show the horizontal axis").click()
+    loads = page.locator(".fnb-loads .fnb-load")
+    expect(loads).to_have_count(0)  # the façade is done, and its sizing is not played
+    lab.button("Show the forces of the horizontal axis").click()
+    expect(loads).to_have_count(6)
+    legend = page.get_by_role("note", name="Forces")
+    expect(legend).to_have_text(
+        "Forces along xstretched, pullssqueezed, pushesheld by the canvaslargest 0.18 m² per m"
+    )
+    # The door is stretched: its arrows start at its edges, and point inwards.
+    door = page.locator(".fnb-traced [data-layer=door] .cell").first.bounding_box()
+    assert door
+    arrows = """(path, { scale }) => [...path.getAttribute('d').matchAll(/M([\\d.-]+) [\\d.-]+L([\\d.-]+) /g)]
+        .filter((_, n) => n % 2 === 0).map(([, from, to]) => [from, to].map(x =>
+            new DOMPoint(x, 0).matrixTransform(path.getScreenCTM()).x))"""
+    first, last = loads.first.locator(".fnb-load-arrow").evaluate(arrows, {"scale": 1})
+    assert [first[0], last[0]] == pytest.approx([door["x"], door["x"] + door["width"]], abs=1.5)
+    assert first[1] > first[0] + 15
+    assert last[1] < last[0] - 15
+    blue, red = (
+        page.locator(f".fnb-loads [data-kind={kind}] .fnb-load-arrow").first.evaluate(
+            "e => getComputedStyle(e).stroke.match(/\\d+/g).map(Number)"
+        )
+        for kind in ("pull", "push")
+    )
+    assert blue[2] > blue[0] + 50
+    assert red[0] > red[2] + 50
+    # It lights with its equation, and its equation with it.
+    letter = page.locator(".fnb-load-letter").first
+    row = page.locator(".fnb-rows .fnb-size-row", has_text="|D|").first
+    row.hover()
+    expect(letter).to_have_attribute("data-lit", "")
+    expect(page.locator(".fnb-load-letter[data-lit]")).to_have_count(1)
+    letter.hover()
+    expect(row).to_have_attribute("data-lit", "")
+    page.screenshot(path=out / "facade-forces.png")
+    # What the player shows is what is solved by then.
+    lab.button("Show forces while the sizing is played").click()
+    lab.python("setattr(view.model, 'moment', 'x/sizing+0')")
+    expect(legend).to_have_text("The forces along x are known when its system is solved.")
+    # While a view asks they would tell.
+    lab.python("setattr(view.model, 'moment', 'y/analysis+0')")
+    lab.button("Show the forces of the horizontal axis").click()
+    expect(loads).to_have_count(6)
+    lab.button("Predict").click()
+    expect(loads).to_have_count(0)
+    expect(legend).to_have_text("Forces are not shown while a view asks.")

@@ -7,11 +7,20 @@ from base64 import b64decode
 from xml.etree import ElementTree
 
 import numpy as np
+import pytest
 
-from facade_nb import gallery
-from facade_nb.solver.events import ActiveSetStep, EdgeRefused, EdgeWeighed, NodeTaken, PathChosen
-from facade_nb.widgets import AlignmentView, NetworkView, SizingView
+from facade_nb import gallery, solve
+from facade_nb.solver.events import (
+    ActiveSetStep,
+    EdgeRefused,
+    EdgeWeighed,
+    LetterPlaced,
+    NodeTaken,
+    PathChosen,
+)
+from facade_nb.widgets import AlignmentView, FacadeView, NetworkView, SizingView
 from facade_nb.widgets.visible import chunks, networks
+from facade_nb.widgets.visible.forced import forced, loads
 from facade_nb.widgets.visible.sizing import said
 
 from .pieces import TRACES
@@ -139,6 +148,29 @@ class TestSizingView:
         sized = rows[rows.name.str.contains(r" = \|") & (rows.multiplier.abs() > 1e-6)]
         letters = sum(name.count("-") // 2 for name in sized.name)
         assert strokes.count("#2f6fb2") + strokes.count("#d0202c") >= 2 * letters > 0
+
+    def test_the_static_facade_draws_them_too(self) -> None:
+        layout = solve(gallery.load("residential-house"), trace=True)
+        found = loads(layout.trace, layout)
+        runs = [(own.start, own.end, own.force) for own in found if not own.held]
+        letters = {e.symbol: e for e in layout.trace.of_kind(LetterPlaced, "x") if e.layer == "door"}
+        assert runs[0] == pytest.approx((letters["D"].start, letters["D"].end, 0.1805), abs=1e-4)
+        # What is squeezed starts where what is stretched ends; the canvas takes what is left over.
+        assert [round(force, 3) for _, _, force in runs[1:]] == [0.054, -0.127, 0.054]
+        assert [run[1] for run in runs[1:-1]] == pytest.approx([run[0] for run in runs[2:]])
+        assert [own.force for own in found if own.held] == pytest.approx([0.0537, -0.0537], abs=1e-3)
+        html = FacadeView(layout).to_html()
+        assert html.count("<img ") == 2
+        drawn = drawing(forced(layout.trace, layout))
+        strokes = [own.get("stroke") for own in drawn.iter(f"{SVG}path")]
+        arrows = [own for own in drawn.iter(f"{SVG}path") if own.get("stroke-width") == "1.6"]
+        assert len(arrows) == 2 * len(runs) + 2
+        assert strokes.count("#d0202c") == 2 + 1  # two arrows and the line between them
+
+    def test_without_forces_the_static_facade_is_the_elevation(self) -> None:
+        layout = solve(gallery.load("figure-8"), trace=True)
+        assert forced(layout.trace, layout) == ""
+        assert FacadeView(layout).to_html().count("<img ") == 1
 
     def test_rows_are_called_as_in_the_page(self) -> None:
         groups = ["one", "two"]

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 from ...design import DesignError
 from ...solver import Layout, Trace
 from ..parts import picture
+from .forced import forced
 from .sheet import MUTED, Sheet
 from .timeline import timeline
-from .view import TraceView
+from .view import LARGEST, TraceView
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,7 +27,7 @@ class FacadeView(TraceView):
     """The elevation, shape by shape; letters as strips before there are shapes."""
 
     _shows = "facade"
-    _needs = ("facade", "placing")
+    _needs = ("facade", "placing", "sizing", "alignment")
 
     @property
     def frame(self) -> pd.DataFrame:
@@ -34,8 +35,13 @@ class FacadeView(TraceView):
         return self.model.trace.path()
 
     def to_html(self) -> str:
-        """The elevation; one that is too large for that as rectangles; empty where there is no layout."""
-        return drawn(self.model.trace)
+        """The elevation, one that is too large as rectangles, and the forces on it; empty where there is no layout."""
+        trace = self.model.trace
+        picture = drawn(trace)
+        if not picture:
+            return ""
+        forces = forced(trace, trace.replay())
+        return picture + forces if len((picture + forces).encode()) <= LARGEST else picture
 
 
 def drawn(trace: Trace) -> str:

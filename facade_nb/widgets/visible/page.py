@@ -33,7 +33,7 @@ class SolverView(TraceView):
     """
 
     _shows = "solver"
-    _needs = ("facade", "placing", "analysis", "words", "candidates")
+    _needs = ("facade", "placing", "sizing", "alignment", "analysis", "words", "candidates")
 
     views = List(Unicode(), ["facade", "player"]).tag(sync=True)
     follow = Bool(True).tag(sync=True)

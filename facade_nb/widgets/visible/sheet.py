@@ -9,7 +9,7 @@ from html import escape
 from ...render.style import num
 from ...solver.events import LetterNote
 
-__all__ = ["ARC", "HUES", "INK", "MUTED", "PATH", "STEP", "Sheet", "shortened", "spelled", "table"]
+__all__ = ["ARC", "HUES", "INK", "MUTED", "PAPER", "PATH", "STEP", "Sheet", "shortened", "spelled", "table"]
 
 HUES = (
     "#d9b48f", "#8fb8d8", "#b9cf8c", "#e3a1a1", "#b7a8d8", "#8ecfc0", "#ead27a", "#c9c4bb", "#e2b0d2", "#a3b1bd",
@@ -96,13 +96,18 @@ class Sheet:
         path = "".join(f"M{x:.1f} {y:.1f}h{w:.1f}v{h:.1f}h-{w:.1f}z" for x, y, w, h in rects)
         self._parts.append(f'<path class="h{hue % len(HUES)}" stroke-width=".4" d="{path}"/>')
 
-    def arrow(self, x0: float, x1: float, y: float, *, stroke: str) -> None:
-        """Draw an arrow from x0 to x1."""
+    def arrow(self, x0: float, x1: float, y: float, *, stroke: str, upright: bool = False) -> None:
+        """Draw an arrow from x0 to x1 at y; upright from y to y, at x."""
         back = 3.0 if x1 > x0 else -3.0
+        points = ((x0, y), (x1, y), (x1 - back, y - 3), (x1, y), (x1 - back, y + 3))
+        tail, tip, *head = (f"{num(b)} {num(a)}" if upright else f"{num(a)} {num(b)}" for a, b in points)
         self._parts.append(
-            f'<path d="M{num(x0)} {num(y)}H{num(x1)}M{num(x1 - back)} {num(y - 3)}L{num(x1)} {num(y)}'
-            f'L{num(x1 - back)} {num(y + 3)}" fill="none" stroke="{stroke}" stroke-width="1.6"/>'
+            f'<path d="M{tail}L{tip}M{"L".join(head)}" fill="none" stroke="{stroke}" stroke-width="1.6"/>'
         )
+
+    def rule(self, x0: float, x1: float, y: float, *, stroke: str, upright: bool = False) -> None:
+        """Draw a line from x0 to x1 at y; upright from y to y, at x."""
+        self.line(*((y, x0, y, x1) if upright else (x0, y, x1, y)), stroke=stroke)
 
     def dot(self, x: float, y: float, r: float, *, stroke: str = INK) -> None:
         """Draw a small circle."""

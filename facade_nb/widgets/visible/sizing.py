@@ -15,7 +15,7 @@ from .view import TraceView
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["SizingView", "said"]
+__all__ = ["SizingView", "forces", "said"]
 
 _ROWS = 60
 _TINY = 1e-6
@@ -78,7 +78,7 @@ def _draw(sheet: Sheet, trace: Trace, posed: SystemPosed, answer: SystemSolved) 
     letters = trace.of_kind(LetterPlaced, axis)
     canvas = max((e.end for e in letters), default=1.0)
     scale = _SCALE / canvas
-    pulls = _forces(posed, answer)
+    pulls = forces(posed, answer)
     largest = max((abs(force) for force in pulls.values()), default=0.0)
     top = sheet.height
     for g, path in enumerate(paths):
@@ -130,7 +130,7 @@ def _arrows(sheet: Sheet, x0: float, x1: float, y: float, force: float) -> None:
 _PLACE = re.compile(r"(\d+):(\d+)-(\d+)-(\d+)")
 
 
-def _forces(posed: SystemPosed, answer: SystemSolved) -> Mapping[tuple[int, ...], float]:
+def forces(posed: SystemPosed, answer: SystemSolved) -> Mapping[tuple[int, ...], float]:
     """The multiplier of the row that gives a letter its size, by group, band, column and place."""
     n = len(posed.variables)
     return {

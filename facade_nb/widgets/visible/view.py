@@ -19,9 +19,9 @@ from .model import TraceModel
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["TraceView"]
+__all__ = ["LARGEST", "TraceView"]
 
-_LARGEST = 120_000
+LARGEST = 120_000
 """Bytes of the static form up to which a saved notebook carries it."""
 
 
@@ -92,6 +92,6 @@ class TraceView(AnyWidget):
             static = self.to_html()
             if static and self.predict:  # the static form is the answer: a reader should ask for it
                 static = f"<details><summary>The answer</summary>{static}</details>"
-            if static and len(static.encode()) <= _LARGEST:
+            if static and len(static.encode()) <= LARGEST:
                 made[0]["text/html"] = static
         return made

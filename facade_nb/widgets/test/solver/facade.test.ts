@@ -1,4 +1,4 @@
-import { afterEach, describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 import { target } from "../../src/solver/links.ts";
 import { facade } from "../../src/solver/views/facade.ts";
 import { type Shown, show } from "./fixtures.ts";
@@ -59,5 +59,75 @@ describe("the façade", () => {
     expect(drawn()).toBe(0);
     expect(note()).toBe(one.timeline.data.failure);
     expect(note()).not.toBe("");
+  });
+
+  describe("under the forces of the sizing", () => {
+    const loads = (): Element[] => [...one.view.el.querySelectorAll(".fnb-loads .fnb-load")];
+    const kinds = (): (string | null)[] => loads().map((each) => each.getAttribute("data-kind"));
+    const legend = (): string => one.view.el.querySelector(".fnb-legend:not([hidden])")?.textContent ?? "";
+    const choose = (label: string) =>
+      one.view.controls?.[1]?.querySelector<HTMLElement>(`[aria-label="${label}"]`)?.click();
+    const at = (kind: string): number =>
+      [...one.timeline.data.kind].findIndex((_, n) => one.timeline.kindAt(n) === kind);
+
+    it("shows what is stretched, what is squeezed, and the canvas that holds it, once the system is solved", async () => {
+      one = await show(facade, "residential-house");
+      expect(loads()).toHaveLength(0);
+      expect(legend()).toBe("");
+      const solved = at("SystemSolved");
+      one.go(solved - 1);
+      expect(loads()).toHaveLength(0);
+      expect(legend()).toBe("The forces along x are known when its system is solved.");
+      one.go(solved);
+      // The door; A B A before the squeezed B in the middle, and after it; both ends of the canvas.
+      expect(kinds()).toEqual(["pull", "pull", "push", "pull", "hold", "hold"]);
+      expect(legend()).toBe("Forces along xstretched, pullssqueezed, pushesheld by the canvaslargest 0.18 m² per m");
+      const titles = [...one.view.el.querySelectorAll(".fnb-load-letter title")].map((each) => each.textContent);
+      expect(titles).toHaveLength(8);
+      expect(titles[0]).toMatch(/^1-4-1 D, 1\.19 m: it is stretched, and pulls with 0\.18 m² per m$/);
+      one.go(one.timeline.last);
+      expect(loads()).toHaveLength(0);
+      choose("Show the forces of the horizontal axis");
+      expect(kinds()).toHaveLength(6);
+      choose("Show no forces");
+      expect([loads().length, legend()]).toEqual([0, ""]);
+      choose("Show the forces of the vertical axis");
+      expect(legend()).toBe("No forces along y: every symbol has the size that it likes.");
+    });
+
+    it("passes a force on from letter to letter, and its arrows are as long as it is large", async () => {
+      one = await show(facade, "apartment-house");
+      choose("Show the forces of the vertical axis");
+      const letters = one.view.el.querySelectorAll(".fnb-load-letter");
+      expect(letters).toHaveLength(8);
+      expect(kinds()).toEqual(["pull", "pull", "hold", "hold"]);
+      choose("Show the forces of the horizontal axis");
+      /** Units from the first point of an arrow to its tip, and which way. */
+      const long = (each: Element): number => {
+        const [from = 0, to = 0] = [
+          ...(each.querySelector(".fnb-load-arrow")?.getAttribute("d") ?? "").matchAll(/[ML]([\d.-]+) /g),
+        ].map(([, x]) => Number(x));
+        return to - from;
+      };
+      const [first, last] = [loads().filter((each) => each.getAttribute("data-kind") === "hold")[0], loads()[0]];
+      expect(long(last as Element) / long(first as Element)).toBeCloseTo(-1, 1); // 0.0117 both: the canvas holds it
+    });
+
+    it("lights up with the equation, and is not shown while a view asks, or of a candidate", async () => {
+      one = await show(facade, "residential-house");
+      choose("Show the forces of the horizontal axis");
+      const row = one.view.el.querySelector(".fnb-load-letter")?.getAttribute("data-link")?.split(" ")[0] ?? "";
+      expect(row).toBe(target.row("x", "1:0-3-0 = |D|"));
+      one.links.hover([row]);
+      one.view.light?.();
+      expect(one.view.el.querySelectorAll(".fnb-load-letter[data-lit]")).toHaveLength(1);
+      one.asking.set(one, 5);
+      one.go(one.player.position);
+      expect([loads().length, legend()]).toEqual([0, "Forces are not shown while a view asks."]);
+      one.asking.set(one, null);
+      one.links.pick([target.candidate("x", 1)]);
+      await vi.waitFor(() => expect(legend()).toBe("Forces are told of the layout only."));
+      expect(loads()).toHaveLength(0);
+    });
   });
 });

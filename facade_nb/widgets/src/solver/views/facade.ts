@@ -1,5 +1,5 @@
-// The façade as the events build it: letters as strips while they are placed, then shape by shape; and what is lit
-// anywhere is outlined on it.
+// The façade as the events build it: letters as strips while they are placed, then shape by shape; the forces that the
+// sizing finds; and what is lit anywhere is outlined on it.
 
 import { h, mark, setText, svg } from "../../dom.ts";
 import { type Box, boxOf, type Drawing, parseDrawing } from "../../drawing.ts";
@@ -7,8 +7,11 @@ import { icon } from "../../icons.ts";
 import { themeOf } from "../../theme.ts";
 import type { Alternative } from "../alternatives.ts";
 import { linked, target } from "../links.ts";
+import type { PathNote } from "../network/story.ts";
 import { type Rebuilt, rebuilt } from "../placed.ts";
 import { type PlacedLetter, Placing, type PlacingData } from "../placing.ts";
+import { type Drawn, drawLoads, loadLegend, loadsOf } from "../sizing/loads.ts";
+import { type SizingEvent, type System, systemsOf } from "../sizing/system.ts";
 import { type Axis, played } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
 
@@ -19,12 +22,23 @@ interface FacadeData {
 }
 
 const PREFIX = "fnb-traced";
+type Forces = "auto" | Axis | "off";
+
+const FORCES: [Forces, string][] = [
+  ["auto", "Show forces while the sizing is played"],
+  ["x", "Show the forces of the horizontal axis"],
+  ["y", "Show the forces of the vertical axis"],
+  ["off", "Show no forces"],
+];
+
+const ROOM = { width: 620, height: 360 }; // pixels that the drawing has, about
 const PLAIN = 24; // pixels per metre of the plain frame, where there is no drawing
 
 export const facade: ViewKind = {
   title: "Façade",
   subtitle: "What the events have built so far",
   needs: ["facade", "placing"],
+  wants: ["sizing", "alignment"],
   make: (context) => new FacadeView(context),
 };
 
@@ -37,6 +51,12 @@ class FacadeView implements View {
   private readonly other = svg("g", { class: "fnb-traced-other" });
   private copies: Rebuilt[] = [];
   private readonly strips = svg("g");
+  private readonly loads = svg("g", { class: "fnb-loads" });
+  private readonly legend = h("p", { class: "fnb-legend", role: "note", "aria-label": "Forces", hidden: true });
+  private drawn: Drawn[] = [];
+  private readonly systems: Partial<Record<Axis, System>>;
+  private forces: Forces = "auto";
+  private loadsBy = "";
   private readonly marks = svg("g");
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
   readonly controls: HTMLElement[];
@@ -52,7 +72,9 @@ class FacadeView implements View {
   constructor(private readonly context: ViewContext) {
     this.data = context.pieces.facade as FacadeData;
     this.placing = new Placing(context.pieces.placing as PlacingData, context.timeline.data.chosen);
-    this.el = h("div", { class: "fnb-traced", "data-preview": true }, this.sheet, this.note);
+    const events = (context.pieces.sizing as { events: SizingEvent[] } | undefined)?.events ?? [];
+    this.systems = systemsOf(events, (context.pieces.alignment as { paths: PathNote[] } | undefined)?.paths ?? []);
+    this.el = h("div", { class: "fnb-traced", "data-preview": true }, this.sheet, this.legend, this.note);
     const { letters, boundaries } = this.placing;
     this.placed = [...letters, ...boundaries].map((own) => own.at).sort((a, b) => a - b);
     const toggle = h(
@@ -67,7 +89,7 @@ class FacadeView implements View {
       mark(toggle, "aria-pressed", String(this.preview));
       context.refresh();
     });
-    this.controls = [toggle];
+    this.controls = Object.keys(this.systems).length ? [toggle, this.choice()] : [toggle];
     const observer = new MutationObserver(() => context.refresh());
     observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
     context.signal.addEventListener("abort", () => observer.disconnect());
@@ -76,6 +98,11 @@ class FacadeView implements View {
 
   show(position: number): void {
     this.dress();
+    this.build(position);
+    this.load(position);
+  }
+
+  private build(position: number): void {
     const drawn = played(this.data.shapes, position);
     const { alternatives } = this.context;
     const other = alternatives.at(position, alternatives.axis ?? "x");
@@ -96,6 +123,18 @@ class FacadeView implements View {
 
   light(): void {
     const { lit, picked } = this.context.links;
+    for (const { el, keys } of this.drawn) {
+      mark(
+        el,
+        "data-lit",
+        keys.some((key) => lit.has(key)),
+      );
+      mark(
+        el,
+        "data-chosen",
+        keys.some((key) => picked.has(key)),
+      );
+    }
     if (this.el.hasAttribute("data-other")) {
       const of = (keys: ReadonlySet<string>, name: string) =>
         this.copies.filter((own) => own.keys.some((key) => keys.has(key))).map(({ box }) => this.rect(name, box));
@@ -103,6 +142,59 @@ class FacadeView implements View {
       return;
     }
     this.marks.replaceChildren(...this.outlines(picked, "fnb-traced-pick"), ...this.outlines(lit, "fnb-traced-lit"));
+  }
+
+  private choice(): HTMLElement {
+    const tabs = FORCES.map(([name, title]) => {
+      const tab = h(
+        "button",
+        { type: "button", class: "fnb-tab", title, "aria-label": title, "aria-pressed": String(name === this.forces) },
+        name,
+      );
+      tab.addEventListener("click", () => {
+        this.forces = name;
+        for (const [n, [other]] of FORCES.entries()) mark(tabs[n] as Element, "aria-pressed", String(other === name));
+        this.context.refresh();
+      });
+      return tab;
+    });
+    const group = h("span", { class: "fnb-tabs", role: "group", "aria-label": "Forces" }, ...tabs);
+    return h("span", { class: "fnb-traced-forces" }, h("span", { class: "fnb-muted" }, "Forces"), group);
+  }
+
+  /** The axis whose forces are shown at a position, by the reader's choice or because its sizing is played. */
+  private loaded(position: number): Axis | null {
+    if (this.forces === "off") return null;
+    if (this.forces !== "auto") return this.forces;
+    const { axis, stage } = this.context.timeline.data.stages[this.context.timeline.stageAt(position)] ?? {};
+    return stage === "sizing" && axis ? axis : null;
+  }
+
+  /** The forces of the layout at a position. A candidate has none, and what is asked may be told by them. */
+  private load(position: number): void {
+    const axis = this.loaded(position);
+    const system = axis ? this.systems[axis] : undefined;
+    const { asking } = this.context;
+    const other = this.el.hasAttribute("data-other");
+    const solved = system?.solved && system.solved.at <= position;
+    const by = [this.theme, axis, solved, asking.on, other].join("|");
+    if (by === this.loadsBy) return;
+    this.loadsBy = by;
+    const shown = solved && !asking.on && !other ? loadsOf(system, system.at(position), this.placing) : null;
+    const { width, height } = this.drawing as Drawing;
+    const unit = Math.max(width / ROOM.width, height / ROOM.height);
+    this.drawn = shown ? drawLoads(shown, this.drawing as Drawing, unit) : [];
+    this.loads.replaceChildren(...this.drawn.map(({ el }) => el));
+    mark(this.el, "data-forces", this.drawn.length > 0);
+    const none = !system
+      ? `The axis ${axis} has no least-squares system.`
+      : asking.on
+        ? "Forces are not shown while a view asks."
+        : other
+          ? "Forces are told of the layout only."
+          : `The forces along ${axis} are known when its system is solved.`;
+    this.legend.replaceChildren(...(shown ? loadLegend(shown) : axis ? [h("span", {}, none)] : []));
+    this.legend.hidden = !axis;
   }
 
   /** Put the drawing of the page's theme in the sheet. */
@@ -138,7 +230,7 @@ class FacadeView implements View {
       height: height * scale,
     });
     picture.prepend(frame);
-    picture.append(this.other, this.strips, this.marks);
+    picture.append(this.other, this.strips, this.loads, this.marks);
     this.sheet.replaceChildren(picture);
   }
 
