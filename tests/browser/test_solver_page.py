@@ -124,6 +124,35 @@ def test_a_chosen_candidate_is_shown_in_all_views(watch: Watch) -> None:
     expect(page.locator(".fnb-traced-other [data-x=C]")).to_have_count(0)
 
 
+def test_a_candidate_longer_than_the_canvas_is_all_in_sight(watch: Watch, out: Path) -> None:
+    lab = watch("view = FacadeView(traced('apartment-house'), player=False); view")
+    page = lab.page
+    judged = "[e for e in view.model.trace.events if type(e).__name__ == 'CandidateJudged' and e.axis == 'x']"
+    number = lab.python(f"max({judged}, key=lambda e: sum(map(len, e.words.values()))).number")
+    lab.python(f"setattr(view.model, 'picked', ['candidate:x:{number}'])")
+    expect(page.locator(".fnb-traced-note")).to_contain_text("beyond the canvas.")
+    for width in (1400, 800):
+        page.set_viewport_size({"width": width, "height": 1000})
+        page.wait_for_timeout(400)
+        sheet, line = (
+            page.locator(selector).bounding_box()
+            for selector in (".fnb-traced-sheet", ".fnb-traced-beyond line")
+        )
+        assert sheet
+        assert line
+        cells = page.locator(".fnb-traced-other .cell").evaluate_all(
+            "all => all.map(each => each.getBoundingClientRect().right)"
+        )
+        assert max(cells) <= sheet["x"] + sheet["width"]
+        assert line["x"] < max(cells) - 50  # the canvas ends before
+        text = page.locator(".fnb-traced-beyond text")
+        expect(text).to_have_text("canvas 21 m")
+        box = text.bounding_box()
+        assert box
+        assert 8 < box["height"] < 24
+    page.screenshot(path=out / "facade-longer.png")
+
+
 def test_a_candidate_is_predicted(watch: Watch) -> None:
     lab = watch("view = CandidatesView(traced('residential-house'), predict=True); view")
     page = lab.page

@@ -61,6 +61,37 @@ describe("the façade", () => {
     expect(note()).not.toBe("");
   });
 
+  it("has all of a candidate that is longer than the canvas in its picture, and marks the canvas", async () => {
+    one = await show(facade, "residential-house");
+    const viewBox = () =>
+      (one.view.el.querySelector(".fnb-traced-sheet > svg")?.getAttribute("viewBox") ?? "").split(" ").map(Number);
+    const [, , width = 0, height] = viewBox();
+    const edge = () => one.view.el.querySelector(".fnb-traced-beyond");
+    one.links.pick([target.candidate("x", 3)]); // (AB)5A, 9 m
+    await vi.waitFor(() => expect(edge()?.querySelector("text")?.textContent).toBe("canvas 6 m"));
+    const boxes = [...one.view.el.querySelectorAll(".fnb-traced-other [data-x]")].map((each) => {
+      const cell = each.querySelector("rect.cell");
+      const [move = 0, by = 1] =
+        (each.getAttribute("transform") ?? "").match(/[\d.-]+/g)?.flatMap((n, k) => (k % 2 ? [] : [Number(n)])) ?? [];
+      return move + by * (Number(cell?.getAttribute("x")) + Number(cell?.getAttribute("width")));
+    });
+    const right = Math.max(...boxes);
+    expect(right).toBeGreaterThan(width);
+    expect(viewBox()[2]).toBeGreaterThan(right);
+    const canvas = one.view.el.querySelector(".fnb-traced-canvas");
+    const end = Number(canvas?.getAttribute("x")) + Number(canvas?.getAttribute("width"));
+    expect(Number(edge()?.querySelector("line")?.getAttribute("x1"))).toBeCloseTo(end);
+    expect(note()).toMatch(/ They reach 3 m beyond the canvas\.$/);
+    one.links.pick([]);
+    expect(viewBox()).toEqual([0, 0, width, height]);
+    expect(edge()?.children).toHaveLength(0);
+    // One that is shorter needs no more room.
+    one.links.pick([target.candidate("x", 4)]);
+    await vi.waitFor(() => expect(note()).toContain("not the layout"));
+    expect(viewBox()).toEqual([0, 0, width, height]);
+    expect(note()).not.toContain("beyond");
+  });
+
   describe("under the forces of the sizing", () => {
     const loads = (): Element[] => [...one.view.el.querySelectorAll(".fnb-loads .fnb-load")];
     const kinds = (): (string | null)[] => loads().map((each) => each.getAttribute("data-kind"));

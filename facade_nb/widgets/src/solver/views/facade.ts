@@ -3,6 +3,7 @@
 
 import { h, mark, setText, svg } from "../../dom.ts";
 import { type Box, boxOf, type Drawing, parseDrawing } from "../../drawing.ts";
+import { formatNumber } from "../../fields.ts";
 import { icon } from "../../icons.ts";
 import { themeOf } from "../../theme.ts";
 import type { Alternative } from "../alternatives.ts";
@@ -31,7 +32,8 @@ const FORCES: [Forces, string][] = [
   ["off", "Show no forces"],
 ];
 
-const ROOM = { width: 620, height: 360 }; // pixels that the drawing has, about
+const ROOM = { width: 620, height: 360 }; // pixels that the drawing has; the width until it is known
+const EDGE = 26; // units of the drawing around what stands out of the canvas
 const PLAIN = 24; // pixels per metre of the plain frame, where there is no drawing
 
 export const facade: ViewKind = {
@@ -50,6 +52,8 @@ class FacadeView implements View {
   private readonly note = h("p", { class: "fnb-traced-note" });
   private readonly other = svg("g", { class: "fnb-traced-other" });
   private copies: Rebuilt[] = [];
+  /** Where the canvas ends, for what is longer. */
+  private readonly edge = svg("g", { class: "fnb-traced-beyond" });
   private readonly strips = svg("g");
   private readonly loads = svg("g", { class: "fnb-loads" });
   private readonly legend = h("p", { class: "fnb-legend", role: "note", "aria-label": "Forces", hidden: true });
@@ -57,6 +61,8 @@ class FacadeView implements View {
   private readonly systems: Partial<Record<Axis, System>>;
   private forces: Forces = "auto";
   private loadsBy = "";
+  /** Pixels that the drawing may be wide. */
+  private room = ROOM.width;
   private readonly marks = svg("g");
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
   readonly controls: HTMLElement[];
@@ -92,7 +98,17 @@ class FacadeView implements View {
     this.controls = Object.keys(this.systems).length ? [toggle, this.choice()] : [toggle];
     const observer = new MutationObserver(() => context.refresh());
     observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
-    context.signal.addEventListener("abort", () => observer.disconnect());
+    const resized = new ResizeObserver(() => {
+      const room = Math.round(this.sheet.clientWidth / 40) * 40;
+      if (!room || room === this.room) return;
+      this.room = room;
+      context.refresh();
+    });
+    resized.observe(this.sheet);
+    context.signal.addEventListener("abort", () => {
+      observer.disconnect();
+      resized.disconnect();
+    });
     requestAnimationFrame(() => context.signal.aborted || context.refresh()); // in the page it has a theme
   }
 
@@ -106,7 +122,7 @@ class FacadeView implements View {
     const drawn = played(this.data.shapes, position);
     const { alternatives } = this.context;
     const other = alternatives.at(position, alternatives.axis ?? "x");
-    const by = [this.theme, drawn, played(this.placed, position), other?.name].join("|");
+    const by = [this.theme, drawn, played(this.placed, position), other?.name, other && this.room].join("|");
     if (by === this.by) return;
     this.by = by;
     for (const [n, shape] of this.shapes.entries()) mark(shape, "data-later", n >= drawn);
@@ -117,8 +133,48 @@ class FacadeView implements View {
     for (const element of [...this.shapes, ...this.finish]) mark(element, "data-hidden", other !== null);
     this.copies = other ? rebuilt(other, this.placing.shapes, this.shapes, this.drawing as Drawing) : [];
     this.other.replaceChildren(...this.copies.map(({ el }) => el));
+    const beyond = this.fit(other);
     this.drawStrips(position, drawn > 0 || other !== null);
-    setText(this.note, other ? this.sayOther(other) : this.say(position, drawn));
+    setText(this.note, other ? `${this.sayOther(other)}${beyond}` : this.say(position, drawn));
+  }
+
+  /** Units of a drawing to a pixel. */
+  private unit(width: number, height: number): number {
+    return Math.max(width / this.room, height / ROOM.height);
+  }
+
+  /** Have all of a candidate in the picture, with the canvas marked where it is longer. Gives what there is to say of that. */
+  private fit(other: Alternative | null): string {
+    const { svg: picture, width, height, scale, origin } = this.drawing as Drawing;
+    const { canvas } = this.context.timeline.data;
+    const [right, top] = [origin.x + canvas.x * scale, origin.y - canvas.y * scale];
+    const across = other?.note.axis !== "y";
+    const ends = this.copies.map(({ box }) => (across ? box.x + box.width : box.y));
+    const end = across ? Math.max(right, ...ends) : Math.min(top, ...ends);
+    const long = across ? end - right : top - end;
+    if (!other || long < 1) {
+      picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
+      this.edge.replaceChildren();
+      return "";
+    }
+    const wide = across ? Math.max(width, end + EDGE) : width;
+    const up = across ? 0 : Math.min(0, end - EDGE);
+    picture.setAttribute("viewBox", `0 ${up} ${wide} ${height - up}`);
+    const out = across
+      ? { x: right, y: top, width: long, height: origin.y - top }
+      : { x: origin.x, y: end, width: right - origin.x, height: long };
+    const line = across
+      ? { x1: right, x2: right, y1: top - EDGE / 2, y2: origin.y + EDGE / 2 }
+      : { x1: origin.x - EDGE / 2, x2: right + EDGE / 2, y1: top, y2: top };
+    const unit = this.unit(wide, height - up);
+    const at = across ? { x: right - 6, y: top - 6 } : { x: right, y: top - 6 };
+    const size = other.note.axis === "x" ? canvas.x : canvas.y;
+    this.edge.replaceChildren(
+      this.rect("fnb-traced-out", out),
+      svg("line", line),
+      svg("text", { ...at, "font-size": (11 * unit).toFixed(1) }, `canvas ${formatNumber(size)} m`),
+    );
+    return ` They reach ${formatNumber(long / scale)} m beyond the canvas.`;
   }
 
   light(): void {
@@ -177,12 +233,12 @@ class FacadeView implements View {
     const { asking } = this.context;
     const other = this.el.hasAttribute("data-other");
     const solved = system?.solved && system.solved.at <= position;
-    const by = [this.theme, axis, solved, asking.on, other].join("|");
+    const by = [this.theme, axis, solved, asking.on, other, this.room].join("|");
     if (by === this.loadsBy) return;
     this.loadsBy = by;
     const shown = solved && !asking.on && !other ? loadsOf(system, system.at(position), this.placing) : null;
     const { width, height } = this.drawing as Drawing;
-    const unit = Math.max(width / ROOM.width, height / ROOM.height);
+    const unit = this.unit(width, height);
     this.drawn = shown ? drawLoads(shown, this.drawing as Drawing, unit) : [];
     this.loads.replaceChildren(...this.drawn.map(({ el }) => el));
     mark(this.el, "data-forces", this.drawn.length > 0);
@@ -230,7 +286,7 @@ class FacadeView implements View {
       height: height * scale,
     });
     picture.prepend(frame);
-    picture.append(this.other, this.strips, this.loads, this.marks);
+    picture.append(this.other, this.edge, this.strips, this.loads, this.marks);
     this.sheet.replaceChildren(picture);
   }
 
