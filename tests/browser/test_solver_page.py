@@ -153,6 +153,38 @@ def test_a_candidate_longer_than_the_canvas_is_all_in_sight(watch: Watch, out: P
     page.screenshot(path=out / "facade-longer.png")
 
 
+def test_figures_of_candidates_stay_in_sight(watch: Watch) -> None:
+    """Words have a line of their own where they have no room beside the figures; what is cut off is told on hover."""
+    lab = watch("CandidatesView(traced('concert-hall'), player=False)")
+    page = lab.page
+    row = page.locator(".fnb-candidate[data-fate=best]")
+    for width, stacked in ((1900, False), (980, True), (800, True)):
+        page.set_viewport_size({"width": width, "height": 1000})
+        expect(page.locator(".fnb-candidates[data-stacked]")).to_have_count(int(stacked))
+        page.wait_for_timeout(200)
+        view = page.locator(".fnb-view").bounding_box()
+        scrolled = page.locator(".fnb-candidate-scroll").evaluate("e => e.scrollWidth - e.clientWidth")
+        cells = [each.bounding_box() for each in row.locator("[role=cell]").all()]
+        assert view
+        assert scrolled == 0
+        assert len(cells) > 15
+        assert all(box and box["x"] + box["width"] <= view["x"] + view["width"] for box in cells)
+        tops = [box["y"] for box in cells if box]
+        assert (max(tops) - min(tops) > 15) == stacked
+    long = row.locator(".fnb-candidate-word").nth(1)
+    assert long.evaluate("e => e.scrollWidth > e.clientWidth")
+    expect(long).to_have_attribute("title", re.compile(r"^E V I U I U"))
+    # Rows in sight are as high as the list reckons with: the last one is reached.
+    page.locator(".fnb-candidate-table .fnb-rows").evaluate("e => e.scrollTo(0, 1e6)")
+    bottom = page.locator(".fnb-candidate-table .fnb-rows").bounding_box()
+    last = page.locator(".fnb-rows .fnb-candidate").last
+    expect(last.locator(".fnb-candidate-number").first).to_have_text("83")
+    box = last.bounding_box()
+    assert box
+    assert bottom
+    assert box["y"] + box["height"] == pytest.approx(bottom["y"] + bottom["height"], abs=2)
+
+
 def test_a_candidate_is_predicted(watch: Watch) -> None:
     lab = watch("view = CandidatesView(traced('residential-house'), predict=True); view")
     page = lab.page

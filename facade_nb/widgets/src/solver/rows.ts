@@ -17,8 +17,8 @@ export interface Rows<T> {
 }
 
 /**
- * @param height of a row, in pixels
- * @param most rows that are in sight at once
+ * @param height of a row, in pixels; it may be another one whenever items are set
+ * @param most rows that are in sight at once, likewise
  * @param key names an item, and all that its row depends on: while it is the same, the row stays
  * @param make makes the row of an item
  * @param drawn is called after rows were made
@@ -33,7 +33,7 @@ export function rows<T>(
   },
   signal: AbortSignal,
 ): Rows<T> {
-  const { height, most, key, make } = options;
+  const { key, make } = options;
   const above = h("div", { "aria-hidden": "true" });
   const below = h("div", { "aria-hidden": "true" });
   const body = h("div", { role: "rowgroup" });
@@ -46,11 +46,11 @@ export function rows<T>(
   let drawn = new Map<string, HTMLElement>();
 
   const draw = () => {
-    const first = Math.max(0, Math.floor(top / height) - AROUND);
-    const last = Math.min(items.length, first + most + 2 * AROUND);
+    const first = Math.max(0, Math.floor(top / options.height) - AROUND);
+    const last = Math.min(items.length, first + options.most + 2 * AROUND);
     window = [first, last];
-    above.style.height = `${first * height}px`;
-    below.style.height = `${(items.length - last) * height}px`;
+    above.style.height = `${first * options.height}px`;
+    below.style.height = `${(items.length - last) * options.height}px`;
     const next = new Map(items.slice(first, last).map((item) => [key(item), item]));
     for (const [name, row] of drawn) if (!next.has(name)) row.remove();
     let at = body.firstElementChild;
@@ -68,8 +68,8 @@ export function rows<T>(
     "scroll",
     () => {
       top = el.scrollTop;
-      const first = Math.floor(top / height);
-      const inside = first >= window[0] && Math.min(items.length, first + most) <= window[1];
+      const first = Math.floor(top / options.height);
+      const inside = first >= window[0] && Math.min(items.length, first + options.most) <= window[1];
       if (!inside) draw();
     },
     { signal },
@@ -78,7 +78,7 @@ export function rows<T>(
     if (!signal.aborted) el.scrollTop = top;
   };
   const go = (next: number) => {
-    top = Math.max(0, Math.min(next, (items.length - Math.min(items.length, most)) * height));
+    top = Math.max(0, Math.min(next, (items.length - Math.min(items.length, options.most)) * options.height));
     afterDrawing(scroll);
   };
   // A list that is not in the page cannot be scrolled: it is when it has come to stand there.
@@ -94,17 +94,17 @@ export function rows<T>(
       const moved = next.length !== items.length || now !== spoken;
       items = next;
       spoken = now;
-      const room = Math.min(items.length, most) * height;
+      const room = Math.min(items.length, options.most) * options.height;
       el.style.height = `${room}px`;
       el.setAttribute("aria-rowcount", String(items.length));
-      if (moved) go(now < 0 ? 0 : (now + 0.5) * height - room / 2);
+      if (moved) go(now < 0 ? 0 : (now + 0.5) * options.height - room / 2);
       draw();
     },
     reveal(index) {
-      const room = Math.min(items.length, most) * height;
-      const at = index * height;
-      if (index < 0 || (at >= top && at + height <= top + room)) return;
-      go(at + height / 2 - room / 2);
+      const room = Math.min(items.length, options.most) * options.height;
+      const at = index * options.height;
+      if (index < 0 || (at >= top && at + options.height <= top + room)) return;
+      go(at + options.height / 2 - room / 2);
       draw();
     },
   };

@@ -15,6 +15,11 @@ import type { View, ViewContext, ViewKind } from "../view.ts";
 
 const HEIGHT = 27;
 const MOST = 14;
+const STACKED = 47; // pixels of a row whose words stand on a line of their own
+const FEWER = 9;
+const WORD = 90; // pixels that a word has at least beside the figures
+const GAP = 8;
+const BAR = 24;
 
 const FATES: Record<string, string> = {
   best: "It is the layout.",
@@ -115,13 +120,16 @@ class CandidatesView implements View {
   });
   private sorted: { name: string; down: boolean } = { name: "number", down: false };
   private columns: Column[] = [];
-  private seen: Candidate[] = [];
   private now = -1;
   private scale = 1;
   private axis: Axis | null = null;
   private headed = "";
   private explained = "";
   private by = "";
+  /** Pixels that there are; 0 where that is not known. */
+  private width = 0;
+  /** Whether there is no room for the words beside the figures: then they stand below them. */
+  private stacked = false;
 
   constructor(private readonly context: ViewContext) {
     const { events } = context.pieces.candidates as { events: Candidate[] };
@@ -129,10 +137,16 @@ class CandidatesView implements View {
     this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.typed.addEventListener("input", context.refresh);
     this.controls = [this.choice.el, this.typed];
+    const tall = () => (this.stacked ? STACKED : HEIGHT);
+    const most = () => (this.stacked ? FEWER : MOST);
     this.list = rows<Candidate>(
       {
-        height: HEIGHT,
-        most: MOST,
+        get height() {
+          return tall();
+        },
+        get most() {
+          return most();
+        },
         key: (own) => `${own.axis}${own.number} ${own.at === this.now} ${this.quiz.stamp}`,
         make: (own) => this.row(own),
         drawn: () => context.links.apply(this.el),
@@ -163,6 +177,12 @@ class CandidatesView implements View {
           ]
         : [{ prompt: "There are no two candidates to choose from.", truths: () => new Map() }];
     });
+    const observer = new ResizeObserver(() => {
+      this.width = this.el.clientWidth;
+      if (this.narrow() !== this.stacked) context.refresh();
+    });
+    observer.observe(this.el);
+    context.signal.addEventListener("abort", () => observer.disconnect());
   }
 
   show(position: number): void {
@@ -171,19 +191,19 @@ class CandidatesView implements View {
     // A prediction is made before anything is known: it is of all candidates.
     const seen = this.quiz.hides ? own : own.filter((each) => each.at <= position);
     const now = !this.quiz.hides && seen.at(-1)?.at === position ? position : -1;
-    const by = [axis, seen.length, now, this.quiz.stamp, this.typed.value, this.sorted.name, this.sorted.down].join(
-      "|",
-    );
-    if (by === this.by) return;
-    this.by = by;
-    this.seen = seen;
-    this.now = now;
     if (axis !== this.axis) {
       this.axis = axis;
       this.scale = Math.max(1e-9, ...own.map((each) => Math.max(each.cost ?? 0, each.bound)).filter((n) => n < 1e6));
       this.columns = this.columnsOf(own);
-      this.headed = "";
+      this.headed = this.by = "";
     }
+    this.stacked = this.narrow();
+    const { name, down } = this.sorted;
+    const by = [axis, seen.length, now, this.quiz.stamp, this.typed.value, name, down, this.stacked].join("|");
+    if (by === this.by) return;
+    this.by = by;
+    this.now = now;
+    mark(this.el, "data-stacked", this.stacked);
     const holds = filter(this.typed.value);
     const shown = seen.filter((each) => holds(filterable(each)));
     this.sort(shown);
@@ -239,7 +259,16 @@ class CandidatesView implements View {
   }
 
   private patterns(): string[] {
-    return Object.keys(this.seen[0]?.words ?? {});
+    return Object.keys((this.axis ? this.told[this.axis][0] : undefined)?.words ?? {});
+  }
+
+  /** Pixels of the figures. */
+  private figures(): number {
+    return this.columns.reduce((sum, { width }) => sum + Number.parseFloat(width) + GAP, 2 * 12);
+  }
+
+  private narrow(): boolean {
+    return this.width > 0 && this.width < this.figures() + 80 + this.patterns().length * (WORD + GAP);
   }
 
   private sort(shown: Candidate[]): void {
@@ -259,16 +288,16 @@ class CandidatesView implements View {
   }
 
   private drawHead(own: readonly Candidate[]): void {
-    const by = [this.sorted.name, this.sorted.down, this.seen.length > 0].join();
+    const by = [this.sorted.name, this.sorted.down, this.stacked].join();
     if (by === this.headed) return;
     this.headed = by;
     const patterns = this.patterns();
-    const widths = [
-      ...this.columns.map((each) => each.width),
-      "80px",
-      ...patterns.map((name) => `minmax(90px, ${widest(own, name)}fr)`),
-    ];
-    this.el.style.setProperty("--fnb-columns", widths.join(" "));
+    const figures = this.columns.map((each) => each.width);
+    const words = (least: number) => patterns.map((name) => `minmax(${least}px, ${widest(own, name)}fr)`);
+    const columns = this.stacked ? [...figures, `minmax(${BAR}px, 1fr)`] : [...figures, "80px", ...words(WORD)];
+    this.el.style.setProperty("--fnb-columns", columns.join(" "));
+    this.el.style.setProperty("--fnb-words", words(0).join(" "));
+    this.el.style.setProperty("--fnb-figures", `${this.figures() + BAR}px`);
     const sorter = (name: string, label: string, title: string, number: boolean) => {
       const active = this.sorted.name === name;
       const sort = h(
@@ -291,7 +320,11 @@ class CandidatesView implements View {
     this.head.replaceChildren(
       ...this.columns.map((each) => sorter(each.name, each.label, each.title, each.name !== "fate")),
       h("span", { role: "columnheader", title: "From what it costs at least to what it costs" }, ""),
-      ...patterns.map((name) => sorter(name, name, `Word of ${name}`, false)),
+      h(
+        "span",
+        { class: "fnb-candidate-words", role: "presentation" },
+        ...patterns.map((name) => sorter(name, name, `Word of ${name}`, false)),
+      ),
     );
     if (focused)
       this.head.querySelector<HTMLElement>(`.fnb-sort[title=${CSS.escape(focused)}]`)?.focus({ preventScroll: true });
@@ -333,7 +366,7 @@ class CandidatesView implements View {
       },
       ...cells,
       this.bar(own, hides),
-      ...words,
+      h("span", { class: "fnb-candidate-words", role: "presentation" }, ...words),
     );
   }
 
