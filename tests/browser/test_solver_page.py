@@ -195,6 +195,19 @@ def test_a_candidate_is_predicted(watch: Watch) -> None:
     lab.expect_python("view.answer", {"right": ["0"], "wrong": [], "missed": []})
 
 
+def test_what_can_be_chosen_begins_at_the_top(watch: Watch) -> None:
+    """Also where the list was scrolled to the candidate that is played."""
+    lab = watch("CandidatesView(traced('apartment-house'), at='x/candidates+60')")
+    page = lab.page
+    rows = page.locator(".fnb-candidate-table .fnb-rows")
+    expect(rows.locator("[data-now]")).to_be_visible()
+    assert rows.evaluate("e => e.scrollTop") > 500
+    lab.button("Predict").click()
+    expect(page.locator(".fnb-candidate-count")).to_have_text("504 candidates")
+    page.wait_for_timeout(300)
+    assert rows.evaluate("e => e.scrollTop") == 0
+
+
 def test_the_equation_of_a_pair_is_predicted(watch: Watch, out: Path) -> None:
     lab = watch("view = AnalysisView(traced('apartment-house'), predict=True, at='x/analysis+9'); view")
     page = lab.page

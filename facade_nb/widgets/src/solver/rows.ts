@@ -40,6 +40,7 @@ export function rows<T>(
   const el = h("div", { class: "fnb-rows" }, above, body, below);
   let items: readonly T[] = [];
   let spoken = -1;
+  let tall = 0;
   /** Where the list is scrolled to. The page is not asked for it: it would have to be laid out for that. */
   let top = 0;
   let window: [number, number] = [-1, -1];
@@ -91,7 +92,8 @@ export function rows<T>(
   return {
     el,
     set(next, now = -1) {
-      const moved = next.length !== items.length || now !== spoken;
+      const moved = next.length !== items.length || now !== spoken || options.height !== tall;
+      tall = options.height;
       items = next;
       spoken = now;
       const room = Math.min(items.length, options.most) * options.height;

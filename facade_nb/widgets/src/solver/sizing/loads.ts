@@ -159,8 +159,9 @@ export function drawLoads(loads: Loads, { scale, origin }: Drawing, unit: number
   /** An arrow from a place along the axis, so many units on. */
   const arrow = (along: number, across: number, by: number): string => {
     const tip = along + by / scale;
-    const back = tip - (Math.sign(by) * unit * HEAD) / scale;
-    const wing = (way: number) => point(back, across, way * unit * HEAD);
+    const head = Math.min(unit * HEAD, Math.abs(by));
+    const back = tip - (Math.sign(by) * head) / scale;
+    const wing = (way: number) => point(back, across, way * head);
     return line(point(along, across), point(tip, across)) + line(wing(1), point(tip, across), wing(-1));
   };
   const shape = (name: string, kind: string, ...children: SVGElement[]) => {

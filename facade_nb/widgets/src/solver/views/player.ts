@@ -53,7 +53,7 @@ class PlayerView implements View {
       context.signal,
     );
     this.code.append(this.title, this.text);
-    const log = h("div", { class: "fnb-events", role: "table", "aria-label": "Events" }, this.list.el, this.kept);
+    const log = h("div", { class: "fnb-events", role: "table", "aria-label": "Events" }, this.kept, this.list.el);
     this.el = h("div", { class: "fnb-player" }, log, this.code);
     const toggle = h(
       "button",
