@@ -34,6 +34,8 @@ export function standing({ groups }: Alternative): Map<string, Standing[]> {
   return found;
 }
 
+const symbols = ({ layer, x, y }: PlacedShape): string => [layer, x, y].join("|");
+
 /** A copy of a shape: where it stands in the drawing, and the targets that it shows. */
 export interface Rebuilt {
   el: SVGGElement;
@@ -54,6 +56,12 @@ export function rebuilt(
 ): Rebuilt[] {
   const { axis } = own.note;
   const letters = standing(own);
+  // A shape that is behind others in the layout is drawn plain; one of the same symbols that is not has all its parts.
+  const fullest = new Map<string, SVGGElement>();
+  for (const [n, shape] of shapes.entries()) {
+    const [element, before] = [elements[n], fullest.get(symbols(shape))];
+    if (element && element.childElementCount > (before?.childElementCount ?? 0)) fullest.set(symbols(shape), element);
+  }
   const seen = new Set<string>();
   const made: Rebuilt[] = [];
   for (const [n, shape] of shapes.entries()) {
@@ -65,10 +73,12 @@ export function rebuilt(
     if (!element || seen.has(key)) continue; // a letter's shape stands once in every row of the other axis
     seen.add(key);
     const box = boxOf(element);
+    const source = fullest.get(symbols(shape)) ?? element;
+    const like = boxOf(source);
     for (const letter of letters.get(shape.layer) ?? []) {
       if (letter.symbol !== symbol) continue;
       const size = (letter.end - letter.start) * scale;
-      const copy = element.cloneNode(true) as SVGGElement;
+      const copy = source.cloneNode(true) as SVGGElement;
       for (const name of [
         "data-shape",
         "data-later",
@@ -79,15 +89,13 @@ export function rebuilt(
         "data-chosen",
       ])
         copy.removeAttribute(name);
-      const [from, long] = axis === "x" ? [box.x, box.width] : [box.y, box.height];
       const to = axis === "x" ? origin.x + letter.start * scale : origin.y - letter.end * scale;
-      const by = size / Math.max(long, 1e-9);
-      const move = (to - from * by).toFixed(3);
+      const stands = axis === "x" ? { ...box, x: to, width: size } : { ...box, y: to, height: size };
+      const [sx, sy] = [stands.width / Math.max(like.width, 1e-9), stands.height / Math.max(like.height, 1e-9)];
+      const [dx, dy] = [stands.x - like.x * sx, stands.y - like.y * sy];
       copy.setAttribute(
         "transform",
-        axis === "x"
-          ? `translate(${move} 0) scale(${by.toFixed(5)} 1)`
-          : `translate(0 ${move}) scale(1 ${by.toFixed(5)})`,
+        `translate(${dx.toFixed(3)} ${dy.toFixed(3)}) scale(${sx.toFixed(5)} ${sy.toFixed(5)})`,
       );
       const keys = [
         target.letter(axis, shape.layer, letter.letter),
@@ -95,7 +103,6 @@ export function rebuilt(
         target.symbol(shape.x),
         target.symbol(shape.y),
       ];
-      const stands = axis === "x" ? { ...box, x: to, width: size } : { ...box, y: to, height: size };
       made.push({ el: copy, box: stands, keys });
     }
   }

@@ -92,6 +92,18 @@ describe("the façade", () => {
     expect(note()).not.toContain("beyond");
   });
 
+  it("draws a candidate's shapes with all their parts, also where those of the layout are behind others", async () => {
+    one = await show(facade, "apartment-house");
+    const windows = (root: string) => [
+      ...one.view.el.querySelectorAll(`${root} [data-layer=base][data-x=B][data-y=W]`),
+    ];
+    const plain = (all: Element[]) => all.filter((each) => !each.querySelector("use")).length;
+    expect(plain(windows("svg"))).toBe(7); // the first floor's stand behind its own layers
+    one.links.pick([target.candidate("y", 3)]);
+    await vi.waitFor(() => expect(windows(".fnb-traced-other").length).toBeGreaterThan(7));
+    expect(plain(windows(".fnb-traced-other"))).toBe(0);
+  });
+
   describe("under the forces of the sizing", () => {
     const loads = (): Element[] => [...one.view.el.querySelectorAll(".fnb-loads .fnb-load")];
     const kinds = (): (string | null)[] => loads().map((each) => each.getAttribute("data-kind"));
