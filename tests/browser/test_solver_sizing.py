@@ -215,10 +215,24 @@ def test_the_forces_stand_on_the_facade(watch: Watch, out: Path) -> None:
     lab.button("Show forces while the sizing is played").click()
     lab.python("setattr(view.model, 'moment', 'x/sizing+0')")
     expect(legend).to_have_text("The forces along x are known when its system is solved.")
-    # While a view asks they would tell.
-    lab.python("setattr(view.model, 'moment', 'y/analysis+0')")
-    lab.button("Show the forces of the horizontal axis").click()
-    expect(loads).to_have_count(6)
-    lab.button("Predict").click()
-    expect(loads).to_have_count(0)
-    expect(legend).to_have_text("Forces are not shown while a view asks.")
+
+
+def test_forces_are_not_shown_while_a_view_of_the_page_asks(watch: Watch) -> None:
+    lab = watch("""
+        layout = traced('residential-house')
+        page = SolverView(layout, views=['facade', 'sizing'], at='y/analysis+0')
+        display(page, FacadeView(layout, player=False))
+    """)
+    page = lab.page
+    for choice in page.get_by_role("button", name="Show the forces of the horizontal axis").all():
+        choice.click()
+    asks, other = page.locator(".fnb-part-solver"), page.locator(".fnb-part-facade")
+    loads = ".fnb-loads .fnb-load"
+    expect(asks.locator(loads)).to_have_count(6)
+    asks.locator(".fnb-view", has=page.locator(".fnb-sizing")).get_by_role("button", name="Predict").click()
+    expect(asks.locator(loads)).to_have_count(0)
+    expect(asks.get_by_role("note", name="Forces")).to_have_text("Forces are not shown while a view asks.")
+    # Another widget has no question: it stays as it is.
+    expect(other.locator(loads)).to_have_count(6)
+    lab.button("Check").click()
+    expect(asks.locator(loads)).to_have_count(6)

@@ -1,4 +1,5 @@
-// What is asked at present, in all views of a trace: what would give an answer away is kept back meanwhile.
+// What is asked at present, in the views of one widget: what would give an answer away is kept back in it meanwhile. In
+// other widgets it is not: a notebook may have many questions of one trace, each with a player of its own.
 
 export class Asking {
   private readonly asked = new Map<object, number>();

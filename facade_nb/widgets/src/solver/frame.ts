@@ -3,11 +3,12 @@
 import { h, mark, setText } from "../dom.ts";
 import { icon } from "../icons.ts";
 import type { WidgetModel } from "../types.ts";
+import { Asking } from "./asking.ts";
 import { cancelFrame, inFrame } from "./frames.ts";
 import { playbar } from "./playbar.ts";
 import type { Quiz } from "./quiz.ts";
 import type { Loaded, Session } from "./session.ts";
-import type { View, ViewKind } from "./view.ts";
+import type { Hosted, View, ViewKind } from "./view.ts";
 
 const REST = 120; // milliseconds that the player rests before what is out of sight is drawn, too
 const NEAR = 200; // pixels around what is in sight
@@ -27,7 +28,7 @@ export async function panel(
   kind: ViewKind,
   session: Session,
   model: WidgetModel,
-  loaded: Loaded,
+  loaded: Hosted,
   signal: AbortSignal,
 ): Promise<Panel> {
   const made = await Promise.all(kind.needs.map((name) => session.piece(name)));
@@ -130,8 +131,9 @@ export async function alone(
   signal: AbortSignal,
 ): Promise<HTMLElement> {
   const el = h("div", { class: "fnb-solver-alone" });
-  if (model.get<boolean>("player")) el.append(playbar(session, loaded.player, loaded.asking, signal));
-  el.append((await panel(kind, session, model, loaded, signal)).el);
+  const asking = new Asking();
+  if (model.get<boolean>("player")) el.append(playbar(session, loaded.player, asking, signal));
+  el.append((await panel(kind, session, model, { ...loaded, asking }, signal)).el);
   return el;
 }
 

@@ -3,6 +3,7 @@
 
 import { h, mark } from "../dom.ts";
 import type { WidgetModel } from "../types.ts";
+import { Asking } from "./asking.ts";
 import { apology, type Panel, panel } from "./frame.ts";
 import { afterDrawing } from "./frames.ts";
 import { playbar } from "./playbar.ts";
@@ -30,6 +31,7 @@ export async function page(
   signal: AbortSignal,
 ): Promise<HTMLElement> {
   const { player, timeline } = loaded;
+  const asking = new Asking();
   const names = [
     ...ORDER.filter((name) => name in VIEWS),
     ...Object.keys(VIEWS).filter((name) => !ORDER.includes(name)),
@@ -86,7 +88,7 @@ export async function page(
     }
     if (made.has(name)) return;
     slot.replaceChildren(h("p", { class: "fnb-empty" }, `Loading ${kind.title}…`));
-    const own = panel(kind, session, model, loaded, signal);
+    const own = panel(kind, session, model, { ...loaded, asking }, signal);
     made.set(name, own);
     own.then(
       (made) => {
@@ -142,7 +144,7 @@ export async function page(
   const el = h(
     "div",
     { class: "fnb-page" },
-    h("div", { class: "fnb-page-top" }, playbar(session, player, loaded.asking, signal)),
+    h("div", { class: "fnb-page-top" }, playbar(session, player, asking, signal)),
     h(
       "div",
       { class: "fnb-page-chips", role: "group", "aria-label": "Views" },

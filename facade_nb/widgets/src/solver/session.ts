@@ -2,7 +2,6 @@
 
 import { oneFor, Shared } from "../shared.ts";
 import { Alternatives } from "./alternatives.ts";
-import { Asking } from "./asking.ts";
 import { Links } from "./links.ts";
 import { type Moment, visit, watchMoments } from "./moments.ts";
 import { type Bytes, byteLength, unpack } from "./packing.ts";
@@ -18,8 +17,6 @@ export interface Loaded {
   links: Links;
   /** The candidate that the reader has chosen. */
   alternatives: Alternatives;
-  /** What views ask at present. */
-  asking: Asking;
 }
 
 export class Session extends Shared {
@@ -95,7 +92,7 @@ export class Session extends Shared {
     player.watch(() => this.tellSoon(player), end.signal);
     links.watch(() => this.save({ picked: [...links.picked] }, "picked"), end.signal);
     const alternatives = new Alternatives((name) => this.piece(name), timeline, links, end.signal);
-    return { timeline, player, links, alternatives, asking: new Asking() };
+    return { timeline, player, links, alternatives };
   }
 
   /** Python learns where the player has come to rest, so that a reload, and a saved notebook, find it there. */

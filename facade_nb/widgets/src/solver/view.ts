@@ -1,10 +1,17 @@
 // What a view of a solve is, for its frame and for the registry.
 
 import type { WidgetModel } from "../types.ts";
+import type { Asking } from "./asking.ts";
 import type { Quiz } from "./quiz.ts";
 import type { Loaded, Session } from "./session.ts";
 
-export interface ViewContext extends Loaded {
+/** A trace, as the views of one widget have it. */
+export interface Hosted extends Loaded {
+  /** What these views ask at present. */
+  asking: Asking;
+}
+
+export interface ViewContext extends Hosted {
   session: Session;
   /** The widget's own traits: a view's options. */
   model: WidgetModel;
