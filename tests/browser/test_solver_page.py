@@ -247,11 +247,11 @@ def test_the_events_keep_back_what_a_view_asks_for(watch: Watch) -> None:
     expect(events.filter(has_text="Candidate 0")).to_contain_text("best")
     asking = page.locator(".fnb-view", has=page.locator(".fnb-candidates"))
     asking.get_by_role("button", name="Predict").click()
+    kept = page.locator(".fnb-events-kept")
+    expect(kept).to_contain_text("kept back while a view asks")  # within a frame
     shown = page.locator(".fnb-page").inner_text()
     assert "best" not in shown
     assert "WordJudged" not in shown  # a word that is taken is the layout's
-    kept = page.locator(".fnb-events-kept")
-    expect(kept).to_contain_text("kept back while a view asks")
     expect(page.locator(".fnb-play-caption")).to_have_text("")
     # Also where the list is scrolled to its end.
     last = int(kept.inner_text().split()[1]) - 1
