@@ -144,7 +144,9 @@ export class Quiz {
     const truth = this.checked ? this.truths.get(key) : undefined;
     if (!truth) return { state: "open", why: "" };
     const chosen = this.chosen.has(key);
-    const state = truth.right ? (chosen ? "right" : "missed") : chosen ? "wrong" : "passed";
+    // one right thing is all that is asked for, where there are others as good
+    const enough = this.single && this.answer().right.length > 0;
+    const state = truth.right ? (chosen ? "right" : enough ? "passed" : "missed") : chosen ? "wrong" : "passed";
     return { state, why: truth.why };
   }
 

@@ -229,6 +229,16 @@ describe("a quiz", () => {
     one.choose("b");
     expect(one.check()).toEqual({ right: [], wrong: ["b"], missed: [] });
     expect(one.outcome()).toBe("No. it is not");
+    expect(one.verdict("c").state).toBe("missed");
+  });
+
+  it("of one thing holds nothing as good against the reader", () => {
+    const one = quiz(true);
+    one.ask(true);
+    one.choose("a");
+    one.check();
+    expect(one.outcome()).toBe("Right. it is");
+    expect(one.verdict("c")).toEqual({ state: "passed", why: "too" });
   });
 
   it("asks another question anew", () => {
