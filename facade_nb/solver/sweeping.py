@@ -78,13 +78,9 @@ def mended(
     priced, tables, cuts = found
     now = strain(priced)
     while now > 0.0:
-        for g, move in _moves(tables, cuts):
-            if check is not None:
-                check()
-            changed = [*cuts[:g], move, *cuts[g + 1 :]]
-            other = _priced(tables, changed) if tables[g].cost(move) < inf else None
-            left = inf if other is None else strain(other)
-            if other is not None and left < _LESS * now:
+        for changed, other in _changed(tables, cuts, check):
+            left = strain(other)
+            if left < _LESS * now:
                 cuts, now, priced = changed, left, other
                 break
         else:
@@ -104,12 +100,8 @@ def polished(
     best, going = start.cost, True
     while going:
         going = False
-        for g, move in _moves(tables, cuts):
-            if check is not None:
-                check()
-            changed = [*cuts[:g], move, *cuts[g + 1 :]]
-            other = _priced(tables, changed) if tables[g].cost(move) < inf else None
-            if other is not None and other.cost < best - EPS and fits(other):
+        for changed, other in _changed(tables, cuts, check):
+            if other.cost < best - EPS and fits(other):
                 best, cuts, going = other.cost, changed, True
                 yield other
                 break
@@ -179,12 +171,19 @@ def _ways(table: Table) -> Iterator[Cuts]:
             cuts = table.again(cuts)
 
 
-def _moves(tables: Sequence[Table], cuts: Sequence[Cuts]) -> Iterator[tuple[int, Cuts]]:
-    """Columns of one of the groups that differ a little: first two joined, then a run of letters elsewhere."""
+def _changed(
+    tables: Sequence[Table], cuts: Sequence[Cuts], check: Callable[[], None] | None
+) -> Iterator[tuple[list[Cuts], Priced]]:
+    """Alignments that differ in one of the groups: first by two columns joined, then by a run of letters elsewhere."""
     for way in (_with_joined, _with_one_elsewhere):
         for g, (table, own) in enumerate(zip(tables, cuts, strict=True)):
             for move in way(table, own):
-                yield g, move
+                if check is not None:
+                    check()
+                changed = [*cuts[:g], move, *cuts[g + 1 :]]
+                priced = _priced(tables, changed) if table.cost(move) < inf else None
+                if priced is not None:
+                    yield changed, priced
 
 
 def _with_joined(table: Table, cuts: Cuts) -> Iterator[Cuts]:

@@ -6,6 +6,7 @@ import re
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Literal
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
@@ -122,11 +123,11 @@ def test_near_the_end_of_the_search_four_edges_wait(run: Notebook, out: Path) ->
 
 
 @pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
-def test_looks(run: Notebook, out: Path, theme: str) -> None:
+def test_looks(run: Notebook, out: Path, theme: Literal["JupyterLab Light", "JupyterLab Dark"]) -> None:
     """Screenshots for people; no view is wider than its cell, at two widths of the window."""
     page = run.page
     try:
-        run.theme(theme)  # type: ignore[arg-type]
+        run.theme(theme)
         for width in (1250, 900):
             page.set_viewport_size({"width": width, "height": 1000})
             for name in ("Words", "Analysis", "Candidates", "Network", "Alignment", "Sizing"):

@@ -99,9 +99,10 @@ def test_what_is_said_of_pattern_analysis(names: dict[str, Any]) -> None:
     watch, house = names["watch"], names["house"]
     exec(CELLS["think-06"], found := dict(names))
     assert found["awnings"].trace.analysis().equation.to_list() == ["j + 2 = k"]
-    red = 'house(walls="A(BABA)^k", front="A(BA)(BABA)^j")'
-    assert f"`{red}`" in CELLS["think-05"]
-    [told] = watch(eval(red, {"house": house})).trace.analysis().inconsistent
+    red = {"walls": "A(BABA)^k", "front": "A(BA)(BABA)^j"}
+    given = ", ".join(f'{name}="{text}"' for name, text in red.items())
+    assert f"`house({given})`" in CELLS["think-05"]
+    [told] = watch(house(**red)).trace.analysis().inconsistent
     assert "with gaps" in told
 
 

@@ -166,30 +166,22 @@ def light(
     """
     turned = np.eye(3, dtype=np.float32) if axes is None else axes
     lit = np.empty((len(color), 3), np.float32)
+    parts = (color, normal, specular, rays, shadow, heights)
     for first in range(0, len(color), _PART):
-        part = slice(first, first + _PART)
-        lit[part] = _light(
-            color[part],
-            normal[part],
-            specular[part],
-            rays[part],
-            daytime,
-            shadow[part],
-            heights[part],
-            turned,
-        )
+        own = slice(first, first + _PART)
+        lit[own] = _light(daytime, turned, *[part[own] for part in parts])
     return lit
 
 
 def _light(
+    daytime: Daytime,
+    turned: Floats,
     color: Floats,
     normal: Floats,
     specular: Floats,
     rays: Floats,
-    daytime: Daytime,
     shadow: Floats,
     heights: Floats,
-    turned: Floats,
 ) -> Floats:
     """As `light`, of few enough points that what is calculated on the way stays in the processor's cache."""
     local = normal[:, :3] + (1 - normal[:, 3:]) * floats([0.5, 0.5, 1.0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import cast
 
 from ...render import Grammar
 from ...render.texture.steps import Entered, Step
@@ -64,7 +65,8 @@ def planes(grammar: Grammar, steps: Sequence[Step]) -> Iterator[Plane]:
         del within[len(step.faces) + 1 :]
         yield within[-1]
         if isinstance(step, Entered):
-            depth = float(grammar.rules[step.rule].value("v"))  # type: ignore[arg-type]
+            inwards = cast(float, grammar.rules[step.rule].value("v"))  # the operator table says: a number
+            depth = float(inwards)  # one that JSON can tell, too
             within.append(within[-1].behind(step.scope, depth, step.face))
 
 
