@@ -16,6 +16,7 @@ from .candidates import CandidateStream
 from .columns import EPS
 from .compiled import start_afresh
 from .search import Stopped
+from .sweeping import LETTERS
 
 if TYPE_CHECKING:
     from .axis import AxisSearch, Case, Solved
@@ -28,6 +29,11 @@ _LIKELY = {"sweep": 24, "mend": 3, "dive": 3}
 _LONG = 0.5
 """When searches have taken so many seconds, candidates are swept, in this part of the time that they take:"""
 _LOOK = 0.3
+
+
+def _short(case: Case) -> bool:
+    """Whether its words can be swept: a search of longer ones takes much memory before it begins."""
+    return all(len(word) <= LETTERS for word in case.candidate.words.values())
 
 
 class Anytime:
@@ -50,6 +56,8 @@ class Anytime:
         try:
             for way, most in _LIKELY.items():
                 for case in islice(self._likely(walk), most):
+                    if way != "dive" and not _short(case):
+                        continue
                     if not case.runs:
                         walk.open(case)
                     if way == "mend":
@@ -90,7 +98,7 @@ class Anytime:
         begin = time.perf_counter()
         if self._others is None:
             self._others = islice(self._likely(walk), _LIKELY["sweep"])
-        other = next(self._others, None)
+        other = next(filter(_short, self._others), None)
         if other is not None and not other.runs:
             walk.open(other)
         solved = None if other is None else self.dive(walk, other, cost, at_once=True, sweep=True)

@@ -22,14 +22,14 @@ from .laying import Table, with_gaps, without_gaps
 from .pricing import Columns, Priced, price
 from .runs import Cuts
 
-__all__ = ["can_sweep", "mended", "polished", "sweeps"]
+__all__ = ["LETTERS", "can_sweep", "mended", "polished", "sweeps"]
 
 _SWEEPS = 12
 _ROUNDS = 3
 """So often unsized symbols are given the sizes that they have come to."""
 _LESS = 0.98
 """To this part a step has to lessen the strain."""
-_LETTERS = 60
+LETTERS = 60
 """Words of more letters take too long: there are as many ways to lay one as the cube of its length."""
 
 
@@ -41,7 +41,7 @@ def can_sweep(groups: Sequence[Group]) -> bool:
     bands = [band for group in groups for band in group.bands]
     return (
         any(len(group.bands) > 1 for group in groups)
-        and max(len(band.letters) for band in bands) <= _LETTERS
+        and max(len(band.letters) for band in bands) <= LETTERS
         and not any(group.objective.plain for group in groups)
         and all(band.cuts or not any(letter.transparent for letter in band.letters) for band in bands)
         and all(any(not a.transparent for band in group.bands for a in band.letters) for group in groups)
