@@ -36,7 +36,7 @@ notebooks: setup-test  ## run the notebooks and tutorials again that hold widget
 watch: setup-test  ## build the front end again after every change
 	@node scripts/front.mjs --watch
 
-core: setup-test  ## build the solver's compiled search into facade_nb/solver/core/core.wasm
+core: setup-test  ## build the solver's compiled search into facade_nb/solver/alignment/core/core.wasm
 	@$(VENV)/python scripts/core.py
 
 format: setup-test  ## format Python and TypeScript

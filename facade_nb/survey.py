@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from .design.errors import FacadeError, nearest
-from .solver.layout import Layout, PlacedShape, Rect
+from .solver.model.layout import Layout, PlacedShape, Rect
 
 __all__ = ["OPENING_KINDS", "Pair", "Survey", "SurveyError", "compare", "load_survey", "match"]
 

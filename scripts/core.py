@@ -1,4 +1,4 @@
-"""Build the solver's compiled search, facade_nb/solver/core/*.hpp and core.cpp, into facade_nb/solver/core/core.wasm.
+"""Build the solver's compiled search: facade_nb/solver/alignment/core/*.hpp and core.cpp into core.wasm beside them.
 
 Usage: python scripts/core.py          write the module
        python scripts/core.py --check  say whether the committed module is what the sources make; write nothing
@@ -20,7 +20,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-CORE = ROOT / "facade_nb" / "solver" / "core"
+CORE = ROOT / "facade_nb" / "solver" / "alignment" / "core"
 MODULE = CORE / "core.wasm"
 CACHE = ROOT / ".venv" / "core"
 TARGET = ("-target", "wasm32-wasi", "-O3", "-DNDEBUG")

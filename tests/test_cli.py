@@ -279,7 +279,7 @@ class TestNoLayout:
         assert "Traceback" not in done.stderr and done.stderr.count("\n") == 1
 
     def test_out_of_time(self, house: Path, capsys: pytest.CaptureFixture[str]) -> None:
-        from facade_nb.solver import solving
+        from facade_nb.solver import solution as solving
 
         solving.forget()
         assert main(["solve", str(house), "--time-limit", "0"]) == 3

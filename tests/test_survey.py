@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from facade_nb import Layout, gallery, solve
 from facade_nb.design.model import Canvas
-from facade_nb.solver.layout import PlacedShape, Rect
+from facade_nb.solver.model.layout import PlacedShape, Rect
 from facade_nb.survey import SurveyError, compare, load_survey, match
 
 BUILDING = "4018215"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
-from ..solver.layout import Layout, Rect
+from ..solver.model.layout import Layout, Rect
 from .parts import Point
 from .style import Style, num
 

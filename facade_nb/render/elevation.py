@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
 
-from ..solver.layout import Layout
+from ..solver.model.layout import Layout
 from .annotate import Frame, draw_dimensions, draw_empty, draw_holes, draw_survey
 from .ink import Defs, draw_parts, inline, polygon_path
 from .materials import DEFAULT_MATERIAL, find_material

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..design.files import write_atomically
-from ..solver.layout import Layout
+from ..solver.model.layout import Layout
 from .materials import find_material, rgb
 from .meshing import corner_normals, mesh_parts
 from .parts import Part

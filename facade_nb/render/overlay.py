@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
-from ..solver.layout import Layout
+from ..solver.model.layout import Layout
 from .annotate import FONT, solved_look, surveyed_look
 from .elevation import elevation_svg
 from .style import find_style, num

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..design.files import write_atomically
-from ..solver.layout import Layout
+from ..solver.model.layout import Layout
 
 if TYPE_CHECKING:
     import numpy as np

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..solver.layout import Rect
+from ..solver.model.layout import Rect
 from .ink import clip, hull
 from .parts import Block, Moulding, Point, Prism, Turned, front, outline
 from .scene import Scene, Solid

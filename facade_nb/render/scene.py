@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from ..design.errors import DesignError, Fault
-from ..solver.layout import Layout, PlacedShape, Rect
+from ..solver.model.layout import Layout, PlacedShape, Rect
 from .geometry import Geometry, find_geometry
 from .materials import find_material, rgb
 from .parts import Block, Part, flip

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
-from ..solver.layout import Layout
+from ..solver.model.layout import Layout
 from .materials import DEFAULT_MATERIAL
 from .meshing import Mesh, mesh_parts
 from .parts import Block, Part

@@ -1,19 +1,6 @@
 """Widgets: one shared observable design, and parts that show and edit it live (docs/widgets.md)."""
 
-from .model import Draft, FacadeModel, Selection
-from .parts import (
-    CanvasEditor,
-    CounterEditor,
-    ElevationView,
-    LayerEditor,
-    Part,
-    PatternEditor,
-    SymbolEditor,
-    Toolbar,
-)
-from .studio import MassingView, Studio
-from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
-from .visible import (
+from .solver import (
     AlignmentView,
     AnalysisView,
     CandidatesView,
@@ -27,6 +14,19 @@ from .visible import (
     TraceView,
     WordsView,
 )
+from .studio.model import Draft, FacadeModel, Selection
+from .studio.parts import (
+    CanvasEditor,
+    CounterEditor,
+    ElevationView,
+    LayerEditor,
+    Part,
+    PatternEditor,
+    SymbolEditor,
+    Toolbar,
+)
+from .studio.studio import MassingView, Studio
+from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
 
 __all__ = [
     "AlignmentView",

@@ -13,7 +13,7 @@ import time
 from collections.abc import Sequence
 
 from facade_nb import Design, Layout, NoLayout, solve
-from facade_nb.solver import solving
+from facade_nb.solver import solution as solving
 
 from .designs import line_of
 

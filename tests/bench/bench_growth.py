@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from facade_nb import Design, NoLayout, solve
-from facade_nb.solver import solving
+from facade_nb.solver import solution as solving
 
 from .designs import line_of
 

@@ -17,7 +17,8 @@ from dataclasses import dataclass, field, replace
 from types import FrameType
 
 from facade_nb import gallery
-from facade_nb.solver import Letter, Objective, align, solving
+from facade_nb.solver import Letter, Objective, align
+from facade_nb.solver import solution as solving
 from tests.oracle.pricing import DEFAULT
 
 from .designs import LARGE, Words, line_of, solved, words_of

@@ -17,7 +17,10 @@ from unittest.mock import patch
 import daqp
 
 from facade_nb import gallery
-from facade_nb.solver import axis, qp, sizing, solving
+from facade_nb.solver import solution as solving
+from facade_nb.solver.selection import axis
+from facade_nb.solver.sizing import least_squares as qp
+from facade_nb.solver.sizing import system as sizing
 
 from .designs import LARGE, line_of, others, solved
 

@@ -14,7 +14,7 @@ import time
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.design import edit
-from facade_nb.solver import solving
+from facade_nb.solver import solution as solving
 
 from .designs import LARGE, harder, line_of, others
 

@@ -56,7 +56,7 @@ PLACES = """[(lambda trace, steps: (lambda timeline: [
     timeline.moment_of(trace.events, at) for at in sorted({
         *(n * (len(trace.events) - 2) // (steps - 1) for n in range(steps)),
         *(own.first for own in timeline.segments(trace.events) if own.first < len(trace.events) - 1)})
-])(__import__("facade_nb.widgets.visible.timeline", fromlist=["timeline"])))(layout.trace, %d)][0]"""
+])(__import__("facade_nb.widgets.solver.timeline", fromlist=["timeline"])))(layout.trace, %d)][0]"""
 
 # A moment's link is followed; then the step is timed, there and back, three times.
 STEP = """async ([moment, times]) => {

@@ -9,7 +9,7 @@ from pathlib import Path
 from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.design.model import AXES, Axis
 from facade_nb.solver import Letter
-from facade_nb.solver.problem import axis_problem
+from facade_nb.solver.model.problem import axis_problem
 
 __all__ = ["LARGE", "Words", "harder", "line_of", "others", "solved", "words_of"]
 

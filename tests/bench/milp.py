@@ -22,7 +22,7 @@ import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import csr_array
 
-from facade_nb.solver.letters import Letter
+from facade_nb.solver.model.letters import Letter
 from tests.oracle.pricing import Weights
 from tests.oracle.structures import Group, moves
 

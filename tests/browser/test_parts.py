@@ -112,7 +112,10 @@ def test_closing_the_output_ends_the_listeners(show: Show) -> None:
     assert lab.python("model.enter(('canvas', 'width'), 7.0) or model.wait(5)")
     # Nobody looks: the channel has put its large traits away.
     assert (
-        lab.python("len(__import__('facade_nb.widgets.channel').widgets.channel.Channel.of(model).svg)") == 0
+        lab.python(
+            "len(__import__('facade_nb.widgets.studio.channel').widgets.studio.channel.Channel.of(model).svg)"
+        )
+        == 0
     )
 
 

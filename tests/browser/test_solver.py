@@ -205,7 +205,7 @@ def test_an_error_of_ours_is_shown_where_the_view_would_be(watch: Watch) -> None
     lab.run(
         TRACED
         + """
-from facade_nb.widgets.visible import channel as _channel
+from facade_nb.widgets.solver import channel as _channel
 _made, _channel.chunk = _channel.chunk, lambda *_: 1 / 0
 view = WordsView(traced('figure-7'))
 _channel.chunk = _made

@@ -230,14 +230,14 @@ def test_the_code_of_what_is_played(watch: Watch) -> None:
     page = lab.page
     expect(page.locator(".fnb-event[data-now]")).to_contain_text("WordJudged")
     lab.button("Code").click()
-    expect(page.locator(".fnb-code-title")).to_contain_text("solver.tracing.spelled.words_judged")
+    expect(page.locator(".fnb-code-title")).to_contain_text("solver.trace.word_events.words_judged")
     expect(page.locator(".fnb-code-text")).to_contain_text("def words_judged(")
     lab.button("x: Sizing").click()
     expect(page.locator(".fnb-code-title")).to_contain_text(
-        "solver.sizing.size_axis · facade_nb/solver/sizing.py"
+        "solver.sizing.size_axis · facade_nb/solver/sizing/system.py"
     )
     page.locator(".fnb-event", has_text="ActiveSetStep").first.click()
-    expect(page.locator(".fnb-code-title")).to_contain_text("solver.tracing.activeset.steps")
+    expect(page.locator(".fnb-code-title")).to_contain_text("solver.trace.active_set.steps")
 
 
 def test_the_events_keep_back_what_a_view_asks_for(watch: Watch) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import count
 
-from facade_nb.solver.letters import Letter
+from facade_nb.solver.model.letters import Letter
 
 from .pricing import DEFAULT, TIE, Task, Weights, lower_bound, positive, price
 from .structures import Column, Group, State, finished, next_columns

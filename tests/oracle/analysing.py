@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from facade_nb import Design
-from facade_nb.solver.analysis import Analysis, Equation, analyse
-from facade_nb.solver.problem import axis_problem
+from facade_nb.solver.analysis.systems import Analysis, Equation, analyse
+from facade_nb.solver.model.problem import axis_problem
 
 __all__ = ["analysed", "between", "stacked", "texts"]
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol, TypeVar
 
-from facade_nb.solver.letters import Letter
+from facade_nb.solver.model.letters import Letter
 
 from .pricing import DEFAULT, PAPER, Weights
 

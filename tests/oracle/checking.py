@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise, product
 from typing import Protocol
 
-from facade_nb.solver.letters import Letter
+from facade_nb.solver.model.letters import Letter
 
 from .pricing import DEFAULT, Price, Weights
 from .structures import Bit, Column, Element, Group, column_faults, pair_faults

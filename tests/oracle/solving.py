@@ -17,8 +17,8 @@ from scipy.optimize import linprog
 
 from facade_nb.design import Design, Glyph, Pattern
 from facade_nb.design.model import Axis
-from facade_nb.solver.layout import AxisLayout, GroupLayout, PlacedLetter
-from facade_nb.solver.letters import Letter
+from facade_nb.solver.model.layout import AxisLayout, GroupLayout, PlacedLetter
+from facade_nb.solver.model.letters import Letter
 
 from .alignment import Best, TooBig, best
 from .pricing import DEFAULT, SLACK, TIE, Price, Task, price

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 
-from facade_nb.solver.letters import Letter
+from facade_nb.solver.model.letters import Letter
 
 __all__ = [
     "EMPTY",

@@ -15,8 +15,8 @@ DATA = {
     "front end": ("facade_nb/widgets/static/", ".js"),
     "styles": ("facade_nb/widgets/static/", ".css"),
     "gallery": ("facade_nb/gallery/", ".json"),
-    "compiled search": ("facade_nb/solver/core/", ".wasm"),
-    "licence of what is compiled in": ("facade_nb/solver/core/", ".txt"),
+    "compiled search": ("facade_nb/solver/alignment/core/", ".wasm"),
+    "licence of what is compiled in": ("facade_nb/solver/alignment/core/", ".txt"),
 }
 NOT_FOR_USERS = ("facade_nb/widgets/src/", "facade_nb/widgets/test/")
 SOURCES = (".hpp", ".cpp")

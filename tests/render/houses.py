@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from facade_nb.design.model import Canvas
-from facade_nb.solver.layout import Layout, PlacedShape
+from facade_nb.solver.model.layout import Layout, PlacedShape
 
 Looks = dict[str, object]
 

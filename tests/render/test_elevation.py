@@ -15,7 +15,7 @@ from facade_nb.render import elevation_svg, overlay_svg
 from facade_nb.render.relief import Relief
 from facade_nb.render.scene import build_scene
 from facade_nb.render.style import LIGHT
-from facade_nb.solver.layout import Layout, PlacedShape
+from facade_nb.solver.model.layout import Layout, PlacedShape
 
 from .houses import apartment, house
 

@@ -22,7 +22,7 @@ from facade_nb.render.camera import Camera
 from facade_nb.render.daylight import TIMES
 from facade_nb.render.picture import picture
 from facade_nb.render.surroundings import building
-from facade_nb.solver.layout import Layout, PlacedShape
+from facade_nb.solver.model.layout import Layout, PlacedShape
 
 from .houses import house
 

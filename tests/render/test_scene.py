@@ -17,7 +17,7 @@ from facade_nb.render.camera import light_matrix
 from facade_nb.render.materials import find_material, mix
 from facade_nb.render.meshing import mesh_part, mesh_parts, triangulate
 from facade_nb.render.parts import front, outline
-from facade_nb.solver.layout import Layout, PlacedShape
+from facade_nb.solver.model.layout import Layout, PlacedShape
 
 from .houses import apartment, house
 

@@ -13,9 +13,9 @@ import pytest
 
 from facade_nb import NoLayout, gallery, solve
 from facade_nb.design.model import AXES
-from facade_nb.solver.analysis import analyse
-from facade_nb.solver.flatten import MAX_VARIANTS
-from facade_nb.solver.problem import axis_problem
+from facade_nb.solver.analysis.systems import analyse
+from facade_nb.solver.analysis.terms import MAX_VARIANTS
+from facade_nb.solver.model.problem import axis_problem
 from tests.oracle.analysing import analysed, between, stacked, texts
 
 HOUSE = {"Cx": "cec; c := C", "Dx": "fdf; d := D", "Bx": "A(BA)^k"}

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from facade_nb.design import parse
 from facade_nb.design.model import Counter
 from facade_nb.design.pattern import Pattern
-from facade_nb.solver.analysis import Analysis
-from facade_nb.solver.flatten import Counters, Run, Tricky, counts, flatten, terms, trim
-from facade_nb.solver.linear import Bounds, Elimination, equation_text, form_text, number
+from facade_nb.solver.analysis.linear import Bounds, Elimination, equation_text, form_text, number
+from facade_nb.solver.analysis.systems import Analysis
+from facade_nb.solver.analysis.terms import Counters, Run, Tricky, counts, flatten, terms, trim
 from tests.oracle.analysing import analysed, between, texts
 
 # Flattening, against the words

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from facade_nb import Design, gallery, solve
-from facade_nb.solver.problem import axis_problem
+from facade_nb.solver.model.problem import axis_problem
 from tests.bench.bench_anytime import stack
 from tests.bench.bench_growth import by_counters, by_layers, by_letters
 from tests.bench.designs import LARGE, words_of

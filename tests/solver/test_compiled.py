@@ -13,12 +13,15 @@ import pytest
 from facade_nb import gallery, solve
 from facade_nb.design.errors import NoLayout
 from facade_nb.design.model import Design
-from facade_nb.solver import Letter, columns, compiled, solving
-from facade_nb.solver.columns import Group
-from facade_nb.solver.compiled import CompiledDives, CompiledSearch, available, best_first
-from facade_nb.solver.dive import Dives
-from facade_nb.solver.pricing import Priced
-from facade_nb.solver.search import BestFirst, Stopped
+from facade_nb.solver import Letter
+from facade_nb.solver import solution as solving
+from facade_nb.solver.alignment import columns
+from facade_nb.solver.alignment.columns import Group
+from facade_nb.solver.alignment.core import binding as compiled
+from facade_nb.solver.alignment.core.binding import CompiledDives, CompiledSearch, available, best_first
+from facade_nb.solver.alignment.pricing import Priced
+from facade_nb.solver.alignment.reference.best_first import BestFirst, Stopped
+from facade_nb.solver.alignment.reference.dives import Dives
 from tests.oracle.designs import make_design
 from tests.solver.ida_cases import case_group, group_of, random_case
 from tests.solver.test_tall import stack

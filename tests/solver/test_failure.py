@@ -7,7 +7,10 @@ from IPython.core.interactiveshell import InteractiveShell
 
 from facade_nb import Design, DesignError, NoLayout, solve
 from facade_nb.design import Suggestion, edit
-from facade_nb.solver import Objective, merging, obstacles, solving
+from facade_nb.solver import Objective
+from facade_nb.solver import solution as solving
+from facade_nb.solver.assembly import shapes as merging
+from facade_nb.solver.diagnosis import obstacles
 from tests.oracle.designs import design, make_design
 
 

@@ -1,4 +1,4 @@
-"""The parts of the paper's alignment search, each by itself (`facade_nb.solver.paper`)."""
+"""The parts of the paper's alignment search, each by itself (`facade_nb.solver.alignment.paper`)."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from itertools import accumulate, pairwise, product
 import pytest
 
 from facade_nb.solver import Letter, Objective
-from facade_nb.solver.columns import EPS, Group, Option, make_group
-from facade_nb.solver.paper.deepening import Deepening, Ends
-from facade_nb.solver.paper.guides import Guide, nodes_between
-from facade_nb.solver.paper.hierarchy import Hierarchy
-from facade_nb.solver.paper.lattice import Lattice, mirrored
-from facade_nb.solver.paper.lengths import Stretch, excess, ledger_bound
-from facade_nb.solver.paper.merging import merged_guides
-from facade_nb.solver.paper.prealign import control_group, control_guides, control_word
-from facade_nb.solver.paper.relaxation import Relaxation
-from facade_nb.solver.paper.tracing import trace
-from facade_nb.solver.paper.transposition import Transpositions
-from facade_nb.solver.paper.walking import Half, Side
-from facade_nb.solver.pricing import Priced, Structure
-from facade_nb.solver.search import search as search_best
+from facade_nb.solver.alignment.columns import EPS, Group, Option, make_group
+from facade_nb.solver.alignment.paper.decision_network import Lattice, mirrored
+from facade_nb.solver.alignment.paper.deepening import Deepening, Ends
+from facade_nb.solver.alignment.paper.guides import Guide, nodes_between
+from facade_nb.solver.alignment.paper.halves import Half, Side
+from facade_nb.solver.alignment.paper.hierarchy import Hierarchy
+from facade_nb.solver.alignment.paper.pieces import Stretch, excess, ledger_bound
+from facade_nb.solver.alignment.paper.prealignment import control_group, control_guides, control_word
+from facade_nb.solver.alignment.paper.relaxation import Relaxation
+from facade_nb.solver.alignment.paper.tolerance_region import trace
+from facade_nb.solver.alignment.paper.transposition import Transpositions
+from facade_nb.solver.alignment.paper.word_pairs import merged_guides
+from facade_nb.solver.alignment.pricing import Priced, Structure
+from facade_nb.solver.alignment.reference.best_first import search as search_best
 from tests.solver.ida_cases import PAPER, case_group, group_of, letters, random_case
 
 

@@ -13,9 +13,11 @@ import pytest
 from facade_nb import Design, DesignError, NoLayout, gallery, solve
 from facade_nb.design import edit
 from facade_nb.design.model import AXES
-from facade_nb.solver import Objective, running, solving
-from facade_nb.solver.axis import Best
-from facade_nb.solver.keeping import Kept
+from facade_nb.solver import Objective
+from facade_nb.solver import solution as solving
+from facade_nb.solver.cache import Kept
+from facade_nb.solver.selection import clusters as running
+from facade_nb.solver.selection.axis import Best
 from tests.oracle.designs import CONTENT, CONTROL, SOLID, design, make_design
 
 Outcome = dict[str, Any] | tuple[str, ...]
@@ -218,7 +220,7 @@ class TestReuse:
     @pytest.fixture
     def listed(self, monkeypatch: pytest.MonkeyPatch) -> list[str]:
         """The patterns whose words are listed."""
-        words = __import__("importlib").import_module("facade_nb.solver.words")
+        words = __import__("importlib").import_module("facade_nb.solver.words.enumeration")
         real, seen = words.instances, []
 
         def spy(pattern: Any, *args: Any, **named: Any) -> Any:

@@ -15,18 +15,18 @@ from hypothesis import strategies as st
 from facade_nb.design import Counter, DesignError, Symbol, parse
 from facade_nb.design.model import AXES
 from facade_nb.solver import Objective
-from facade_nb.solver import instances as listing
-from facade_nb.solver.candidates import candidates
-from facade_nb.solver.counting import Sums
-from facade_nb.solver.instances import instances, ranges
-from facade_nb.solver.measures import measure
-from facade_nb.solver.problem import axis_problem
-from facade_nb.solver.words import axis_words, forget_words
+from facade_nb.solver.candidates.stream import candidates
+from facade_nb.solver.model.problem import axis_problem
+from facade_nb.solver.words import instances as listing
+from facade_nb.solver.words.enumeration import axis_words, forget_words
+from facade_nb.solver.words.instances import instances, ranges
+from facade_nb.solver.words.lengths import measure
+from facade_nb.solver.words.sums import Sums
 from tests.oracle.designs import make_design
 from tests.oracle.nasty import NASTY
 
-counting: Any = import_module("facade_nb.solver.counting")
-words: Any = import_module("facade_nb.solver.words").words
+counting: Any = import_module("facade_nb.solver.words.sums")
+words: Any = import_module("facade_nb.solver.words.enumeration").words
 
 SIZES = {"A": 1.0, "B": 0.7, "C": 0.35}
 TEXTS = [

@@ -9,7 +9,7 @@ import pytest
 
 from facade_nb import Design, Layout, gallery, solve
 from facade_nb.solver import words
-from facade_nb.solver.layout import RowLayout
+from facade_nb.solver.model.layout import RowLayout
 
 
 def spelled(row: RowLayout) -> list[str]:

@@ -16,14 +16,17 @@ import pytest
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.design import Counter, Symbol, edit, parse
-from facade_nb.solver import Letter, Objective, align, clock, compiled, solving
-from facade_nb.solver.analysis import analyse
-from facade_nb.solver.axis import AxisSearch
-from facade_nb.solver.clock import Clock
-from facade_nb.solver.instances import instances
-from facade_nb.solver.merging import merge
-from facade_nb.solver.problem import axis_problem
-from facade_nb.solver.search import Stopped
+from facade_nb.solver import Letter, Objective, align
+from facade_nb.solver import budget as clock
+from facade_nb.solver import solution as solving
+from facade_nb.solver.alignment.core import binding as compiled
+from facade_nb.solver.alignment.reference.best_first import Stopped
+from facade_nb.solver.analysis.systems import analyse
+from facade_nb.solver.assembly.shapes import merge
+from facade_nb.solver.budget import Clock
+from facade_nb.solver.model.problem import axis_problem
+from facade_nb.solver.selection.axis import AxisSearch
+from facade_nb.solver.words.instances import instances
 from tests.bench import bench_anytime
 from tests.oracle.designs import design, make_design
 from tests.oracle.nasty import NASTY, nasty

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from facade_nb import Design, Layout, solve
 from facade_nb.design import Canvas
-from facade_nb.solver.layout import PlacedShape, Rect
-from facade_nb.solver.merging import find_holes, shape_of
+from facade_nb.solver.assembly.shapes import find_holes, shape_of
+from facade_nb.solver.model.layout import PlacedShape, Rect
 from tests.oracle.designs import design
 
 

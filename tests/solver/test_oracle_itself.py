@@ -9,7 +9,7 @@ from itertools import product
 
 import pytest
 
-from facade_nb.solver.letters import Letter
+from facade_nb.solver.model.letters import Letter
 from tests.oracle import (
     DEFAULT,
     PAPER,

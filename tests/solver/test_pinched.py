@@ -9,10 +9,10 @@ import pytest
 
 from facade_nb import gallery
 from facade_nb.solver import Objective
-from facade_nb.solver.columns import Group, make_group
-from facade_nb.solver.network import Network
-from facade_nb.solver.paths import Path
-from facade_nb.solver.search import BestFirst, Found
+from facade_nb.solver.alignment.columns import Group, make_group
+from facade_nb.solver.alignment.reference.best_first import BestFirst, Found
+from facade_nb.solver.alignment.reference.network import Network
+from facade_nb.solver.alignment.reference.paths import Path
 from tests.bench.designs import solved, words_of
 from tests.solver.ida_cases import case_group, random_case
 

@@ -9,17 +9,19 @@ import pytest
 from facade_nb import solve
 from facade_nb.design import edit
 from facade_nb.design.model import Symbol
-from facade_nb.solver import Letter, Objective, align, running, solving
-from facade_nb.solver.alignment import alignment_of
-from facade_nb.solver.axis import AxisSearch
-from facade_nb.solver.columns import Group, make_group
-from facade_nb.solver.compiled import CompiledDives
-from facade_nb.solver.dive import Dives
-from facade_nb.solver.pricing import Priced
-from facade_nb.solver.problem import axis_problem
-from facade_nb.solver.search import Stopped, search
-from facade_nb.solver.sizing import size_axis, strain
-from facade_nb.solver.sweeping import can_sweep, mended, sweeps
+from facade_nb.solver import Letter, Objective, align
+from facade_nb.solver import solution as solving
+from facade_nb.solver.alignment.columns import Group, make_group
+from facade_nb.solver.alignment.core.binding import CompiledDives
+from facade_nb.solver.alignment.heuristic.local_search import can_sweep, mended, sweeps
+from facade_nb.solver.alignment.pricing import Priced
+from facade_nb.solver.alignment.reference.best_first import Stopped, search
+from facade_nb.solver.alignment.reference.dives import Dives
+from facade_nb.solver.alignment.single import alignment_of
+from facade_nb.solver.model.problem import axis_problem
+from facade_nb.solver.selection import clusters as running
+from facade_nb.solver.selection.axis import AxisSearch
+from facade_nb.solver.sizing.system import size_axis, strain
 from tests.bench import bench_anytime
 from tests.bench.designs import harder
 from tests.oracle import check, make_case

@@ -8,11 +8,12 @@ from math import inf
 
 import pytest
 
-from facade_nb.solver import Letter, Objective, align, columns
-from facade_nb.solver.columns import Group, make_group
-from facade_nb.solver.dive import Dives
-from facade_nb.solver.search import search
-from facade_nb.solver.skeleton import Skeleton, greatest_width
+from facade_nb.solver import Letter, Objective, align
+from facade_nb.solver.alignment import columns
+from facade_nb.solver.alignment.columns import Group, make_group
+from facade_nb.solver.alignment.reference.best_first import search
+from facade_nb.solver.alignment.reference.dives import Dives
+from facade_nb.solver.alignment.reference.skeleton import Skeleton, greatest_width
 from tests.oracle import DEFAULT, Case, check, make_case
 
 

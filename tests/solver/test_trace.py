@@ -21,7 +21,8 @@ import pytest
 from facade_nb import Design, DesignError, Layout, NoLayout, gallery, solve
 from facade_nb.cli import main
 from facade_nb.solver import Objective, Trace
-from facade_nb.solver.clock import Clock
+from facade_nb.solver.alignment.reference.best_first import Stopped
+from facade_nb.solver.budget import Clock
 from facade_nb.solver.events import (
     ActiveSetStep,
     AxisSolved,
@@ -50,8 +51,7 @@ from facade_nb.solver.events import (
     WaysMet,
     WordJudged,
 )
-from facade_nb.solver.search import Stopped
-from facade_nb.solver.tracing import Recorder, Walk, recorder
+from facade_nb.solver.trace import Recorder, Walk, recorder
 from tests.oracle.designs import design, make_design
 
 HOUSE = "residential-house"

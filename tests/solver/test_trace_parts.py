@@ -11,12 +11,12 @@ import pytest
 
 from facade_nb import DesignError, gallery, solve
 from facade_nb.solver import Letter, Objective, Trace, align
-from facade_nb.solver.columns import make_group
+from facade_nb.solver.alignment.columns import make_group
 from facade_nb.solver.events import EdgeWeighed, LeftOut, PathChosen, WordJudged
-from facade_nb.solver.qp import FREE, least_squares
-from facade_nb.solver.tracing.activeset import steps
-from facade_nb.solver.tracing.lattice import Lattice, LatticeEdge, lattice_of
-from facade_nb.solver.tracing.weighing import judge
+from facade_nb.solver.sizing.least_squares import FREE, least_squares
+from facade_nb.solver.trace.active_set import steps
+from facade_nb.solver.trace.lattice import Lattice, LatticeEdge, lattice_of
+from facade_nb.solver.trace.weights import judge
 from tests.oracle.designs import design
 
 A, B, C = Letter("A", 2.0), Letter("B", 3.0), Letter("C", 2.0)
@@ -355,7 +355,7 @@ class TestWords:
         assert told["A t"] == ("A",) and told["B t"] == ("B",)
 
     def test_many(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        from facade_nb.solver.tracing import spelled
+        from facade_nb.solver.trace import spelled
 
         monkeypatch.setattr(spelled, "WORDS", 3)
         monkeypatch.setattr(spelled, "DROPPED", 2)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...design.errors import DesignError, Fault, GrammarError, nearest
-from ...solver.layout import Layout, PlacedShape
+from ...solver.model.layout import Layout, PlacedShape
 from ..geometry import Geometry, find_geometry
 from ..materials import RULE, find_material
 from ..tiles import CATALOGUE

@@ -13,7 +13,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ...solver.layout import PlacedShape
+from ...solver.model.layout import PlacedShape
 from ..materials import find_material, rgb
 from ..tiles import CATALOGUE
 

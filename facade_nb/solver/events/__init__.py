@@ -12,7 +12,28 @@ A band's *place* is twice the number of letters read, and one more where the nex
 
 from __future__ import annotations
 
-from .aligning import (
+from .base import (
+    AxisPosed,
+    Event,
+    GroupNote,
+    LeftOut,
+    NoLayoutFound,
+    StageBegun,
+    StageEnded,
+    TraceBegun,
+    TraceEnded,
+    Warned,
+)
+from .choices import (
+    CandidateJudged,
+    LetterNote,
+    PairInconsistent,
+    PatternNotAnalysed,
+    PatternsCompared,
+    SystemReduced,
+    WordJudged,
+)
+from .networks import (
     BandNote,
     ColumnNote,
     ControlsAligned,
@@ -28,28 +49,7 @@ from .aligning import (
     StructurePriced,
     WaysMet,
 )
-from .base import (
-    AxisPosed,
-    Event,
-    GroupNote,
-    LeftOut,
-    NoLayoutFound,
-    StageBegun,
-    StageEnded,
-    TraceBegun,
-    TraceEnded,
-    Warned,
-)
-from .choosing import (
-    CandidateJudged,
-    LetterNote,
-    PairInconsistent,
-    PatternNotAnalysed,
-    PatternsCompared,
-    SystemReduced,
-    WordJudged,
-)
-from .placing import (
+from .placements import (
     ActiveSetStep,
     AxisSolved,
     BoundariesPlaced,

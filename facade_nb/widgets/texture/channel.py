@@ -7,8 +7,8 @@ from typing import Any
 
 from traitlets import Bool, Bytes, Dict, Float, List, TraitError, Unicode
 
-from ..bundled import Message, ModelWire
-from ..wire import describe_faults
+from ..shared.bundled import Message, ModelWire
+from ..studio.wire import describe_faults
 from .model import TextureModel
 from .packet import derivation, light_piece, scene_piece, tiles_piece
 from .still import still

@@ -14,7 +14,7 @@ from ...render.texture.noise import noise_texture
 from ...render.texture.operators import Operator
 from ...render.texture.shaders import room, shader
 from ...render.texture.steps import Chosen, Divided, Entered, Layered, Painted, Passed, Stacked, Step
-from ..visible.packing import pack
+from ..solver.packing import pack
 from .places import Plane
 
 __all__ = ["HOURS", "derivation", "grammar_table", "light_piece", "scene_piece", "step_text", "tiles_piece"]

@@ -13,7 +13,7 @@ from traitlets import Bool, Enum, Float, Instance, List, Unicode
 
 from ...render import Grammar
 from ...render.texture.view import Sight
-from ..bundled import bundle
+from ..shared.bundled import bundle
 from .channel import TextureChannel
 from .model import TextureModel
 from .packet import grammar_table, step_text

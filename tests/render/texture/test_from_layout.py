@@ -20,7 +20,7 @@ from facade_nb.render.geometry import find_geometry
 from facade_nb.render.texture import Grammar
 from facade_nb.render.texture.from_layout import LayoutGrammar, grammar_of
 from facade_nb.render.tiles import TileSet
-from facade_nb.solver.layout import PlacedShape
+from facade_nb.solver.model.layout import PlacedShape
 
 TILES = TileSet.builtin(64)
 NAMES = gallery.names()

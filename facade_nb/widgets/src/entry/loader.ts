@@ -1,7 +1,7 @@
 // All the code that a part carries: it finds the channel its model shares with other parts, and runs the bundle that
 // lies there once (see docs/widgets.md).
 
-import type { Mount, WidgetModel } from "../types.ts";
+import type { Mount, WidgetModel } from "../shared/types.ts";
 
 type Bundle = { mount(mount: Mount): () => void };
 type Shared = { [bundles]?: Map<string, Promise<Bundle>> };

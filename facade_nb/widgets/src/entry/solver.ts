@@ -13,14 +13,14 @@ import "../styles/player.css";
 import "../styles/qualifiers.css";
 import "../styles/sizing.css";
 import "../styles/solver-views.css";
-import { h, mark } from "../dom.ts";
+import { h, mark } from "../shared/dom.ts";
+import { adoptStyle, watchTheme } from "../shared/theme.ts";
+import type { Mount } from "../shared/types.ts";
 import { alone, apology } from "../solver/frame.ts";
 import { page } from "../solver/page.ts";
 import { qualifiers } from "../solver/qualifiers.ts";
 import { Session } from "../solver/session.ts";
 import { VIEWS } from "../solver/views/index.ts";
-import { adoptStyle, watchTheme } from "../theme.ts";
-import type { Mount } from "../types.ts";
 
 export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();

@@ -3,14 +3,14 @@
 import "../styles/base.css";
 import "../styles/fields.css";
 import "../styles/texture.css";
-import { h, mark } from "../dom.ts";
+import { h, mark } from "../shared/dom.ts";
+import { adoptStyle, watchTheme } from "../shared/theme.ts";
+import type { Mount } from "../shared/types.ts";
 import { editor } from "../texture/editor.ts";
 import { inspector } from "../texture/inspector.ts";
 import { picture } from "../texture/picture.ts";
 import { Session } from "../texture/session.ts";
 import { table } from "../texture/table.ts";
-import { adoptStyle, watchTheme } from "../theme.ts";
-import type { Mount } from "../types.ts";
 
 export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();

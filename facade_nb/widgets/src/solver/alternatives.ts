@@ -1,14 +1,14 @@
 // A candidate that the reader has chosen, and that is not the layout: what the trace has of it, for all views. Its words are
 // known; its columns where they were priced in a network that is told; sizes are told of the layout only.
 
-import { formatNumber } from "../fields.ts";
+import { formatNumber } from "../shared/fields.ts";
 import { sizesOf } from "./align/matrix.ts";
 import type { GroupNote, WordEvent } from "./bounds.ts";
 import { type LetterNote, parsed } from "./letters.ts";
 import { type Links, target } from "./links.ts";
 import { lettersBetween, type NetworkData, type PathNote, WEIGHED } from "./network/story.ts";
 import type { Axis, Timeline } from "./timeline.ts";
-import { type BandNote, type Column, Group, judge, type Objective } from "./weighing.ts";
+import { type BandNote, type Column, Group, judge, type Objective } from "./weights.ts";
 
 export interface CandidateNote {
   event: "CandidateJudged";

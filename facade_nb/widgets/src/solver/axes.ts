@@ -1,6 +1,6 @@
 // Which axis a view shows: the one that is played, until the reader chooses.
 
-import { h, mark } from "../dom.ts";
+import { h, mark } from "../shared/dom.ts";
 import type { Alternatives } from "./alternatives.ts";
 import type { Axis, Timeline } from "./timeline.ts";
 

@@ -1,12 +1,12 @@
 // The frame of every view: its head, the player above it, the question under it, errors; and the moment to show.
 
-import { h, mark, setText } from "../dom.ts";
-import { icon } from "../icons.ts";
-import type { WidgetModel } from "../types.ts";
+import { h, mark, setText } from "../shared/dom.ts";
+import { icon } from "../shared/icons.ts";
+import type { WidgetModel } from "../shared/types.ts";
 import { Asking } from "./asking.ts";
-import { cancelFrame, inFrame } from "./frames.ts";
 import { playbar } from "./playbar.ts";
 import type { Quiz } from "./quiz.ts";
+import { cancelFrame, inFrame } from "./redraw.ts";
 import type { Loaded, Session } from "./session.ts";
 import type { Hosted, View, ViewKind } from "./view.ts";
 

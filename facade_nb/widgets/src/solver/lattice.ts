@@ -1,7 +1,7 @@
 // The alignment decision network of one or two words as a whole (the paper's Figure 8), node by node and edge by edge:
-// the browser's twin of facade_nb/solver/tracing/lattice.py.
+// the browser's twin of facade_nb/solver/trace/lattice.py.
 
-import { EPS, type Group, type Option, type Refusal, refusal, weigh } from "./weighing.ts";
+import { EPS, type Group, type Option, type Refusal, refusal, weigh } from "./weights.ts";
 
 export interface LatticeNode {
   /** Per word: twice the letters read, and one more inside a cut letter. */

@@ -1,6 +1,6 @@
 // Words as the paper writes them, and drawn to scale. A letter has the colour of its symbol in every view.
 
-import { h } from "../dom.ts";
+import { h } from "../shared/dom.ts";
 
 /** A letter of a word, as the trace tells it. */
 export interface LetterNote {

@@ -4,7 +4,7 @@
 // is), and what it is about in `data-about` (it lights up for these too). Both are lists of keys, blanks between. With
 // `data-pick` a click on anything within it picks it as a whole.
 
-import { mark } from "../dom.ts";
+import { mark } from "../shared/dom.ts";
 import type { Axis } from "./timeline.ts";
 
 type Part = string | number;

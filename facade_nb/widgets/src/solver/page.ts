@@ -1,12 +1,12 @@
 // The whole page: the player above, the façade and the events beside the views; the view of the stage that is played
 // comes by itself.
 
-import { h, mark } from "../dom.ts";
-import type { WidgetModel } from "../types.ts";
+import { h, mark } from "../shared/dom.ts";
+import type { WidgetModel } from "../shared/types.ts";
 import { Asking } from "./asking.ts";
 import { apology, type Panel, panel } from "./frame.ts";
-import { afterDrawing } from "./frames.ts";
 import { playbar } from "./playbar.ts";
+import { afterDrawing } from "./redraw.ts";
 import type { Loaded, Session } from "./session.ts";
 import { VIEWS } from "./views/index.ts";
 

@@ -1,7 +1,7 @@
 // Where the letters of a candidate that is not the layout would stand, and the façade that they make: every pair that makes a
 // shape in the layout is drawn as it is there, on the candidate's letters at preferred sizes.
 
-import { type Box, boxOf, type Drawing } from "../drawing.ts";
+import { type Box, boxOf, type Drawing } from "../shared/drawing.ts";
 import { atPreferred, cutsOf } from "./align/matrix.ts";
 import type { Alternative } from "./alternatives.ts";
 import { target } from "./links.ts";

@@ -1,7 +1,7 @@
 // The player as it is seen: buttons, the stages, a track to scrub on, and a sentence for the event.
 
-import { h, mark, setText } from "../dom.ts";
-import { type IconName, icon, setIcon } from "../icons.ts";
+import { h, mark, setText } from "../shared/dom.ts";
+import { type IconName, icon, setIcon } from "../shared/icons.ts";
 import type { Asking } from "./asking.ts";
 import { fragmentOf } from "./moments.ts";
 import { type Player, SPEEDS } from "./player.ts";

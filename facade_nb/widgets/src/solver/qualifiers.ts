@@ -1,13 +1,13 @@
 // The four cases of the paper's Figure 4 side by side: the words of both layers to scale over the façade they make, and
 // the qualifiers as switches. Python solves a case again when one of its switches is thrown.
 
-import { h, mark, setText, svg } from "../dom.ts";
-import { parseDrawing } from "../drawing.ts";
-import { formatNumber } from "../fields.ts";
-import { type IconName, icon } from "../icons.ts";
-import { announce } from "../presence.ts";
-import { themeOf } from "../theme.ts";
-import type { WidgetModel } from "../types.ts";
+import { h, mark, setText, svg } from "../shared/dom.ts";
+import { parseDrawing } from "../shared/drawing.ts";
+import { formatNumber } from "../shared/fields.ts";
+import { type IconName, icon } from "../shared/icons.ts";
+import { announce } from "../shared/presence.ts";
+import { themeOf } from "../shared/theme.ts";
+import type { WidgetModel } from "../shared/types.ts";
 import { hueOf } from "./letters.ts";
 import { Links, linked, target } from "./links.ts";
 import { type Bytes, byteLength, unpack } from "./packing.ts";

@@ -1,6 +1,6 @@
 // Prediction: a view hides its answer, asks, checks what the reader chose, and explains.
 
-import { h } from "../dom.ts";
+import { h } from "../shared/dom.ts";
 
 /** What there is to be said of a thing that can be chosen. */
 export interface Truth {

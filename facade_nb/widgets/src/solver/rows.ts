@@ -1,7 +1,7 @@
 // A long list of rows of one height, of which only those in sight are in the page.
 
-import { h } from "../dom.ts";
-import { afterDrawing, cancelFrame } from "./frames.ts";
+import { h } from "../shared/dom.ts";
+import { afterDrawing, cancelFrame } from "./redraw.ts";
 
 const AROUND = 8;
 

@@ -1,6 +1,6 @@
 // What all views of one trace on a page share: its pieces, the player, the links. There is one session for a channel.
 
-import { oneFor, Shared } from "../shared.ts";
+import { oneFor, Shared } from "../shared/shared.ts";
 import { Alternatives } from "./alternatives.ts";
 import { Links } from "./links.ts";
 import { type Moment, visit, watchMoments } from "./moments.ts";

@@ -1,8 +1,8 @@
 // Terms of flattened patterns and equations as the paper sets them: exponents raised, sizes between bars.
 
-import { h } from "../dom.ts";
+import { h } from "../shared/dom.ts";
 
-/** A term of a flattened pattern, as facade_nb/solver/flatten.py tells it. */
+/** A term of a flattened pattern, as facade_nb/solver/analysis/terms.py tells it. */
 export interface Term {
   text: string;
   letters: string[];

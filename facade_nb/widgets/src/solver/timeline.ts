@@ -1,4 +1,4 @@
-// The timeline of a trace, as facade_nb/widgets/visible/timeline.py tells it.
+// The timeline of a trace, as facade_nb/widgets/solver/timeline.py tells it.
 
 export type Axis = "x" | "y";
 

@@ -1,6 +1,6 @@
 // What a view of a solve is, for its frame and for the registry.
 
-import type { WidgetModel } from "../types.ts";
+import type { WidgetModel } from "../shared/types.ts";
 import type { Asking } from "./asking.ts";
 import type { Quiz } from "./quiz.ts";
 import type { Loaded, Session } from "./session.ts";

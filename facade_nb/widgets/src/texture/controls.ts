@@ -1,7 +1,7 @@
 // The buttons and sliders under the picture.
 
-import { h, mark, setText } from "../dom.ts";
-import type { WidgetModel } from "../types.ts";
+import { h, mark, setText } from "../shared/dom.ts";
+import type { WidgetModel } from "../shared/types.ts";
 import type { Session } from "./session.ts";
 import type { Steering } from "./steering.ts";
 

@@ -1,7 +1,7 @@
 // The text of the grammar. Faults are underlined in it, and stand below it, each with its line and a caret; a click goes to
 // the place.
 
-import { h, mark, setText } from "../dom.ts";
+import { h, mark, setText } from "../shared/dom.ts";
 import type { Session } from "./session.ts";
 
 /** The offset of a line and column, both from 1. */

@@ -1,6 +1,6 @@
 // How the pixel that was clicked came about, step by step.
 
-import { h, mark, setText } from "../dom.ts";
+import { h, mark, setText } from "../shared/dom.ts";
 import type { Session } from "./session.ts";
 import type { Step } from "./types.ts";
 

@@ -1,7 +1,7 @@
 // When a picture is drawn, and how finely: coarse while it moves, sharp when it rests, then smooth, in bands of rows between
 // which the page can do other things. Anything that changes begins anew.
 
-import { mark } from "../dom.ts";
+import { mark } from "../shared/dom.ts";
 import { type Job, renderer } from "./renderer.ts";
 
 const BUDGET = 45; // milliseconds of a frame while it moves, and of a band of the sharp picture

@@ -1,7 +1,7 @@
 // The façade, drawn by the page's one renderer and copied into a canvas of its own; where a page cannot draw, a still one.
 
-import { h, mark, setText, svg } from "../dom.ts";
-import type { WidgetModel } from "../types.ts";
+import { h, mark, setText, svg } from "../shared/dom.ts";
+import type { WidgetModel } from "../shared/types.ts";
 import { buttons, sliders } from "./controls.ts";
 import { painting } from "./painting.ts";
 import { type Job, lightAt, renderer } from "./renderer.ts";

@@ -1,6 +1,6 @@
 // The scopes of a pixel's derivation, drawn over the picture: those on the façade, and those in the rooms behind it.
 
-import { svg } from "../dom.ts";
+import { svg } from "../shared/dom.ts";
 import type { Session } from "./session.ts";
 import { outline, project, type Sight } from "./sight.ts";
 import type { Pair } from "./types.ts";

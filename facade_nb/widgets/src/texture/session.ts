@@ -1,8 +1,8 @@
 // What the views of one texture model on a page share: the grammar unpacked, and what was entered but is not yet answered.
 
-import { oneFor, Shared } from "../shared.ts";
+import { oneFor, Shared } from "../shared/shared.ts";
+import type { Fault } from "../shared/types.ts";
 import { type Bytes, byteLength, unpack } from "../solver/packing.ts";
-import type { Fault } from "../types.ts";
 import { renderer } from "./renderer.ts";
 import type { Common, Pair, Scene, Step, Tiles, Triple } from "./types.ts";
 

@@ -1,6 +1,6 @@
 // Moving about in front of the façade, with pointer, wheel and keys; a click looks into a pixel.
 
-import type { WidgetModel } from "../types.ts";
+import type { WidgetModel } from "../shared/types.ts";
 import type { Session } from "./session.ts";
 import { distanceOf, type Look, meet, sightOf, targetOf } from "./sight.ts";
 import type { Pair } from "./types.ts";

@@ -1,6 +1,6 @@
 // What is shown where the browser cannot draw: why, what would help, and a still picture that Python has drawn.
 
-import { h, setText } from "../dom.ts";
+import { h, setText } from "../shared/dom.ts";
 import type { Session } from "./session.ts";
 
 export function stillPicture(session: Session, whyNot: string, signal: AbortSignal): HTMLElement {

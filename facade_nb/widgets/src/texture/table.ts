@@ -1,7 +1,7 @@
 // The grammar texture, a rule in each row, its channels with their names: the paper's Figure 3 for this grammar. What the
 // pixel looked into has read is lit.
 
-import { h, mark } from "../dom.ts";
+import { h, mark } from "../shared/dom.ts";
 import { reveal } from "./inspector.ts";
 import type { Session } from "./session.ts";
 

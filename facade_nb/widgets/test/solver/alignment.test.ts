@@ -6,7 +6,7 @@ import { target } from "../../src/solver/links.ts";
 import type { PathNote } from "../../src/solver/network/story.ts";
 import { unpack } from "../../src/solver/packing.ts";
 import { alignment } from "../../src/solver/views/alignment.ts";
-import { Group, walk, weigh } from "../../src/solver/weighing.ts";
+import { Group, walk, weigh } from "../../src/solver/weights.ts";
 import { pieceOf, type Shown, show } from "./fixtures.ts";
 
 let one: Shown;

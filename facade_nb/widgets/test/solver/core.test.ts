@@ -1,7 +1,7 @@
 // The player, the links, the session: what all views stand on.
 
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import { h } from "../../src/dom.ts";
+import { h } from "../../src/shared/dom.ts";
 import { Asking } from "../../src/solver/asking.ts";
 import { Links, linked, target } from "../../src/solver/links.ts";
 import { fragmentOf, momentIn } from "../../src/solver/moments.ts";
@@ -11,7 +11,7 @@ import { Player } from "../../src/solver/player.ts";
 import { Quiz } from "../../src/solver/quiz.ts";
 import { Session } from "../../src/solver/session.ts";
 import { Timeline, type TimelineData } from "../../src/solver/timeline.ts";
-import { FakeModel } from "../fake.ts";
+import { FakeModel } from "../shared/fake.ts";
 import { DESIGNS, pieceOf } from "./fixtures.ts";
 
 const timelineOf = async (design: string): Promise<Timeline> =>

@@ -1,4 +1,4 @@
-// Real traces for the tests of the views: the pieces of gallery designs, as Python packs them (tests/widgets/pieces.py).
+// Real traces for the tests of the views: the pieces of gallery designs, as Python packs them (tests/widgets/solver/pieces.py).
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -10,7 +10,7 @@ import { Player } from "../../src/solver/player.ts";
 import type { Session } from "../../src/solver/session.ts";
 import { Timeline, type TimelineData } from "../../src/solver/timeline.ts";
 import type { View, ViewKind } from "../../src/solver/view.ts";
-import { FakeModel } from "../fake.ts";
+import { FakeModel } from "../shared/fake.ts";
 import { FOLDER } from "./pieces.ts";
 
 export const DESIGNS = [

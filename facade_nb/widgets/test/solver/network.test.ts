@@ -6,7 +6,7 @@ import { type NetworkData, Story, type Subject } from "../../src/solver/network/
 import { unpack } from "../../src/solver/packing.ts";
 import { Timeline, type TimelineData } from "../../src/solver/timeline.ts";
 import { network } from "../../src/solver/views/network.ts";
-import type { Objective } from "../../src/solver/weighing.ts";
+import type { Objective } from "../../src/solver/weights.ts";
 import { pieceOf, type Shown, show } from "./fixtures.ts";
 
 let one: Shown;

@@ -1,4 +1,4 @@
-// Before the tests: have Python write the pieces of real traces (tests/widgets/pieces.py).
+// Before the tests: have Python write the pieces of real traces (tests/widgets/solver/pieces.py).
 
 import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
@@ -10,5 +10,5 @@ export const FOLDER = join(root, "out/pieces");
 
 export default function setup(): void {
   const own = [".venv/bin/python", ".venv/Scripts/python.exe"].map((path) => join(root, path)).find(existsSync);
-  execFileSync(own ?? "python3", ["-m", "tests.widgets.pieces", FOLDER], { cwd: root, stdio: "inherit" });
+  execFileSync(own ?? "python3", ["-m", "tests.widgets.solver.pieces", FOLDER], { cwd: root, stdio: "inherit" });
 }

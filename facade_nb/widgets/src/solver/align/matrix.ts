@@ -2,7 +2,7 @@
 
 import { lettersBetween, type PathNote } from "../network/story.ts";
 import type { PlacedLetter } from "../placing.ts";
-import type { Column } from "../weighing.ts";
+import type { Column } from "../weights.ts";
 
 /** Where the words are cut: per boundary, the place of each band; and which elements have letters in them. */
 export interface Cuts {

@@ -1,6 +1,6 @@
 // What can be asked of an alignment: where its next column ends, and what a boundary that was moved breaks.
 
-import { formatNumber } from "../../fields.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import { nameOf } from "../letters.ts";
 import type { PathNote } from "../network/story.ts";
 import type { Truth } from "../quiz.ts";
@@ -16,7 +16,7 @@ import {
   type Verdict,
   walk,
   weigh,
-} from "../weighing.ts";
+} from "../weights.ts";
 import { atPreferred, type Cuts, choices, columnsOf, cutsOf, moved, sizeIn } from "./matrix.ts";
 
 const WRONG = 4; // columns offered beside the right one

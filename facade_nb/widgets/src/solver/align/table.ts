@@ -1,12 +1,12 @@
 // The matrix in the page: a row of elements for each layer, sizes and errors below.
 
-import { h, mark } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, mark } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import { hueOf } from "../letters.ts";
 import { linked, target } from "../links.ts";
 import type { PathNote } from "../network/story.ts";
 import type { Axis } from "../timeline.ts";
-import { rowsNamed, type Verdict } from "../weighing.ts";
+import { rowsNamed, type Verdict } from "../weights.ts";
 import type { Drawn, Element, Piece } from "./matrix.ts";
 import type { Trial } from "./trial.ts";
 

@@ -1,6 +1,6 @@
 // Trying an alignment by hand: the handles on its boundaries, for the pointer and for keys.
 
-import { h, mark } from "../../dom.ts";
+import { h, mark } from "../../shared/dom.ts";
 import { type PathNote, restOf } from "../network/story.ts";
 import { type Cuts, choices, type Drawn, merged, moved, positionOf, split } from "./matrix.ts";
 

@@ -1,10 +1,10 @@
 // What stands beside the network: the columns that leave the node that is looked at, and the question's choices.
 
-import { h, keyed, mark, type Row, setText } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, keyed, mark, type Row, setText } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import type { LetterNote } from "../letters.ts";
 import { linked, target } from "../links.ts";
-import { rowsNamed } from "../weighing.ts";
+import { rowsNamed } from "../weights.ts";
 import type { Arc } from "./scene.ts";
 import { restOf, type Subject } from "./story.ts";
 

@@ -1,7 +1,7 @@
 // A canvas that can be panned and zoomed: by wheel (Ctrl, or while it has the focus), by dragging, by keys and buttons.
 
-import { h } from "../../dom.ts";
-import { afterDrawing, cancelFrame } from "../frames.ts";
+import { h } from "../../shared/dom.ts";
+import { afterDrawing, cancelFrame } from "../redraw.ts";
 
 export interface Camera {
   /** The point of the drawing at the canvas's upper left corner, and pixels per unit. */

@@ -1,9 +1,9 @@
 // “Which edge is next?”: what can be chosen, what is right, and why.
 
-import { h } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import type { Quiz } from "../quiz.ts";
-import { EPS } from "../weighing.ts";
+import { EPS } from "../weights.ts";
 import { columnText } from "./lists.ts";
 import { type Arc, type Base, edgeKey, leaving, stepArc } from "./scene.ts";
 import { type Story, type Subject, TAKEN } from "./story.ts";

@@ -4,7 +4,7 @@
 import { type Lattice, latticeOf, type Region, traceRegion } from "../lattice.ts";
 import type { LetterNote } from "../letters.ts";
 import { target } from "../links.ts";
-import { Group, type Objective } from "../weighing.ts";
+import { Group, type Objective } from "../weights.ts";
 import { type RegionNote, type Story, type Subject, sizeOf, type Told } from "./story.ts";
 
 const NODES = 2_000; // up to so many nodes,

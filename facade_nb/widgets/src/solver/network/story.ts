@@ -3,7 +3,7 @@
 import type { Alternative } from "../alternatives.ts";
 import type { Axis, Timeline } from "../timeline.ts";
 import { played } from "../timeline.ts";
-import type { BandNote } from "../weighing.ts";
+import type { BandNote } from "../weights.ts";
 
 export interface NetworkNote {
   at: number;

@@ -1,8 +1,8 @@
 // The path through a network of many words: every word is an axis to scale, and every node of the path a line across
 // them all (parallel coordinates); beside them, how the words are joined pair by pair (supplement 3.3).
 
-import { h, svg } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, svg } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import { hueOf } from "../letters.ts";
 import { linked, target } from "../links.ts";
 import { edgeKey } from "./scene.ts";

@@ -1,7 +1,7 @@
 // The façade under its forces: every word before sizing and at the moment, and how each letter pushes or pulls.
 
-import { h, svg } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, svg } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import { hueOf, type LetterNote } from "../letters.ts";
 import { linked, target } from "../links.ts";
 import { isForce, type Moment, type Place, type System } from "./system.ts";

@@ -1,9 +1,9 @@
 // The multipliers of the sizing as forces on the elevation: each letter pulls its ends together or pushes them apart, and the
 // canvas holds the outermost ones.
 
-import { h, mark, svg } from "../../dom.ts";
-import type { Drawing } from "../../drawing.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, mark, svg } from "../../shared/dom.ts";
+import type { Drawing } from "../../shared/drawing.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import { linked, target } from "../links.ts";
 import type { Placing } from "../placing.ts";
 import type { Axis } from "../timeline.ts";

@@ -1,6 +1,6 @@
 // What can be asked of the sizing: which symbols grow, which equation a letter has, which constraint becomes active next.
 
-import { formatNumber } from "../../fields.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import type { Truth } from "../quiz.ts";
 import { type ActiveSetStep, type Constraint, isForce, type Moment, type Place, type System } from "./system.ts";
 

@@ -1,8 +1,8 @@
 // Alignment: the matrix as the paper draws it (Eq. 8), to scale, with sizes and errors below. A boundary can be dragged,
 // or moved by keys: then Ω and what the alignment breaks are those of the reader's own, judged in the browser.
 
-import { h, mark } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, mark } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import { asSolved, atPreferred, type Cuts, columnsOf, cutsOf, type Drawn, sizeIn } from "../align/matrix.ts";
 import {
   CONSTRAINTS,
@@ -24,7 +24,7 @@ import { Placing, type PlacingData } from "../placing.ts";
 import { offers, type Question, Quiz } from "../quiz.ts";
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
-import { Group, judge, type Objective, rowsNamed, type Verdict } from "../weighing.ts";
+import { Group, judge, type Objective, rowsNamed, type Verdict } from "../weights.ts";
 
 interface AlignmentData {
   paths: PathNote[];

@@ -1,7 +1,7 @@
 // Analysis: pairs of patterns with their common ends greyed, the equation of each, and both linear systems, solved; an
 // equation that contradicts the others in red (supplement 3.1).
 
-import { h, mark, setText } from "../../dom.ts";
+import { h, mark, setText } from "../../shared/dom.ts";
 import { AxisChoice } from "../axes.ts";
 import { offers as near } from "../equations.ts";
 import { linked, target } from "../links.ts";

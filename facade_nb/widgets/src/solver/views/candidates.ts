@@ -1,8 +1,8 @@
 // Candidates: one word of each pattern under one value of each counter, and what became of each (the paper's 5.1). The
 // table sorts and filters; a candidate that is chosen is marked in all other views.
 
-import { h, mark, setText } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, mark, setText } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import type { CandidateNote as Candidate } from "../alternatives.ts";
 import { AxisChoice } from "../axes.ts";
 import { filter } from "../filter.ts";

@@ -1,11 +1,11 @@
 // The façade as the events build it: letters as strips while they are placed, then shape by shape; the forces that the
 // sizing finds; and what is lit anywhere is outlined on it.
 
-import { h, mark, setText, svg } from "../../dom.ts";
-import { type Box, boxOf, type Drawing, parseDrawing } from "../../drawing.ts";
-import { formatNumber } from "../../fields.ts";
-import { icon } from "../../icons.ts";
-import { themeOf } from "../../theme.ts";
+import { h, mark, setText, svg } from "../../shared/dom.ts";
+import { type Box, boxOf, type Drawing, parseDrawing } from "../../shared/drawing.ts";
+import { formatNumber } from "../../shared/fields.ts";
+import { icon } from "../../shared/icons.ts";
+import { themeOf } from "../../shared/theme.ts";
 import type { Alternative } from "../alternatives.ts";
 import { linked, target } from "../links.ts";
 import type { PathNote } from "../network/story.ts";

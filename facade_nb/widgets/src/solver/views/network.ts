@@ -2,8 +2,8 @@
 // arcs of the closure, the path), with weights, the tolerance region of the supplement's Figure 6, and what is forbidden.
 // More than two words are seen as a pair of them, as a path across all, and as they are joined.
 
-import { h, mark, setText } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, mark, setText } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import type { Alternative } from "../alternatives.ts";
 import { target } from "../links.ts";
 import { columnText, LeavingList, litLetters } from "../network/lists.ts";
@@ -15,7 +15,7 @@ import { type NetworkData, Story, type Subject, sizeOf, TAKEN, type Told } from 
 import { warp } from "../network/warp.ts";
 import { Quiz, type Truth } from "../quiz.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
-import type { Objective } from "../weighing.ts";
+import type { Objective } from "../weights.ts";
 
 export const network: ViewKind = {
   title: "Network",

@@ -1,7 +1,7 @@
 // The player, with all events as sentences, and the code that does what is played.
 
-import { h, mark, setText } from "../../dom.ts";
-import { icon } from "../../icons.ts";
+import { h, mark, setText } from "../../shared/dom.ts";
+import { icon } from "../../shared/icons.ts";
 import { type Rows, rows } from "../rows.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
 

@@ -1,8 +1,8 @@
 // Sizing: the least-squares system as a matrix with the equation of every row, its objective, the active set step by step,
 // and its multipliers as forces on the façade, before and after (the paper's 5.3, the supplement's Figure 7).
 
-import { h, mark, setText } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, mark, setText } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import { AxisChoice } from "../axes.ts";
 import { hueOf } from "../letters.ts";
 import { linked, target } from "../links.ts";

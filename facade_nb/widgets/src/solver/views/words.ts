@@ -1,8 +1,8 @@
 // Words: for each pattern the table of its counters and choices, every word drawn to scale against canvas ± μ, kept or
 // dropped and why (the paper's 5.1, Eq. 7). With sampled sizes of unsized symbols it is the paper's Figure 7.
 
-import { h, mark, setText } from "../../dom.ts";
-import { formatNumber } from "../../fields.ts";
+import { h, mark, setText } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
 import { AxisChoice } from "../axes.ts";
 import { type Candidate, combined, type GroupNote, inOrder, type Judged, judge, type WordEvent } from "../bounds.ts";
 import { boxes, type DrawnLetter, lettersLegend, spelled } from "../letters.ts";

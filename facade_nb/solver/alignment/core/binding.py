@@ -1,0 +1,453 @@
+"""The best-first search and the dives in WebAssembly: the same steps as `search` and `dive`, many times faster.
+
+`core/` is a transcription of `network`, `making`, `stepping`, `paths`, `pairs`, `shortfall`, `skeleton`, `seen`,
+`pricing`, `search` and `dive` into C++, built into `core/core.wasm` by `make core` and run by wasmtime. It takes the
+same decisions in the same order, and tests hold it to that: as many paths, the same structures. It finds what a
+structure costs, but not its sizes: each one that could be among the best is priced again in Python.
+
+A trace is made by the search in Python. Where there is no wasmtime (in a browser, say) that is used for everything.
+"""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from array import array
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from functools import cache
+from math import inf
+from pathlib import Path as File
+from struct import Struct, unpack, unpack_from
+from typing import Any
+from weakref import WeakKeyDictionary, WeakSet, finalize, ref
+
+from ...trace import Walk
+from ..columns import EPS, Group, Option
+from ..pricing import Priced, Structure, price
+from ..reference.best_first import BestFirst, Found, Stopped
+from ..reference.dives import Dives
+from ..reference.network import ceiling
+from .signals import Deferred
+
+__all__ = ["CompiledDives", "CompiledSearch", "available", "best_first", "dives", "start_afresh"]
+
+_MODULE = File(__file__).parent / "core.wasm"
+_LARGE = 64 * 2**20
+"""An instance whose memory has grown to so many bytes is let go of once nothing is left in it."""
+_MOST = 2**30
+"""No instance may grow beyond so many bytes; the clock stops a search long before."""
+_UNLIMITED = float(2**53)
+
+_BAD_FILE = 8
+_ENDED, _PAUSED, _LEFT, _PRICE = range(4)
+_SEARCH, _DIVES, _GROUP = range(3)
+_BOX = [Struct(f"<{n}d") for n in range(9)]
+_MANY = 8
+"""So many things that are no longer needed are let go of at once, or fewer where memory is short."""
+
+
+@cache
+def available() -> bool:
+    """Whether the compiled search can be used."""
+    try:
+        import wasmtime  # noqa: F401
+    except (ImportError, OSError, RuntimeError):  # not installed, or not made for this machine
+        return False
+    return _MODULE.is_file()
+
+
+@cache
+def _module() -> tuple[Any, Any]:
+    """The engine and the module: made into machine code once, which wasmtime keeps in the user's cache if it can."""
+    import wasmtime
+
+    config = wasmtime.Config()
+    with suppress(
+        wasmtime.WasmtimeError
+    ):  # no place for a cache: then it takes a fifth of a second in each process
+        config.cache = True
+    engine = wasmtime.Engine(config)
+    return engine, wasmtime.Module.from_file(engine, str(_MODULE))
+
+
+class _Core:
+    """One instance of the module, used by one thread."""
+
+    def __init__(self) -> None:
+        import wasmtime
+
+        engine, module = _module()
+        self._store: Any = wasmtime.Store(engine)
+        self._store.set_limits(memory_size=_MOST)
+        linker = wasmtime.Linker(engine)
+        me = ref(self)  # wasmtime keeps what it may call until the store is gone
+
+        def check() -> int:
+            core = me()
+            return 1 if core is None else core._asked()
+
+        linker.define_func("host", "check", wasmtime.FuncType([], [wasmtime.ValType.i32()]), check)
+        for wanted in module.imports:  # the C++ library could write a message; it has nowhere to write to
+            if wanted.module != "host":
+                linker.define_func(wanted.module, str(wanted.name), wanted.type, lambda *_: _BAD_FILE)
+        exports: Any = linker.instantiate(self._store, module).exports(self._store)
+        self._functions: dict[str, Any] = {
+            str(own.name): exports[str(own.name)] for own in module.exports if str(own.name) != "memory"
+        }
+        self._memory: Any = exports["memory"]
+        self._check: Callable[[], None] | None = None
+        self._raised: BaseException | None = None
+        self._symbols: dict[str, int] = {}
+        self._groups: WeakKeyDictionary[Group, float] = WeakKeyDictionary()
+        self._alive: set[tuple[int, float]] = set()
+        self._dead: list[tuple[int, float]] = []
+        self.busy = self.broken = False
+        self.told: tuple[float, ...] = ()
+        self._deferred = Deferred()
+        self._room = self._at = 0
+        self._functions["_initialize"](self._store)
+        self._box = int(self._functions["box_at"](self._store))
+        _cores.add(self)
+
+    def close(self) -> None:
+        """Let go of everything, while wasmtime can still do so."""
+        self._store.close()
+
+    @property
+    def size(self) -> int:
+        """Its memory, in bytes."""
+        return int(self._memory.data_len(self._store))
+
+    @property
+    def large(self) -> bool:
+        """It takes much memory, and nothing is left in it."""
+        self._bury()
+        return not self._alive and self.size > _LARGE
+
+    def _call(self, name: str, *arguments: float) -> None:
+        """Call a function, its arguments in the box: to wasmtime each parameter and result takes microseconds."""
+        if arguments:
+            box = self._memory.get_buffer_ptr(self._store, 64, self._box)
+            _BOX[len(arguments)].pack_into(box, 0, *arguments)
+        self._functions[name](self._store)
+
+    def _answer(self) -> tuple[float, ...]:
+        return _BOX[5].unpack_from(self._memory.get_buffer_ptr(self._store, 40, self._box))
+
+    def _starved(self) -> bool:
+        """Whether it has come to an end as there was no memory left."""
+        return bool(_BOX[8].unpack_from(self._memory.get_buffer_ptr(self._store, 64, self._box))[7])
+
+    def ask(self, check: Callable[[], None] | None, name: str, *arguments: float) -> tuple[float, ...]:
+        """Call what may take long, and read its answer; what `check` raises meanwhile is raised afterwards."""
+        import wasmtime
+
+        self._check, self._raised, self.busy, self.told = check, None, True, ()
+        try:
+            with self._deferred:
+                self._call(name, *arguments)
+        except wasmtime.Trap:
+            self.broken = True
+            if not self._starved():
+                raise
+            raise Stopped from None  # out of memory before anybody looked
+        finally:
+            self._check, self.busy = None, False
+        raised, self._raised = self._raised, None
+        self.told = self._answer()
+        if raised is not None:
+            raise raised
+        return self.told
+
+    def _asked(self) -> int:
+        if self._deferred.came:
+            return 1
+        if self._check is None:
+            return 0
+        try:
+            self._check()
+        except BaseException as stop:
+            self._raised = stop
+            return 1
+        return 0
+
+    def groups(self, groups: Sequence[Group]) -> float:
+        """Pass some groups as arguments of the next call; how many."""
+        numbers = array("d")
+        for group in groups:
+            number = self._groups.get(group)
+            if number is None:
+                self._put(_told(group, self._symbols))
+                self._call("group_new")
+                number = self._groups[group] = self._answer()[0]
+                self.owned(group, _GROUP, number)
+            numbers.append(number)
+        self._put(numbers)
+        return len(numbers)
+
+    def owned(self, owner: object, kind: int, number: float) -> None:
+        """Let go of something when its owner is no more."""
+        if len(self._dead) >= _MANY or self.size > _LARGE // 4:
+            self._bury()
+        self._alive.add((kind, number))
+        finalize(owner, self._dead.append, (kind, number)).atexit = False
+
+    def _bury(self) -> None:
+        """Let go of what has no owner any more: not at once, as that may happen in any thread, at any time."""
+        if not self._dead or self.busy or self.broken:
+            return
+        count = len(self._dead)  # more may come meanwhile
+        dead = sorted(self._dead[:count])  # searches before the groups that they refer to
+        del self._dead[:count]
+        self._alive.difference_update(dead)
+        self._put(array("d", [number for own in dead for number in own]))
+        self._call("free_all", len(dead))
+
+    def integers(self, at: float) -> tuple[int, ...]:
+        """Numbers in its memory, before which stands how many they are."""
+        begin = int(at)
+        (count,) = unpack("<i", self._memory.read(self._store, begin, begin + 4))
+        return unpack_from(f"<{count}i", self._memory.read(self._store, begin + 4, begin + 4 + 4 * count))
+
+    def _put(self, numbers: array[float]) -> None:
+        if len(numbers) > self._room:
+            self._room = 2 * len(numbers)
+            self._call("numbers_at", self._room)
+            self._at = int(self._answer()[0])
+        self._memory.write(self._store, numbers.tobytes(), self._at)
+
+
+def _told(group: Group, symbols: dict[str, int]) -> array[float]:
+    """A group as numbers, in the order in which `Group::read` takes them."""
+    objective = group.objective
+    out = array(
+        "d",
+        (
+            len(group.bands), group.canvas, group.tolerance, group.share, group.under,
+            objective.empty, objective.loose, objective.fit, objective.plain,
+            group.waived, group.stiff, group.tied, group.tall,
+            -1 if group.reference is None else group.reference,
+        ),
+    )  # fmt: skip
+    for band, weight, guards in zip(group.bands, group.weights, group.guards, strict=True):
+        out.extend((weight, len(guards), *guards, band.cuts, len(band.letters)))
+        for letter in band.letters:
+            size = letter.size
+            out.extend(
+                (
+                    0.0 if size is None else size,
+                    symbols.setdefault(letter.symbol, len(symbols)),
+                    (size is not None)
+                    + 2 * letter.transparent
+                    + 4 * letter.opaque
+                    + 8 * letter.attached
+                    + 16 * letter.unoccludable
+                    + 32 * band.is_free(letter),
+                )
+            )
+        out.extend(band.soft_rest)
+        out.extend(band.gap_rest)
+    return out
+
+
+_local = threading.local()
+_cores: WeakSet[_Core] = WeakSet()
+
+
+@atexit.register
+def _close() -> None:
+    for core in list(_cores):
+        core.close()
+    if _module.cache_info().currsize:
+        engine, module = _module()
+        module.close()
+        engine.close()
+
+
+def _core() -> _Core:
+    """The instance of this thread."""
+    core: _Core | None = getattr(_local, "core", None)
+    if core is not None and core.busy:
+        return _Core()  # `should_stop` solves something itself
+    if core is None or core.broken or core.large:
+        core = _local.core = _Core()
+    return core
+
+
+def start_afresh() -> bool:
+    """Have the next searches of this thread begin with little memory, if those until now have taken much; whether so.
+
+    The memory is given back when the last of them is gone.
+    """
+    core: _Core | None = getattr(_local, "core", None)
+    if core is None or (not core.broken and core.size <= _LARGE):
+        return False
+    _local.core = None
+    return True
+
+
+def _structure(groups: Sequence[Group], numbers: Sequence[int]) -> Structure:
+    """A structure from the numbers of the options that were taken."""
+    at = 0
+    out: list[tuple[tuple[Option, ...], ...]] = []
+    for group in groups:
+        count = numbers[at]
+        at += 1
+        state = list(group.start)
+        columns: list[tuple[Option, ...]] = []
+        for _ in range(count):
+            column: list[Option] = []
+            for b, band in enumerate(group.bands):
+                option = band.option(state[b], numbers[at])
+                state[b] = option.target
+                column.append(option)
+                at += 1
+            columns.append(tuple(column))
+        out.append(tuple(columns))
+    return tuple(out)
+
+
+class CompiledSearch:
+    """Does what `search.BestFirst` does, and has its attributes.
+
+    Attributes
+    ----------
+    expected
+        A structure that is not priced again where it is found.
+    """
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        *,
+        keep: int = 8,
+        nodes: int = 1_000_000,
+        check: Callable[[], None] | None = None,
+        accept: Callable[[Priced], bool] | None = None,
+        turn: float = inf,
+    ) -> None:
+        self.groups, self.keep, self.check, self.accept = tuple(groups), keep, check, accept
+        self.paused = False
+        self.expected: Priced | None = None
+        core = self._core = _core()
+        turn = min(turn, _UNLIMITED)
+        numbers = (core.groups(groups), keep, nodes, turn, accept is not None)
+        _, bound, _, _, self._search = core.ask(check, "search_new", *numbers)
+        core.owned(self, _SEARCH, self._search)
+        self.found = Found(bound=bound)
+        self.done = bound == inf
+        self._ceiling = ceiling(groups)
+
+    def advance(self, limit: float) -> None:
+        """Go on until the optimum is known, or is known to cost more than `limit`, or it is the turn of others."""
+        found = self.found
+        if self.done or limit < found.bound - EPS:
+            return
+        paused, self.paused = self.paused, False
+        status = self._ask("search_advance", float(limit), paused)
+        while status != _ENDED:
+            if status == _LEFT:
+                structure = _structure(self.groups, self._core.integers(self._structure))
+                expected = self.expected
+                known = expected is not None and expected.structure == structure
+                item = expected if known else price(self.groups, structure)
+                if item is not None and (self.accept is None or self.accept(item)):
+                    found.offer(item, self.keep)
+                    limit = min(limit, item.cost)
+                status = self._ask("search_judged", *self._known(), float(limit))
+            elif status == _PAUSED:
+                self.paused = True
+                return
+            else:
+                found.cut = self.done = True
+                return
+        if found.ties:
+            self.done = True
+        elif limit >= self._ceiling:
+            self.done = True
+            found.bound = inf
+        else:
+            found.bound = max(found.bound, limit)
+
+    def _known(self) -> tuple[float, int, bool, bool]:
+        best = self.found.best
+        if best is None:
+            return inf, 0, False, False
+        return best.cost, best.columns, best.proper, len(self.found.ties) >= self.keep
+
+    def _ask(self, name: str, *arguments: float) -> float:
+        try:
+            status, *_ = self._core.ask(self.check, name, self._search, *arguments)
+        finally:
+            if self._core.told:  # not where it ran out of memory
+                _, bound, nodes, self._structure, _ = self._core.told
+                self.found.nodes = int(nodes)
+                if not self.found.ties:
+                    self.found.bound = max(self.found.bound, bound)
+        return status
+
+
+class CompiledDives:
+    """Does what `dive.Dives` does, and has its attributes."""
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        least: float,
+        check: Callable[[], None] | None = None,
+        accept: Callable[[Priced], bool] | None = None,
+    ) -> None:
+        self.groups, self.check, self._accept = tuple(groups), check, accept
+        self.best: Priced | None = None
+        core = self._core = _core()
+        self.done = False
+        """There is no better one."""
+        self._dives = core.ask(check, "dives_new", core.groups(groups), least, accept is not None)[4]
+        core.owned(self, _DIVES, self._dives)
+        self._ask("dives_begin", ceiling(groups))
+
+    def _ask(self, name: str, *arguments: float) -> tuple[float, ...]:
+        told = self._core.ask(self.check, name, self._dives, *arguments)
+        self.done = told[2] != 0.0
+        return told
+
+    def dive(self) -> bool:
+        """Go through the network once; whether a better alignment was found."""
+        status, limit, _, structure, _ = self._ask("dives_dive", self.best is not None)
+        if status != _PRICE:
+            return False
+        priced = price(self.groups, _structure(self.groups, self._core.integers(structure)))
+        if (
+            priced is None
+            or priced.cost > limit + EPS
+            or (self._accept is not None and not self._accept(priced))
+        ):
+            self._ask("dives_missed")
+            return False
+        self.offer(priced)
+        return True
+
+    def offer(self, priced: Priced) -> None:
+        """An alignment that is known already: only cheaper ones are looked for."""
+        self.best = priced
+        self._ask("dives_found", priced.cost)
+
+
+def best_first(
+    groups: Sequence[Group], *, log: Walk | None = None, **options: Any
+) -> BestFirst | CompiledSearch:
+    """The search to be used: the compiled one where there is one and nobody wants to know what it does."""
+    if log is None and available():
+        return CompiledSearch(groups, **options)
+    return BestFirst(groups, log=log, **options)
+
+
+def dives(
+    groups: Sequence[Group],
+    least: float,
+    check: Callable[[], None] | None = None,
+    accept: Callable[[Priced], bool] | None = None,
+) -> Dives | CompiledDives:
+    """The dives to be used."""
+    return (CompiledDives if available() else Dives)(groups, least, check, accept)

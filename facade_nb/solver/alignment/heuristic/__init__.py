@@ -1,0 +1,1 @@
+"""An alignment soon: local search over the rows of tall stacks."""

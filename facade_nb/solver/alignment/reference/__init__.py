@@ -1,0 +1,1 @@
+"""The best-first search in Python: the readable reference of the compiled one (`core`)."""

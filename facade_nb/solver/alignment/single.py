@@ -1,0 +1,159 @@
+"""Aligning one candidate of one group: the call that checks and lessons use (SPEC 6)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import isfinite
+
+from ...design.errors import NoLayout
+from ..model.letters import Letter
+from ..model.objective import Objective
+from .columns import Group, make_group
+from .paper.ida import search_ida
+from .pricing import Priced
+from .reference.best_first import Found, Stopped
+from .reference.best_first import search as search_best
+
+__all__ = ["SEARCHES", "Alignment", "Element", "align", "alignment_of"]
+
+Element = tuple[Letter, ...]
+SEARCHES = ("best", "ida")
+
+_TURNS: Mapping[str, Sequence[int]] = {"best": (20_000, 150_000, 1_000_000), "ida": (4_000, 30_000, 100_000)}
+"""After so many partial alignments a search gives way to the other; after the last, the best so far is taken."""
+
+
+@dataclass(frozen=True, slots=True)
+class Alignment:
+    """Words cut into columns (the matrix of the paper's Eq. 8).
+
+    Attributes
+    ----------
+    columns
+        Per column, per row (topmost first): the letters in it; a piece of a cut letter, and an unsized
+        letter, has the size that makes the objective least. An empty tuple is ε.
+    error
+        Ω = Σ ω_j, metres (Eq. 9, or its variant for non-opaque rows under the default objective).
+    cost
+        J under the objective; Ω under the paper's.
+    width
+        W = Σ_j of the largest row size.
+    """
+
+    columns: tuple[tuple[Element, ...], ...]
+    error: float
+    cost: float
+    width: float
+
+    def __str__(self) -> str:
+        return " | ".join("/".join(" ".join(map(str, e)) or "ε" for e in column) for column in self.columns)
+
+
+def align(
+    rows: Sequence[Sequence[Letter]],
+    canvas: float = 12.0,
+    tolerance: float = 0.0,
+    objective: Objective | None = None,
+    search: str = "ida",
+    cuts: bool = True,
+) -> Alignment | None:
+    """Best alignment of the given words, topmost first.
+
+    Parameters
+    ----------
+    rows
+        Words, topmost row first. A letter without a size gets the size that makes the objective least; all
+        letters of its symbol the same.
+    canvas, tolerance
+        Metres: ω_j ≤ tolerance and |W − canvas| ≤ tolerance.
+    objective
+        Default `Objective.paper()`.
+    search
+        ``"ida"``, the paper's, or ``"best"``. Both return the same cost and number of columns. What one of them is lost
+        in the other most often is not: the one asked for begins, and after some thousand partial alignments they take
+        turns.
+    cuts
+        Whether transparent letters may be cut.
+
+    Returns
+    -------
+    The alignment, or None where the constraints and the tolerance leave none. Where neither search has come to an end
+    after a million partial alignments, it is the best so far.
+
+    Raises
+    ------
+    ValueError
+        For an unknown search, sizes that are not finite and positive, or a solid letter without a size.
+    NoLayout
+        Where the search ran out of memory, or of steps, and has found none.
+    """
+    if search not in SEARCHES:
+        raise ValueError(f"search: expected one of {', '.join(SEARCHES)}; found {search!r}")
+    for i, row in enumerate(rows):
+        for k, letter in enumerate(row):
+            if letter.size is None and not letter.transparent:
+                raise ValueError(f"rows[{i}][{k}]: {letter} is solid and needs a size")
+            if letter.size is not None and not (isfinite(letter.size) and letter.size > 0):
+                raise ValueError(f"rows[{i}][{k}]: expected a positive size, found {letter.size!r}")
+    if not isfinite(canvas) or canvas < 0 or not tolerance >= 0:
+        raise ValueError(f"expected canvas ≥ 0 and tolerance ≥ 0, found {canvas!r} and {tolerance!r}")
+    if not any(rows):
+        return Alignment((), 0.0, 0.0, 0.0) if canvas <= tolerance else None
+    group = make_group(
+        rows, canvas, tolerance, Objective.paper() if objective is None else objective, cuts=cuts
+    )
+    found = _searched(group, search)
+    if found.cut and found.best is None:
+        letters = " and ".join(str(len(word)) for word in dict.fromkeys(map(tuple, rows)))
+        raise NoLayout(
+            f"The alignment of words of {letters} letters takes more memory than it may, or too many steps; "
+            "shorter words, a smaller tolerance, or Objective(), which is not degenerate, would do.",
+            constraint="memory",
+        )
+    return None if found.best is None else alignment_of(group, found.best, 0)
+
+
+def _searched(group: Group, first: str) -> Found:
+    """What one of the searches finds first, as they take turns; or the best that both have come upon."""
+    second = next(own for own in SEARCHES if own != first)
+    best = Found(cut=True)
+    for turn in zip(_TURNS[first], _TURNS[second], strict=True):
+        begin, check = time.monotonic(), None
+        for search, nodes in zip((first, second), turn, strict=True):
+            try:
+                found = (search_ida if search == "ida" else search_best)(
+                    [group], keep=1, nodes=nodes, check=check
+                )
+            except Stopped:  # out of memory, or time
+                found = Found(cut=True)
+            if not found.cut:
+                return found
+            for priced in found.ties:
+                best.offer(priced, 1)
+            check = _until(time.monotonic() + max(1.0, 2.0 * (time.monotonic() - begin)))
+    return best
+
+
+def _until(end: float) -> Callable[[], None]:
+    """The second search has about twice the time that the first one took."""
+
+    def check() -> None:
+        if time.monotonic() > end:
+            raise Stopped
+
+    return check
+
+
+def alignment_of(group: Group, priced: Priced, index: int) -> Alignment:
+    """The matrix of one group of a priced structure, with every row of equal words written out."""
+    columns: list[tuple[Element, ...]] = []
+    for column, sizes in zip(priced.structure[index], priced.pieces[index], strict=True):
+        elements = [
+            tuple(replace(band.letters[i], size=size) for i, size in zip(option.letters, own, strict=True))
+            for band, option, own in zip(group.bands, column, sizes, strict=True)
+        ]
+        columns.append(tuple(elements[b] for b in group.band_of))
+    cost = priced.cost if len(priced.structure) == 1 else priced.omegas[index]
+    return Alignment(tuple(columns), priced.omegas[index], cost, priced.widths[index])

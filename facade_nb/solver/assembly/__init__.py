@@ -1,0 +1,1 @@
+"""From solved axes to the layout: letters placed, shapes merged, holes found."""

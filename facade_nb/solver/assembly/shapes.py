@@ -1,0 +1,266 @@
+"""From two solved axes to shapes: the outer product of each layer, what hides what, and holes (SPEC 3, *Result*)."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import fields, replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from ...design.errors import NoLayout
+from ...design.model import AXES, Axis, Canvas, Design, Layer, Shape
+from ..model.layout import AxisLayout, PlacedLetter, PlacedShape, Rect
+
+__all__ = ["DEFAULT_SHAPE", "find_holes", "hole_warnings", "merge", "shape_of"]
+
+DEFAULT_SHAPE = Shape("wall", "box", "card", 0.0, 0.2, True)
+"""What a shape is where nothing is said: a plain box, as in the paper."""
+
+_FIELDS = tuple(f.name for f in fields(Shape))
+
+MAX_SHAPES = 250_000
+"""Most shapes of one layer."""
+
+_NEAR = 1e-6
+
+
+def shape_of(design: Design, layer: Layer, x: str, y: str) -> Shape:
+    """What the pair of symbols looks like in a layer, every field filled in.
+
+    A layer's shapes override its patterns', which override the design's; within each, ``"X Y"`` beats ``"X
+    *"``, which beats
+    ``"* Y"``, which beats ``"* *"``.
+    """
+    told: dict[str, Any] = {}
+    sources = (
+        design.shapes,
+        design.patterns[layer.x.pattern].shapes,
+        design.patterns[layer.y.pattern].shapes,
+        layer.shapes,
+    )
+    for source in sources:
+        if source:
+            for key in ("* *", f"* {y}", f"{x} *", f"{x} {y}"):
+                given = source.get(key)
+                if given is not None:
+                    told.update((f, v) for f in _FIELDS if (v := getattr(given, f)) is not None)
+    return replace(DEFAULT_SHAPE, **told) if told else DEFAULT_SHAPE
+
+
+def merge(
+    design: Design, x: AxisLayout, y: AxisLayout, check: Callable[[], None] | None = None
+) -> tuple[PlacedShape, ...]:
+    """Visible shapes, bottom layer first.
+
+    Letters that are transparent, masked out by the layer or hidden by their pattern make no shape; nor do
+    shapes that are not `visible`, nor those wholly behind a visible shape both of whose symbols are opaque.
+
+    Raises
+    ------
+    NoLayout
+        Where there would be more than `MAX_SHAPES`.
+    """
+    layers: list[list[PlacedShape]] = []
+    fronts: list[_Front] = []
+    for layer in design.stack:  # topmost first, so that what covers is known before what is covered
+        own: list[PlacedShape] = []
+        looks: dict[tuple[str, str], Shape] = {}
+        columns, floors = list(_shown(design, layer, "x", x)), list(_shown(design, layer, "y", y))
+        front = _Front(columns, floors)
+        before = [(f, f.across(columns), f.up(floors)) for f in fronts]
+        opaque = {a.symbol for a in (*columns, *floors) if design.symbol(a.symbol).opaque}
+        for j, v in enumerate(floors):
+            if check is not None:
+                check()
+            if len(own) > MAX_SHAPES:
+                raise _too_many(layer, columns, floors)
+            behind = [(f.solid, across, up[j]) for f, across, up in before if up[j] is not None]
+            for i, h in enumerate(columns):
+                key = (h.symbol, v.symbol)
+                look = looks.get(key)
+                if look is None:
+                    look = looks[key] = shape_of(design, layer, *key)
+                if not look.visible:
+                    continue
+                for solid, across, k in behind:
+                    if (across[i], k) in solid:
+                        break
+                else:
+                    own.append(_placed(layer, h, v, (h.start, v.start, h.end, v.end), look))
+                    if h.symbol in opaque and v.symbol in opaque:
+                        front.solid.add((i, j))
+        fronts.append(front)
+        layers.append(own)
+    return tuple(shape for own in reversed(layers) for shape in own)
+
+
+def _too_many(layer: Layer, columns: Sequence[PlacedLetter], floors: Sequence[PlacedLetter]) -> NoLayout:
+    return NoLayout(
+        f"Layer {layer.name!r} has {len(columns):,} by {len(floors):,} cells; a layer may have {MAX_SHAPES:,} shapes "
+        "at most. Larger letters, or a smaller canvas, would do.",
+        patterns=(layer.x.pattern, layer.y.pattern),
+        layers=(layer.name,),
+        constraint="shapes",
+    )
+
+
+class _Front:
+    """A layer in front of others: which of its cells hide what is wholly behind them."""
+
+    def __init__(self, columns: Sequence[PlacedLetter], floors: Sequence[PlacedLetter]) -> None:
+        self._columns, self._floors = _Row(columns), _Row(floors)
+        self.solid: set[tuple[int | None, int | None]] = set()
+
+    def across(self, letters: Sequence[PlacedLetter]) -> list[int | None]:
+        """Per letter: the column of this layer that it is wholly behind."""
+        return self._columns.holders(letters)
+
+    def up(self, letters: Sequence[PlacedLetter]) -> list[int | None]:
+        """Per letter: the same of rows of cells."""
+        return self._floors.holders(letters)
+
+
+class _Row:
+    """Where the letters of a row begin and end."""
+
+    def __init__(self, letters: Sequence[PlacedLetter]) -> None:
+        self._starts = [a.start - _NEAR for a in letters]
+        self._ends = [a.end + _NEAR for a in letters]
+
+    def holders(self, letters: Sequence[PlacedLetter]) -> list[int | None]:
+        """Letters of a row do not overlap, so that only the last one that begins before can hold another."""
+        starts, ends = self._starts, self._ends
+        found: list[int | None] = []
+        for letter in letters:
+            end = letter.end
+            n = bisect_right(starts, letter.start) - 1
+            while n > 0 and ends[n] < end and ends[n - 1] >= end:
+                n -= 1  # it begins a little before the next one does
+            found.append(n if n >= 0 and ends[n] >= end else None)
+        return found
+
+
+def _placed(layer: Layer, h: PlacedLetter, v: PlacedLetter, rect: Rect, look: Shape) -> PlacedShape:
+    return PlacedShape(
+        layer.name,
+        h.symbol,
+        v.symbol,
+        rect,
+        (h.mirrored, v.mirrored),
+        look.kind or "wall",
+        look.geometry or "box",
+        look.material or "card",
+        look.offset or 0.0,
+        0.0 if look.thickness is None else look.thickness,
+    )
+
+
+def _shown(design: Design, layer: Layer, axis: Axis, solved: AxisLayout) -> Iterator[PlacedLetter]:
+    own = layer.along(axis)
+    hidden = design.patterns[own.pattern].hidden
+    for letter in solved.row(layer.name).letters:
+        if (
+            letter.transparent
+            or letter.symbol in hidden
+            or (own.mask is not None and letter.symbol not in own.mask)
+        ):
+            continue
+        yield letter
+
+
+def find_holes(canvas: Canvas, shapes: Sequence[PlacedShape]) -> tuple[Rect, ...]:
+    """Rectangles of the canvas that no shape covers: a partition into as tall, then as wide, pieces as come."""
+    rects = {shape.rect for shape in shapes}
+    across = {value: 0 for rect in rects for value in rect[::2]}
+    up = {value: 0 for rect in rects for value in rect[1::2]}
+    xs = _cuts([0.0, canvas.width, *across], canvas.width)
+    ys = _cuts([0.0, canvas.height, *up], canvas.height)
+    nx, ny = len(xs) - 1, len(ys) - 1
+    grid = np.ones((nx, ny), dtype=bool)
+    across = {value: _index(xs, value) for value in across}
+    up = {value: _index(ys, value) for value in up}
+    for left, bottom, right, top in rects:
+        grid[across[left] : across[right], up[bottom] : up[top]] = False
+    if not grid.any():
+        return ()
+    bare = grid.tolist()
+    holes: list[Rect] = []
+    open_runs: dict[tuple[int, int], int] = {}
+    for i in range(nx + 1):
+        runs = set(_runs(bare[i])) if i < nx else set()
+        for run in [r for r in open_runs if r not in runs]:
+            holes.append((xs[open_runs.pop(run)], ys[run[0]], xs[i], ys[run[1]]))
+        for run in runs:
+            open_runs.setdefault(run, i)
+    return tuple(sorted(holes))
+
+
+def _cuts(values: Sequence[float], size: float) -> list[float]:
+    out: list[float] = []
+    for value in sorted(values):
+        if -_NEAR <= value <= size + _NEAR and (not out or value > out[-1] + _NEAR):
+            out.append(value)
+    return out
+
+
+def _index(values: Sequence[float], value: float) -> int:
+    return min(bisect_left(values, value - _NEAR), len(values) - 1)
+
+
+def _runs(column: Sequence[bool]) -> Iterator[tuple[int, int]]:
+    start: int | None = None
+    for j, bare in enumerate([*column, False]):
+        if bare and start is None:
+            start = j
+        elif not bare and start is not None:
+            yield (start, j)
+            start = None
+
+
+def hole_warnings(
+    design: Design,
+    x: AxisLayout,
+    y: AxisLayout,
+    holes: Sequence[Rect],
+    check: Callable[[], None] | None = None,
+) -> list[str]:
+    """A sentence for each letter that pushed the others aside and is itself not to be seen in the hole."""
+    told: dict[str, None] = {}
+    axes: Mapping[Axis, AxisLayout] = {"x": x, "y": y}
+    for hole in holes:
+        if check is not None:
+            check()
+        where = f"{hole[0]:.2f} to {hole[2]:.2f} m across, {hole[1]:.2f} to {hole[3]:.2f} m up"
+        culprit = next(_pushers(design, axes, hole), None)
+        if culprit is None:
+            told[f"Nothing covers the canvas at {where}."] = None
+        else:
+            told[f"A hole at {where}: {culprit}."] = None
+    return list(told)
+
+
+def _pushers(design: Design, axes: Mapping[Axis, AxisLayout], hole: Rect) -> Iterator[str]:
+    """The solid letters that stand in a hole, from the top, each with what hides it there."""
+    for layer in design.stack:
+        across = _standing(axes["x"], layer.name, hole[0], hole[2])
+        up = _standing(axes["y"], layer.name, hole[1], hole[3])
+        for h, v in product(across, up):
+            stands = f"{h.symbol} {v.symbol} of layer {layer.name!r} stands there and pushed the others aside, but "
+            for axis, letter in zip(AXES, (h, v), strict=True):
+                own = layer.along(axis)
+                if own.mask is not None and letter.symbol not in own.mask:
+                    yield f"{stands}its {axis} mask hides {letter.symbol}"
+                elif letter.symbol in design.patterns[own.pattern].hidden:
+                    yield f"{stands}pattern {own.pattern!r} hides {letter.symbol}"
+            if not shape_of(design, layer, h.symbol, v.symbol).visible:
+                yield f"{stands}it is not visible"
+
+
+def _standing(solved: AxisLayout, layer: str, low: float, high: float) -> list[PlacedLetter]:
+    """Solid letters of a layer that reach into an interval, those with most of it first."""
+    letters = [a for a in solved.row(layer).letters if not a.transparent]
+    reach = {id(a): min(a.end, high) - max(a.start, low) for a in letters}
+    return sorted((a for a in letters if reach[id(a)] > _NEAR), key=lambda a: -reach[id(a)])

@@ -1,0 +1,207 @@
+"""The time that a call of `solve` may take, whether it is still wanted, and how far it has come."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+from pathlib import Path
+from typing import Literal
+
+from .alignment.reference.best_first import Stopped
+
+__all__ = ["Clock", "Progress", "Stage"]
+
+Stage = Literal["words", "analysis", "candidates", "alignment", "attempt", "explanation", "merging"]
+
+_MOMENT = 0.15
+"""Seconds that merging may take when the search has used up its time."""
+
+_LAST = 0.5
+"""Seconds that the last attempt may take."""
+
+MEMORY = 400_000_000
+"""Bytes by which the process may grow during a search."""
+
+_LOOK = 0.02
+"""Seconds between two looks at the memory."""
+
+_STATM = Path("/proc/self/statm")
+_PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
+
+_DOING: dict[Stage, str] = {
+    "words": "listing the words of",
+    "analysis": "analysing patterns",
+    "candidates": "putting words together",
+    "alignment": "aligning",
+    "attempt": "looking for any alignment",
+    "explanation": "finding out why there is none",
+    "merging": "merging both axes into shapes",
+}
+
+
+@dataclass(slots=True)
+class Progress:
+    """Where a call of `solve` stands: what it was at when it was stopped.
+
+    Attributes
+    ----------
+    stage, axis
+        Empty before the first stage, and where both axes take part.
+    pattern, group
+        Whose words are listed; what is aligned.
+    candidate, of
+        Number of the candidate that is aligned, from 1; how many have been made until then.
+    """
+
+    stage: Stage | Literal[""] = ""
+    axis: str = ""
+    pattern: str = ""
+    group: str = ""
+    candidate: int = 0
+    of: int = 0
+
+    def at(
+        self, stage: Stage, axis: str, *, pattern: str = "", group: str = "", candidate: int = 0, of: int = 0
+    ) -> None:
+        """Note a new stage."""
+        self.stage, self.axis, self.pattern, self.group = stage, axis, pattern, group
+        self.candidate, self.of = candidate, of
+
+    def __str__(self) -> str:
+        """``while aligning candidate 12 of at least 40 on x, group 'g'``; empty before the first stage."""
+        if not self.stage:
+            return ""
+        text = f"while {_DOING[self.stage]}"
+        if self.candidate:
+            text += f" candidate {self.candidate}"
+            text += f" of at least {self.of}" if self.of > self.candidate else ""
+        if self.pattern:
+            text += f" pattern {self.pattern!r}"
+        if self.axis:
+            text += f" on {self.axis}"
+        return text + (f", group {self.group!r}" if self.group else "")
+
+
+class Clock:
+    """The time that a search may take, and whether it is still wanted. The axes share it.
+
+    Parameters
+    ----------
+    limit
+        Seconds, or None.
+    should_stop
+        Asked at every check.
+    parent
+        Another clock that has to let it go on as well.
+
+    Attributes
+    ----------
+    progress
+        How far the call has come.
+    asked, over, full
+        Whether it was asked to stop; whether at some check the time was over, or the process had grown by more than
+        `MEMORY`.
+    """
+
+    def __init__(
+        self,
+        limit: float | None,
+        should_stop: Callable[[], bool] | None = None,
+        parent: Clock | None = None,
+    ) -> None:
+        self._begin, self.limit, self._should_stop = time.monotonic(), limit, should_stop
+        self._parent = parent
+        self.progress = Progress()
+        self.asked = self.over = self.full = False
+        self._size, self._look = (_resident(), self._begin) if parent is None else (0, inf)
+        self.allot(1.0)
+
+    @property
+    def seconds(self) -> float:
+        """Since the call began."""
+        return time.monotonic() - self._begin
+
+    def allot(self, part: float) -> None:
+        """From now on the search may go on until this part of the time has passed, less what a last attempt needs."""
+        self._part = part
+        self._end = 0.85 * part
+
+    def extend(self) -> None:
+        """Let the last attempt begin that follows a search without an answer: it has the rest of the part.
+
+        And a little memory of its own, for that of the search may not be given back yet.
+        """
+        self._end = self._part
+        self._size = max(self._size, _resident() - MEMORY + MEMORY // 4)
+
+    def last_attempt(self) -> Callable[[], None]:
+        """A check for what takes milliseconds, when the time is up and there is nothing yet: it has its own moment."""
+        end = max(self.seconds, self._part * (self.limit or 0.0)) + _LAST
+
+        def check() -> None:
+            if self._should_stop is not None and self._should_stop():
+                self.asked = True
+                raise Stopped(asked=True)
+            if self.limit is not None and self.seconds > end:
+                self.over = True
+                raise Stopped
+
+        return check
+
+    def check(self) -> None:
+        """Raise `Stopped` where the search has to end."""
+        if self._parent is not None:
+            self._parent.check()
+        if self._should_stop is not None and self._should_stop():
+            self.asked = True
+            raise Stopped(asked=True)
+        now = time.monotonic()
+        if self.limit is not None and now - self._begin > self._end * self.limit:
+            self.over = True
+            raise Stopped
+        if now > self._look:
+            self._look = now + _LOOK
+            if _resident() - self._size > MEMORY:
+                self.full = True
+                raise Stopped
+
+    def close(self) -> None:
+        """The call is over: what is still read of its words and networks, for a trace, may take as long as it likes."""
+        self.limit, self._should_stop, self._parent, self._look = None, None, None, inf
+
+    def closing(self) -> Callable[[], None]:
+        """A check for what is done once the search is over: it has a moment more, whatever ended the search."""
+        spent = self.asked or self.limit is None or self.seconds > self.limit
+        end = (
+            inf
+            if self.limit is None and not self.asked
+            else (self.seconds if spent else self.limit or 0.0) + _MOMENT
+        )
+
+        def check() -> None:
+            if not self.asked and self._should_stop is not None and self._should_stop():
+                self.asked = True
+                raise Stopped(asked=True)
+            if self.seconds > end:
+                self.over = not self.asked
+                raise Stopped
+
+        return check
+
+
+def _resident() -> int:
+    """Bytes of memory that the process has, or has had at most where only that can be told; 0 where nothing can."""
+    try:
+        return int(_STATM.read_bytes().split()[1]) * _PAGE
+    except OSError:
+        pass
+    try:
+        import resource
+    except ImportError:  # Windows
+        return 0
+    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return most if sys.platform == "darwin" else most * 1024

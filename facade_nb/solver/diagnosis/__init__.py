@@ -1,0 +1,1 @@
+"""Why a design has no layout, and what would help."""

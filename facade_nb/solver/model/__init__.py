@@ -1,0 +1,1 @@
+"""Letters, problems, objective and layout: frozen data that every stage shares."""

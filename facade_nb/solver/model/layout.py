@@ -1,0 +1,278 @@
+"""The layout: where every letter stands and which shapes that makes (SPEC 4). y grows upwards."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from ...design.model import Axis, Canvas, Design
+
+if TYPE_CHECKING:
+    from ..sizing.forces import Sizing
+
+__all__ = ["AxisLayout", "GroupLayout", "Layout", "PlacedLetter", "PlacedShape", "Rect", "RowLayout"]
+
+Rect = tuple[float, float, float, float]
+"""Left, bottom, right, top, in metres."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedLetter:
+    """A letter, or a piece of a cut one, with its interval in metres."""
+
+    symbol: str
+    start: float
+    end: float
+    mirrored: bool = False
+    transparent: bool = False
+
+    @property
+    def size(self) -> float:
+        """Length of the interval."""
+        return self.end - self.start
+
+
+@dataclass(frozen=True, slots=True)
+class RowLayout:
+    """One layer's word in a group: per column the letters that stand in it (an empty tuple: ε)."""
+
+    layer: str
+    pattern: str
+    columns: tuple[tuple[PlacedLetter, ...], ...]
+
+    @property
+    def letters(self) -> tuple[PlacedLetter, ...]:
+        """All letters and pieces, in order."""
+        return tuple(letter for element in self.columns for letter in element)
+
+
+@dataclass(frozen=True, slots=True)
+class GroupLayout:
+    """One alignment group: Ω of its alignment, every column boundary (0 first, canvas last), rows topmost first."""
+
+    error: float
+    columns: tuple[float, ...]
+    rows: tuple[RowLayout, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AxisLayout:
+    """The solved axis.
+
+    Attributes
+    ----------
+    cost
+        J summed over groups (Ω under the paper's objective).
+    gap
+        Cost minus the proven lower bound; 0 where `proven`.
+    deviation
+        Square root of the sizing objective, metres.
+    sizes
+        Solved size of each symbol in use.
+    sizing
+        The least-squares problem with its multipliers: which constraint pulls where. None in a layout that was read
+        from a document.
+    """
+
+    cost: float = 0.0
+    gap: float = 0.0
+    deviation: float = 0.0
+    proven: bool = True
+    sizes: Mapping[str, float] = field(default_factory=dict)
+    groups: Mapping[str, GroupLayout] = field(default_factory=dict)
+    sizing: Sizing | None = field(default=None, compare=False, repr=False)
+
+    def row(self, layer: str) -> RowLayout:
+        """The row of a layer. Raises KeyError for a layer that took no part."""
+        for group in self.groups.values():
+            for row in group.rows:
+                if row.layer == layer:
+                    return row
+        raise KeyError(layer)
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedShape:
+    """A visible cell of a layer: the symbols it comes from, its rectangle and its looks, all resolved."""
+
+    layer: str
+    x: str
+    y: str
+    rect: Rect
+    mirrored: tuple[bool, bool] = (False, False)
+    kind: str = "wall"
+    geometry: str = "box"
+    material: str = "card"
+    offset: float = 0.0
+    thickness: float = 0.2
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Layout:
+    """A solved façade.
+
+    Attributes
+    ----------
+    shapes
+        Visible shapes, bottom layer first, so that painting them in order is right.
+    holes
+        Rectangles of the canvas that no visible shape covers.
+    warnings
+        What a designer should know, in sentences.
+    complete
+        False where a time limit or a stop cut the search short; the layout is the best found until then.
+    trace
+        The recorded events, where asked for.
+    """
+
+    name: str
+    canvas: Canvas
+    counters: Mapping[str, int] = field(default_factory=dict)
+    x: AxisLayout = field(default_factory=AxisLayout)
+    y: AxisLayout = field(default_factory=AxisLayout)
+    shapes: tuple[PlacedShape, ...] = ()
+    holes: tuple[Rect, ...] = ()
+    warnings: tuple[str, ...] = ()
+    complete: bool = True
+    design: Design | None = field(default=None, compare=False, repr=False)
+    trace: Any = field(default=None, compare=False, repr=False)
+
+    def along(self, axis: Axis) -> AxisLayout:
+        """The axis named ``"x"`` or ``"y"``."""
+        return self.x if axis == "x" else self.y
+
+    def to_dict(self) -> dict[str, Any]:
+        """The layout document of SPEC 4."""
+        return {
+            "format": "facade-nb/layout/1",
+            "name": self.name,
+            "canvas": {"width": self.canvas.width, "height": self.canvas.height},
+            "counters": dict(self.counters),
+            "x": _axis_dict(self.x),
+            "y": _axis_dict(self.y),
+            "shapes": [_shape_dict(shape) for shape in self.shapes],
+            "holes": [list(hole) for hole in self.holes],
+            "warnings": list(self.warnings),
+            "complete": self.complete,
+        }
+
+    @classmethod
+    def from_dict(cls, document: Mapping[str, Any]) -> Layout:
+        """Read what `to_dict` wrote."""
+        return cls(
+            name=document["name"],
+            canvas=Canvas(document["canvas"]["width"], document["canvas"]["height"]),
+            counters=dict(document["counters"]),
+            x=_read_axis(document["x"]),
+            y=_read_axis(document["y"]),
+            shapes=tuple(_read_shape(shape) for shape in document["shapes"]),
+            holes=tuple(_rect(hole) for hole in document.get("holes", ())),
+            warnings=tuple(document.get("warnings", ())),
+            complete=document.get("complete", True),
+        )
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        """In a notebook a layout shows itself as its elevation."""
+        bundle: dict[str, str] = import_module("facade_nb.display").layout_bundle(self)
+        return bundle
+
+    def __repr__(self) -> str:
+        counters = "".join(f", {name} = {value}" for name, value in self.counters.items())
+        state = "" if self.complete else ", not complete"
+        return (
+            f"<Layout {self.name!r}: {self.canvas.width:g} × {self.canvas.height:g} m, "
+            f"{len(self.shapes)} shapes{counters}{state}>"
+        )
+
+
+def _axis_dict(axis: AxisLayout) -> dict[str, Any]:
+    return {
+        "cost": axis.cost,
+        "gap": axis.gap,
+        "deviation": axis.deviation,
+        "proven": axis.proven,
+        "sizes": dict(axis.sizes),
+        "groups": {
+            name: {
+                "error": group.error,
+                "columns": list(group.columns),
+                "rows": [
+                    {
+                        "layer": row.layer,
+                        "pattern": row.pattern,
+                        "columns": [
+                            [
+                                {
+                                    "symbol": letter.symbol,
+                                    "start": letter.start,
+                                    "end": letter.end,
+                                    "mirrored": letter.mirrored,
+                                    "transparent": letter.transparent,
+                                }
+                                for letter in element
+                            ]
+                            for element in row.columns
+                        ],
+                    }
+                    for row in group.rows
+                ],
+            }
+            for name, group in axis.groups.items()
+        },
+    }
+
+
+def _shape_dict(shape: PlacedShape) -> dict[str, Any]:
+    return {
+        "layer": shape.layer,
+        "x": shape.x,
+        "y": shape.y,
+        "rect": list(shape.rect),
+        "mirrored": list(shape.mirrored),
+        "kind": shape.kind,
+        "geometry": shape.geometry,
+        "material": shape.material,
+        "offset": shape.offset,
+        "thickness": shape.thickness,
+    }
+
+
+def _read_axis(document: Mapping[str, Any]) -> AxisLayout:
+    return AxisLayout(
+        cost=document["cost"],
+        gap=document["gap"],
+        deviation=document["deviation"],
+        proven=document["proven"],
+        sizes=dict(document["sizes"]),
+        groups={
+            name: GroupLayout(
+                error=group["error"],
+                columns=tuple(group["columns"]),
+                rows=tuple(
+                    RowLayout(
+                        row["layer"],
+                        row["pattern"],
+                        tuple(
+                            tuple(PlacedLetter(**letter) for letter in element) for element in row["columns"]
+                        ),
+                    )
+                    for row in group["rows"]
+                ),
+            )
+            for name, group in document["groups"].items()
+        },
+    )
+
+
+def _read_shape(document: Mapping[str, Any]) -> PlacedShape:
+    fields = dict(document)
+    fields["rect"] = _rect(fields["rect"])
+    fields["mirrored"] = (bool(fields["mirrored"][0]), bool(fields["mirrored"][1]))
+    return PlacedShape(**fields)
+
+
+def _rect(values: Any) -> Rect:
+    left, bottom, right, top = values
+    return (left, bottom, right, top)

@@ -1,0 +1,138 @@
+"""Layouts that may not be the best: while a search takes long, and when the time is up.
+
+Sweeps (`sweeping`) and dives (`dive`) find some alignment of a group soon. Here they are set on the candidates of an
+axis, and what they find is sized.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from itertools import count, islice
+from math import inf
+from typing import TYPE_CHECKING
+
+from ..alignment.columns import EPS
+from ..alignment.core.binding import start_afresh
+from ..alignment.heuristic.local_search import LETTERS
+from ..alignment.reference.best_first import Stopped
+from ..candidates.stream import CandidateStream
+
+if TYPE_CHECKING:
+    from .axis import AxisSearch, Case, Solved
+
+__all__ = ["Anytime"]
+
+_LIKELY = {"sweep": 24, "mend": 3, "dive": 3}
+"""In these ways a layout is looked for when the time is up, of so many candidates."""
+
+_LONG = 0.5
+"""When searches have taken so many seconds, candidates are swept, in this part of the time that they take:"""
+_LOOK = 0.3
+
+
+def _short(case: Case) -> bool:
+    """Whether its words can be swept: a search of longer ones takes much memory before it begins."""
+    return all(len(word) <= LETTERS for word in case.candidate.words.values())
+
+
+class Anytime:
+    """What has been looked at so of one axis."""
+
+    def __init__(self) -> None:
+        self._others: Iterator[Case] | None = None
+        self._further: CandidateStream | None = None
+        self._extra: list[Case] = []
+        self._looked = 0.0
+
+    def hasty(self, walk: AxisSearch, best: Solved | None) -> Solved | None:
+        """The best layout that can soon be had of the likeliest candidates, for when the time is up."""
+        if walk.extend is not None:
+            walk.extend()
+        if start_afresh():
+            for case in walk.cases:
+                for run in case.runs:
+                    run.give_up()
+        try:
+            for way, most in _LIKELY.items():
+                for case in islice(self._likely(walk), most):
+                    if way != "dive" and not _short(case):
+                        continue
+                    if not case.runs:
+                        walk.open(case)
+                    if way == "mend":
+                        for run in case.runs:
+                            run.mend()
+                    solved = self.dive(
+                        walk, case, inf if best is None else best.cost, at_once=True, sweep=way != "dive"
+                    )
+                    if solved is not None:
+                        best = solved
+                if best is not None:
+                    break
+            for better in self._polished(walk, best):
+                best = better
+        except Stopped:
+            pass  # what was found until now is all there is
+        return best
+
+    def _polished(self, walk: AxisSearch, best: Solved | None) -> Iterator[Solved]:
+        """Layouts of the same candidate that cost less, each a little different from the one before."""
+        cases = [*walk.cases, *self._extra]
+        case = next((own for own in cases if best is not None and own.candidate is best.candidate), None)
+        if case is None:
+            return
+        for run in case.runs:
+            for _ in run.polish():
+                found = [own.known for own in case.runs]
+                solved = walk.size(case, found) if all(found) else None
+                if solved is not None and solved.beats(best):
+                    best = solved
+                    yield solved
+
+    def around(self, walk: AxisSearch, cost: float) -> Solved | None:
+        """A layout of another candidate that costs less, while the search of some takes long."""
+        spent = sum(run.spent for run in walk.runs.values())
+        if spent < _LONG or self._looked > _LOOK * spent:
+            return None
+        begin = time.perf_counter()
+        if self._others is None:
+            self._others = islice(self._likely(walk), _LIKELY["sweep"])
+        other = next(filter(_short, self._others), None)
+        if other is not None and not other.runs:
+            walk.open(other)
+        solved = None if other is None else self.dive(walk, other, cost, at_once=True, sweep=True)
+        self._looked += time.perf_counter() - begin
+        return solved
+
+    def _likely(self, walk: AxisSearch) -> Iterator[Case]:
+        """The candidates that have been begun, by what they cost at least, and then others."""
+        begun = sorted(walk.cases, key=lambda case: case.floor)
+        yield from begun
+        known = {tuple(map(id, case.candidate.words.values())) for case in begun}
+        self._further = self._further or walk.fresh_stream()
+        for n in count():
+            if n == len(self._extra):
+                candidate = self._further.take()
+                if candidate is None:
+                    return
+                self._extra.append(walk.case(candidate))
+            if tuple(map(id, self._extra[n].candidate.words.values())) not in known:
+                yield self._extra[n]
+
+    def dive(
+        self, walk: AxisSearch, case: Case, cost: float, *, at_once: bool = False, sweep: bool = False
+    ) -> Solved | None:
+        """A layout of the candidate that costs less than `cost`, by structures that may not be the best."""
+        if not at_once and not any(run.long for run in case.runs):
+            return None
+        for run in case.runs:
+            run.dive(at_once=at_once or not run.long, sweep=sweep)
+        found = [run.known for run in case.runs]
+        if not all(found):
+            return None
+        total = sum(known[0].cost for known in found)
+        if total >= min(cost, case.dived) - EPS:
+            return None
+        case.dived = total
+        return walk.size(case, found)

@@ -1,0 +1,455 @@
+"""One axis: from its words to the best candidate, aligned and sized (SPEC 3, *Which candidate*)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from heapq import heappop, heappush, heapreplace
+from itertools import islice, product
+from math import inf
+
+from ...design.model import Symbol
+from ..alignment.columns import EPS, Group, lone_unsized, make_group
+from ..alignment.pricing import Priced
+from ..alignment.reference.best_first import Stopped
+from ..budget import Progress
+from ..cache import Kept
+from ..candidates.bounds import GroupKey, inputs_of, rows_of
+from ..candidates.stream import Candidate, CandidateStream, candidates
+from ..model.letters import Letter, Word
+from ..model.objective import Objective
+from ..model.problem import AxisProblem
+from ..sizing.system import Sized, size_axis, strain
+from ..trace import Recorder, sizing
+from ..words.enumeration import axis_words
+from ..words.instances import Instances, Range
+from .anytime import Anytime
+from .clusters import GROWTH, STEP, TIES, GroupSearch
+
+__all__ = ["AxisSearch", "Best", "Case", "Solved", "forget_groups"]
+
+_NODES = 1_000_000
+"""A search of more paths gives up; under the paper's objective, and where structures are refused, of fewer."""
+
+_kept: Kept[tuple[list[Priced], float]] = Kept(512)
+"""What has been found for groups, so that those that an edit leaves alone are not searched again."""
+
+
+def forget_groups() -> None:
+    """Let go of all that is kept for unchanged groups."""
+    _kept.clear()
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """A candidate, aligned and sized.
+
+    Attributes
+    ----------
+    cost, columns
+        J and the number of columns, summed over groups.
+    groups, parts
+        The groups as they were aligned; per group the priced structure it is part of, and its number there.
+    """
+
+    candidate: Candidate
+    groups: tuple[Group, ...]
+    parts: tuple[tuple[Priced, int], ...]
+    sized: Sized
+    cost: float
+    columns: int
+
+    def beats(self, other: Solved | None) -> bool:
+        """Least cost, then most columns, then least deviation, then the first by counters and words."""
+        if other is None or self.cost < other.cost - EPS:
+            return True
+        if self.cost > other.cost + EPS:
+            return False
+        if self.columns != other.columns:
+            return self.columns > other.columns
+        if abs(self.sized.deviation - other.sized.deviation) > EPS or self.candidate is other.candidate:
+            return self.sized.deviation < other.sized.deviation - EPS
+        return self.candidate.rank < other.candidate.rank
+
+
+@dataclass(slots=True)
+class Best:
+    """The best of some candidates: what was found, what is proven, and whether the search was cut short."""
+
+    solved: Solved | None = None
+    bound: float = inf
+    complete: bool = True
+    unsizable: bool = False
+
+    @property
+    def cost(self) -> float:
+        """J of the best so far; infinite without one."""
+        return inf if self.solved is None else self.solved.cost
+
+
+@dataclass(slots=True)
+class Case:
+    """A candidate being solved."""
+
+    candidate: Candidate
+    least: float
+    groups: list[Group] = field(default_factory=list)
+    clusters: list[list[int]] = field(default_factory=list)
+    keys: list[GroupKey] = field(default_factory=list)
+    runs: list[GroupSearch] = field(default_factory=list)
+    solved: Solved | None = None
+    unsizable: bool = False
+    dived: float = inf
+
+    @property
+    def floor(self) -> float:
+        """Lower bound of its J."""
+        return max(self.least, sum(run.floor for run in self.runs))
+
+
+class _Rows:
+    """The rows of a group, and the words they were made of (which keeps those, and so their identities, alive)."""
+
+    __slots__ = ("letters", "unsized", "words")
+
+    def __init__(self, letters: list[tuple[Letter, ...]], words: tuple[Word, ...]) -> None:
+        self.letters, self.words = letters, words
+        self.unsized = {letter.symbol for row in letters for letter in row if letter.size is None}
+
+
+@dataclass(slots=True)
+class AxisSearch:
+    """The search on one axis at one tolerance, with what it has learnt so far."""
+
+    problem: AxisProblem
+    objective: Objective
+    tolerance: float
+    method: str = "best"
+    check: Callable[[], None] | None = None
+    trace: Recorder | None = None
+    extend: Callable[[], None] | None = None
+    progress: Progress = field(default_factory=Progress)
+    found: dict[str, Instances] = field(default_factory=dict)
+    cases: list[Case] = field(default_factory=list)
+    runs: dict[object, GroupSearch] = field(default_factory=dict)
+    rows: dict[object, _Rows] = field(default_factory=dict)
+    by_words: dict[object, GroupSearch] = field(default_factory=dict)
+    inputs: list[tuple[str, ...]] | None = None
+    stream: CandidateStream | None = None
+    soon: Anytime = field(default_factory=Anytime)
+
+    def enumerate(self, across: Mapping[str, Range] | None = None) -> None:
+        """List the words that fit; `across` is what the other axis says of counters."""
+        self.found.update(axis_words(self.problem, self.tolerance, self.progress, self.check, across))
+        if self.trace is not None:
+            self.trace.words(self.problem, self.found, self.tolerance)
+        self.progress.at("candidates", self.problem.axis)
+        self.stream = self.fresh_stream()
+
+    def fresh_stream(self) -> CandidateStream:
+        """All candidates, by growing lower bound."""
+        return CandidateStream(self.problem, self.words(), self.tolerance, self.objective, self.check)
+
+    def words(self) -> dict[str, Sequence[Word]]:
+        """Words by pattern."""
+        return {name: found.words for name, found in self.found.items()}
+
+    def restricted(self, values: Mapping[str, int]) -> AxisSearch:
+        """The same search with some counters held; what has been aligned is shared."""
+        found = {
+            name: replace(
+                own,
+                words=tuple(
+                    w for w in own.words if all(values.get(c, v) == v for c, v in w.counters.items())
+                ),
+            )
+            for name, own in self.found.items()
+        }
+        other = AxisSearch(
+            self.problem,
+            self.objective,
+            self.tolerance,
+            self.method,
+            self.check,
+            self.trace,
+            self.extend,
+            self.progress,
+            found,
+            runs=self.runs,
+            rows=self.rows,
+            by_words=self.by_words,
+        )
+        other.stream = other.fresh_stream()
+        return other
+
+    @property
+    def floor(self) -> float:
+        """Lower bound of J over all candidates."""
+        return (self.stream or self.fresh_stream()).bound
+
+    def case(self, candidate: Candidate) -> Case:
+        """A candidate to be solved."""
+        return Case(candidate, candidate.bound)
+
+    def start_over(self) -> None:
+        """Be ready to go through all candidates once more; what has been learnt of their groups stays."""
+        self.stream = self.fresh_stream()
+        self.cases.clear()
+
+    def forget(self) -> None:
+        """Let go of what only searching needs, so that a kept answer is small, and keep what groups have in common."""
+        for key, run in self.runs.items():
+            if run.done and not run.cut:
+                _kept.put(self._known_as(key), (run.ties, run.floor))
+        for case in self.cases:
+            for group in case.groups:
+                group.edges.clear()
+        self.cases.clear()
+        self.runs.clear()
+        self.rows.clear()
+        self.by_words.clear()
+        self.soon = Anytime()
+        self.stream = None
+
+    def in_order(self) -> Iterator[Candidate]:
+        """Candidates in lexicographic order, as the paper takes them."""
+        return candidates(self.problem, self.words(), self.tolerance, self.objective, self.check)
+
+    def best(self, cap: float = inf) -> Best:
+        """The best candidate; candidates take turns.
+
+        The one with the least lower bound goes on a little and comes back into the queue with what it has then
+        been proven to cost at least. So no time is spent on the dear alignments of one candidate while another
+        may have a cheap one, and when the least lower bound is above the best answer, that is optimal.
+        """
+        best = Best()
+        stream = self.stream = self.stream or self.fresh_stream()
+        queue: list[tuple[float, int]] = []
+        steps: list[float] = []
+        floor, dived = 0.0, False
+        try:
+            while True:
+                top = min(cap, best.cost)
+                while stream.bound <= min(top, queue[0][0] if queue else inf) + EPS:
+                    candidate = stream.take()
+                    if candidate is None:
+                        break
+                    heappush(queue, (candidate.bound, len(self.cases)))
+                    self.cases.append(self.case(candidate))
+                    steps.append(STEP * self.problem.canvas)
+                floor = min(stream.bound, queue[0][0] if queue else inf)
+                if not queue or queue[0][0] > top + EPS:
+                    break
+                if self.check is not None:
+                    self.check()
+                own, n = queue[0]
+                if (
+                    own + EPS < self.cases[n].floor < inf
+                ):  # what it shares with others has become known meanwhile
+                    heapreplace(queue, (self.cases[n].floor, n))
+                    continue
+                limit = min(top, own + steps[n])
+                steps[n] *= GROWTH
+                case = self.cases[n]
+                self.progress.at("alignment", self.problem.axis, candidate=n + 1, of=len(self.cases))
+                solved = self._turn(case, limit, top)
+                heappop(queue)
+                best.unsizable = best.unsizable or case.unsizable
+                best.complete = best.complete and not any(run.cut for run in case.runs)
+                if solved is not None:
+                    best.bound = min(best.bound, case.floor)
+                    # what a dive came upon is no better than others that cost the same
+                    if solved.beats(best.solved) or (dived and solved.cost <= best.cost + EPS):
+                        best.solved, dived = solved, False
+                elif case.floor < inf and not all(run.done for run in case.runs):
+                    # where the limit was the best answer's cost, nothing as good is left in this candidate
+                    paused = any(run.paused for run in case.runs)
+                    beyond = top + 2 * EPS if limit >= top and not paused else own
+                    heappush(queue, (max(beyond, case.floor), n))
+                    improved = self.soon.dive(self, case, best.cost) or self.soon.around(self, best.cost)
+                    if improved is not None:
+                        best.solved, dived = improved, True
+        except Stopped as stop:
+            best.complete = False
+            if stop.asked:
+                best.bound = min(best.bound, floor)
+                return best
+        if not best.complete:
+            best.solved = self.soon.hasty(self, best.solved)
+        best.bound = min(best.bound, floor, self._left_out())
+        return best
+
+    def _left_out(self) -> float:
+        """No candidate with a word that was left out, for there are too many, costs less than this."""
+        bound = inf
+        for _, names in self.problem.groups:
+            weight = min(self.objective.empty, self.objective.loose) / len(set(names))
+            left = min(self.found[name].left for name in names)
+            bound = min(bound, min(self.objective.fit, weight) * left)
+        return bound
+
+    def solve(self, case: Case) -> Solved | None:
+        """Align a candidate in all groups and size it; None: it cannot be done."""
+        solved = self._turn(case)
+        while solved is None and any(run.paused for run in case.runs):
+            solved = self._turn(case)
+        return solved
+
+    def _turn(self, case: Case, limit: float = inf, top: float = inf) -> Solved | None:
+        """Align a candidate in all groups, each within what the others leave of the limit, and size it.
+
+        A little more than the limit may be looked at, but nothing that costs more than `top`.
+
+        None: there is nothing within the limit; `case.floor` says how much more is known.
+        """
+        if not case.runs:
+            self.open(case)
+        for run, cluster in zip(case.runs, case.clusters, strict=True):
+            self.progress.group = self.problem.groups[cluster[0]][0]
+            others = case.floor - run.floor
+            run.advance(limit - others, top - others)
+            self._tell(case)
+            if not run.ties:
+                return None
+        if case.solved is None:
+            case.solved = self.size(case, [run.ties for run in case.runs])
+        if case.solved is None and not case.unsizable:
+            case.unsizable = True
+            case.clusters = [
+                list(range(len(case.groups)))
+            ]  # which structures fit each other is asked as they come
+            own = range(len(case.groups))
+            case.runs = [self._run(case.groups, lambda priced: self.size(case, [[priced]]) is not None, own)]
+            return self._turn(case, limit, top)
+        return case.solved
+
+    def open(self, case: Case) -> None:
+        """Find the candidate's groups, and the searches that other candidates share with it."""
+        rows, keys, clusters = self._rows(case.candidate)
+        groups: list[Group | None] = [None] * len(rows)
+        runs: list[GroupSearch] = []
+        for cluster in clusters:
+            run = self._same_words(rows, cluster, tuple(keys[g] for g in cluster))
+            runs.append(run)
+            for g, group in zip(cluster, run.groups, strict=True):
+                groups[g] = group
+        case.clusters, case.groups = clusters, [group for group in groups if group is not None]
+        case.keys = keys
+        case.runs = runs  # all of them or none: the clock may have stopped this before
+        self._tell(case)
+
+    def _tell(self, case: Case) -> None:
+        """Let the stream know what has been proven about words that other candidates have as well."""
+        if self.stream is not None:
+            for run, cluster in zip(case.runs, case.clusters, strict=True):
+                if len(cluster) == 1:
+                    self.stream.learn(case.keys[cluster[0]], run.floor)
+
+    def _same_words(self, rows: Sequence[_Rows], cluster: Sequence[int], words: object) -> GroupSearch:
+        """The search of a cluster: the one that there is for the same words, or others with the same letters."""
+        run = self.by_words.get(words)
+        if run is None:
+            unsized = any(rows[g].unsized for g in cluster)
+            free = (
+                lone_unsized(*(dict.fromkeys(rows[g].letters) for g in cluster)) if unsized else frozenset()
+            )
+            groups = [
+                make_group(
+                    rows[g].letters,
+                    self.problem.canvas,
+                    self.tolerance,
+                    self.objective,
+                    free=free,
+                    check=self.check,
+                )
+                for g in cluster
+            ]
+            key = tuple(group.identity for group in groups)
+            run = self.runs.get(key)
+            if run is None:
+                known = _kept.get(self._known_as(key)) if self.trace is None else None
+                run = self.runs[key] = self._run(groups, None, cluster, known)
+            self.by_words[words] = run
+        return run
+
+    def _run(
+        self,
+        groups: Sequence[Group],
+        accept: Callable[[Priced], bool] | None,
+        cluster: Iterable[int],
+        known: tuple[list[Priced], float] | None = None,
+    ) -> GroupSearch:
+        nodes = _NODES if accept is None and not self.objective.plain else _NODES // 50
+        log = None
+        if self.trace is not None:
+            names = [self.problem.groups[g][0] for g in cluster]
+            log = self.trace.walk(self.problem.axis, names, groups, self.method)
+
+        def fits(priced: Priced) -> bool:
+            parts = tuple((priced, k) for k in range(len(groups)))
+            return size_axis(groups, parts, self.problem.canvas, self._symbol) is not None
+
+        def strained(priced: Priced) -> float:
+            parts = tuple((priced, k) for k in range(len(groups)))
+            return (
+                0.0 if fits(priced) else max(1e-9, strain(groups, parts, self.problem.canvas, self._symbol))
+            )
+
+        return GroupSearch(groups, self.method, nodes, self.check, accept, log, known, fits, strained)
+
+    def _symbol(self, name: str) -> Symbol:
+        return self.problem.symbol.get(name) or Symbol(name)
+
+    def _known_as(self, key: object) -> object:
+        return key, self.problem.canvas, self.tolerance, self.objective, self.method
+
+    def _rows(self, candidate: Candidate) -> tuple[list[_Rows], list[GroupKey], list[list[int]]]:
+        """The rows of each group, what they depend on, and which groups are aligned together.
+
+        Those are that share an unsized symbol.
+        """
+        if self.inputs is None:
+            self.inputs = inputs_of(self.problem)
+        rows: list[_Rows] = []
+        keys: list[GroupKey] = []
+        for g, (names, (_, standing)) in enumerate(zip(self.inputs, self.problem.groups, strict=True)):
+            words = tuple(candidate.words[name] for name in names)
+            key = (g, *map(id, words))
+            own = self.rows.get(key)
+            if own is None:
+                own = self.rows[key] = _Rows(rows_of(self.problem, candidate.words, standing), words)
+            rows.append(own)
+            keys.append(key)
+        clusters: list[list[int]] = []
+        for g, one in enumerate(rows):
+            if not one.unsized:
+                clusters.append([g])
+                continue
+            joined = [c for c in clusters if any(rows[o].unsized & one.unsized for o in c)]
+            clusters = [c for c in clusters if c not in joined]
+            clusters.append(sorted([g, *(o for c in joined for o in c)]))
+        return rows, keys, clusters
+
+    def size(self, case: Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
+        """Size every combination of equally good structures; the least deviation wins."""
+        best: Solved | None = None
+        for combination in islice(product(*ties), 2 * TIES):
+            parts: dict[int, tuple[Priced, int]] = {}
+            for cluster, priced in zip(case.clusters, combination, strict=True):
+                parts.update({g: (priced, k) for k, g in enumerate(cluster)})
+            own = tuple(parts[g] for g in range(len(case.groups)))
+            with sizing(self.trace, self.problem.axis):
+                sized = size_axis(case.groups, own, self.problem.canvas, self._symbol)
+            if sized is None:
+                continue
+            solved = Solved(
+                case.candidate,
+                tuple(case.groups),
+                own,
+                sized,
+                sum(p.cost for p in combination),
+                sum(p.columns for p in combination),
+            )
+            if solved.beats(best):
+                best = solved
+        return best

@@ -1,0 +1,515 @@
+"""The solver's front door: a design in, a layout out (SPEC 3; the paper's section 5)."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from heapq import heappop, heappush
+from itertools import product
+from math import inf
+
+from ..design.errors import DesignError, Fault, NoLayout
+from ..design.model import AXES, Axis, Design
+from .alignment.columns import EPS
+from .alignment.core.binding import start_afresh
+from .alignment.reference.best_first import Stopped
+from .analysis.systems import analyse
+from .assembly.axes import axis_layout, axis_warnings
+from .assembly.shapes import find_holes, hole_warnings, merge
+from .budget import Clock
+from .cache import Kept
+from .diagnosis.explanation import explain, ran_out
+from .diagnosis.refusal import Blame
+from .diagnosis.remedies import Tried
+from .model.layout import AxisLayout, Layout, PlacedShape, Rect
+from .model.objective import Objective
+from .model.problem import AxisProblem, axis_problem
+from .selection.axis import AxisSearch, Best, Solved, forget_groups
+from .selection.warm_start import adopted, upper_bound
+from .trace import Recorder, stage
+from .words.enumeration import forget_words
+from .words.instances import Range, ranges
+
+__all__ = ["TOLERANCES", "forget", "solve"]
+
+TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
+"""Fractions of the canvas; the paper's schedule, and, by its last, what the default objective works within."""
+
+_cache: Kept[dict[Axis, tuple[AxisSearch, Best]]] = Kept(64)
+"""Answers of axes asked for last; of both together, where a counter ties them."""
+
+_before: Kept[Solved] = Kept(64)
+"""What was found last for problems that differ in sizes, bounds and canvas only."""
+
+_REMEDIES = 0.6
+"""Seconds for trying what would help, where there is no layout; of them for one change:"""
+_REMEDY = 0.2
+
+
+def solve(
+    design: Design,
+    *,
+    objective: Objective | None = None,
+    tolerances: Sequence[float] = TOLERANCES,
+    search: str = "best",
+    trace: bool = False,
+    time_limit: float | None = 10.0,
+    should_stop: Callable[[], bool] | None = None,
+) -> Layout:
+    """Solve a design.
+
+    Parameters
+    ----------
+    design
+        A valid design; without layers its layout is empty.
+    objective
+        Default `Objective()`: the least J over all candidates. `Objective.paper()` follows the paper:
+        tolerances one after the other, candidates in lexicographic order, the first that aligns in all
+        groups.
+    tolerances
+        Fractions of the canvas, growing; the default objective uses the largest alone.
+    search
+        ``"best"`` or ``"ida"``, the paper's; both give the same value.
+    trace
+        Record every stage as typed events in `Layout.trace`.
+    time_limit
+        Seconds, or None. When they are over, the best layout so far is returned, marked not `complete`.
+    should_stop
+        Asked now and then; true ends the search as the time limit does.
+
+    Raises
+    ------
+    DesignError
+        For a canvas without extent.
+    NoLayout
+        Where there is none, or none was found in time; says what is to blame.
+    """
+    if not isinstance(design, Design):
+        raise TypeError(
+            f"solve: expected a Design, found {type(design).__name__}; Design.from_dict reads a document"
+        )
+    for axis in AXES:
+        if not 0 < design.canvas.along(axis) < inf:
+            field = "width" if axis == "x" else "height"
+            found = design.canvas.along(axis)
+            raise DesignError(
+                Fault(f"canvas.{field}", f"expected a positive number of metres, found {found!r}")
+            )
+    if time_limit is not None and not time_limit >= 0:
+        raise ValueError(f"time_limit: expected seconds, 0 or more, found {time_limit!r}")
+    if not tolerances or any(not 0 <= t <= 1 for t in tolerances) or list(tolerances) != sorted(tolerances):
+        raise ValueError(
+            f"tolerances: expected growing fractions of the canvas from 0 to 1, found {tolerances!r}"
+        )
+    if search not in ("best", "ida"):
+        raise ValueError(f"search: expected 'best' or 'ida', found {search!r}")
+    log = Recorder(design, objective or Objective(), tolerances, search) if trace else None
+    clock = Clock(time_limit, should_stop)
+    try:
+        if design.stack:
+            run = _Run(design, objective or Objective(), tuple(tolerances), search, clock, log)
+            layout = run.layout()
+        else:
+            layout = Layout(design.name, design.canvas, design=design)
+    except NoLayout as error:
+        if log is not None:
+            log.finish(error=error)
+            error.trace = log.trace()
+        raise
+    finally:
+        clock.close()
+    if log is None:
+        return layout
+    log.finish(layout)
+    return replace(layout, trace=log.trace())
+
+
+def forget() -> None:
+    """Let go of all that is kept for what an edit leaves alone: answers of axes and groups, words of patterns."""
+    _cache.clear()
+    _before.clear()
+    forget_groups()
+    forget_words()
+
+
+class _Run:
+    """One call of `solve`."""
+
+    def __init__(
+        self,
+        design: Design,
+        objective: Objective,
+        tolerances: tuple[float, ...],
+        search: str,
+        clock: Clock,
+        trace: Recorder | None,
+        trial: bool = False,
+    ) -> None:
+        self.design, self.objective, self.tolerances = design, objective, tolerances
+        self.search, self.trace = search, trace
+        self.clock, self.trial = clock, trial
+        self.problems: Mapping[Axis, AxisProblem] = {axis: axis_problem(design, axis) for axis in AXES}
+        used = [{name for name, _ in self.problems[axis].counters} for axis in AXES]
+        self.shared = sorted(used[0] & used[1])
+        self.analysed: set[Axis] = set()
+
+    def layout(self) -> Layout:
+        return self._assemble(self._solved(AXES))
+
+    def _solved(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
+        """The best of some axes; of both, where a counter ties them."""
+        try:
+            return self._found(axes)
+        except Stopped:
+            raise ran_out(self.design, self.clock, list(self.problems.values())) from None
+
+    def _found(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
+        if self.shared:
+            return self._unless_known(AXES, self._by_tolerance if self.objective.plain else self._tied)
+        out: dict[Axis, tuple[AxisSearch, Best]] = {}
+        for n, axis in enumerate(axes):
+            self.clock.allot(0.75 if n < len(axes) - 1 else 1.0)
+            out |= self._unless_known((axis,), self._by_tolerance if self.objective.plain else self._axis)
+        return out
+
+    def _unless_known(
+        self, axes: Sequence[Axis], find: Callable[[Sequence[Axis]], dict[Axis, tuple[AxisSearch, Best]]]
+    ) -> dict[Axis, tuple[AxisSearch, Best]]:
+        """Search axes unless they are the same as when they were last asked for."""
+        if self.trace is not None:
+            return find(axes)
+        key = (tuple(self.problems[axis] for axis in axes), self.objective, self.tolerances, self.search)
+        known = _cache.get(key)
+        if known is None:
+            known = find(axes)
+            if not self.trial:
+                for walk, best in known.values():
+                    walk.forget()
+                    for group in best.solved.groups if best.solved else ():
+                        group.edges.clear()
+                if all(best.complete for _, best in known.values()):
+                    _cache.put(key, known)
+        return known
+
+    def _axis(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
+        """The best of one axis."""
+        (axis,) = axes
+        walk = self._walk(axis, self.tolerances[-1])
+        best = self._from_before(walk)
+        if best.solved is None:
+            raise self._failure(walk, best)
+        return {axis: (walk, best)}
+
+    def _from_before(self, walk: AxisSearch) -> Best:
+        """The best of one axis, helped by what was found for the same patterns before some edit."""
+        if self.trace is not None or self.search != "best":
+            return self._best(walk)
+        problem = walk.problem
+        key = (problem.axis, problem.groups, problem.patterns, self.objective)
+        before = _before.get(key)
+        cap = inf
+        with suppress(Stopped):  # then there is no time for the search either, which knows what to do
+            cap = inf if before is None else upper_bound(walk, before)
+        best = self._best(walk, cap)
+        if best.cost > cap + EPS and best.complete:  # where symbols cannot be sized all together
+            walk.start_over()
+            best = self._best(walk)
+        if before is not None and not best.complete:
+            with suppress(Stopped):  # the time is up, but perhaps for this
+                other = adopted(walk, before)
+                best.solved = other if other is not None and other.beats(best.solved) else best.solved
+        if best.solved is not None and not self.trial:
+            _before.put(key, best.solved)
+        return best
+
+    def _best(self, walk: AxisSearch, cap: float = inf) -> Best:
+        with stage(self.trace, walk.problem.axis, "search"):
+            best = walk.best(cap)
+            if self.trace is not None:
+                self.trace.judged(walk)
+        return best
+
+    def _walk(self, axis: Axis, tolerance: float, check: Callable[[], None] | None = None) -> AxisSearch:
+        problem = self.problems[axis]
+        walk = AxisSearch(
+            problem,
+            self.objective,
+            tolerance * problem.canvas,
+            self.search,
+            self.clock.check if check is None else check,
+            self.trace,
+            self.clock.extend,
+            self.clock.progress,
+        )
+        self.clock.progress.at("words", axis)
+        self._analyse(problem)
+        with stage(self.trace, axis, "words"):
+            walk.enumerate(self._across(axis))
+        return walk
+
+    def _across(self, axis: Axis) -> dict[str, Range]:
+        """Between which values of the shared counters the other axis has words."""
+        if not self.shared:
+            return {}
+        other = self.problems["y" if axis == "x" else "x"]
+        symbols, counters = other.symbol, dict(other.counters)
+        limit = other.canvas * (1.0 + self.tolerances[-1])
+        found: dict[str, Range] = {}
+        for _, pattern in other.patterns:
+            own = ranges(pattern, symbols.__getitem__, counters.__getitem__, limit, self.clock.check)
+            for name in own.keys() & set(self.shared):
+                low, high = found.get(name, own[name])
+                found[name] = max(low, own[name][0]), min(high, own[name][1])
+        return found
+
+    def _failure(self, walk: AxisSearch, best: Best, other: AxisSearch | None = None) -> NoLayout:
+        """Why there is no layout; a trial does not ask."""
+        if self.trial:
+            return NoLayout("")
+        end = self.clock.seconds + _REMEDIES
+
+        def works(design: Design, tolerance: float | None) -> Tried | None:
+            left = end - self.clock.seconds
+            if left <= 0:
+                raise Stopped
+            tolerances = self.tolerances if tolerance is None else (tolerance,)
+            clock = Clock(min(left, _REMEDY), parent=self.clock)
+            run = _Run(design, self.objective, tolerances, self.search, clock, None, trial=True)
+            return run.tried(None if other else walk.problem.axis)
+
+        return explain(Blame(self.design, walk, best, self.clock, self.tolerances, works, other, self.shared))
+
+    def tried(self, axis: Axis | None) -> Tried | None:
+        """What an axis comes to, or both; None where there is no layout."""
+        try:
+            solved = self._solved(AXES if axis is None else (axis,))
+        except NoLayout:
+            return None
+        own = [best.solved for _, best in solved.values() if best.solved is not None]
+        return Tried(
+            {name: size for one in own for name, size in one.sized.sizes.items()},
+            {name: value for one in own for name, value in one.candidate.counters.items()},
+        )
+
+    def _analyse(self, problem: AxisProblem) -> None:
+        """Pattern analysis (supplement 3.1): report its systems, and stop where they prove that nothing fits."""
+        if self.trace is None:
+            return
+        if problem.axis not in self.analysed:
+            self.analysed.add(problem.axis)
+            with stage(self.trace, problem.axis, "analysis"):
+                self.trace.analysed(problem.axis, analyse(problem, self.clock.check))
+
+    def _tied(self, axes: Sequence[Axis] = AXES) -> dict[Axis, tuple[AxisSearch, Best]]:
+        """Both axes together, where a counter ties them: least J of both, over the values of the shared counters."""
+        walks = {axis: self._walk(axis, self.tolerances[-1]) for axis in axes}
+        best: Mapping[Axis, Best] | None = None
+        rank = (inf, 0, inf)
+        bound, complete = inf, True
+        pairs = self._by_floor(walks)
+        while True:
+            try:
+                floor, side_x, side_y = next(pairs, (inf, None, None))
+            except Stopped:
+                complete, bound = False, 0.0
+                break
+            if floor > rank[0] + 1e-9 or side_x is None or side_y is None:
+                bound = min(bound, floor)
+                break
+            x = self._best(side_x, rank[0] - side_y.floor)
+            y = self._best(side_y, rank[0] - x.cost) if x.solved else Best(bound=side_y.floor)
+            complete = complete and x.complete and y.complete
+            bound = min(bound, x.bound + y.bound)
+            if x.solved is not None and y.solved is not None:
+                deviation = x.solved.sized.deviation + y.solved.sized.deviation
+                own = (x.solved.cost + y.solved.cost, -x.solved.columns - y.solved.columns, deviation)
+                if _less(own, rank):
+                    best, rank = {"x": x, "y": y}, own
+            if not complete:
+                break
+        if best is None:
+            raise self._failure(walks["x"], Best(complete=complete), walks["y"])
+        gap = max(0.0, rank[0] - bound)
+        for axis in AXES:
+            own_best = best[axis]
+            own_best.complete = complete
+            own_best.bound = (own_best.solved.cost if own_best.solved else 0.0) - gap
+        return {axis: (walks[axis], best[axis]) for axis in AXES}
+
+    def _by_floor(self, walks: Mapping[Axis, AxisSearch]) -> Iterator[tuple[float, AxisSearch, AxisSearch]]:
+        """Both axes with the shared counters held at values that both have, by growing lower bound of J."""
+        streams = [walks[axis].restricted({}).stream for axis in AXES]
+        across, up = streams
+        assert across is not None and up is not None
+        least = [across.bound, up.bound]
+        floors: list[dict[tuple[int, ...], float]] = [
+            {},
+            {},
+        ]  # of the first, and so the best, candidate with some values
+        ahead: list[tuple[float, tuple[int, ...]]] = []
+        while True:
+            unseen = min(across.bound + least[1], least[0] + up.bound)
+            if unseen == inf and not ahead:
+                return
+            if ahead and ahead[0][0] <= unseen:
+                floor, values = heappop(ahead)
+                held = dict(zip(self.shared, values, strict=True))
+                yield floor, walks["x"].restricted(held), walks["y"].restricted(held)
+                continue
+            turn = 0 if across.bound + least[1] <= least[0] + up.bound else 1
+            candidate = (across, up)[turn].take()
+            assert candidate is not None
+            values = tuple(candidate.counters[name] for name in self.shared)
+            if values not in floors[turn]:
+                floors[turn][values] = candidate.bound
+                if values in floors[1 - turn]:
+                    heappush(ahead, (floors[0][values] + floors[1][values], values))
+
+    def _pairs(self, walks: Mapping[Axis, AxisSearch]) -> Iterator[tuple[AxisSearch, AxisSearch]]:
+        """Both axes with the shared counters held at each of their possible values, in lexicographic order."""
+        possible = [
+            sorted(set.intersection(*(_values_in(walks[axis], counter) for axis in AXES)))
+            for counter in self.shared
+        ]
+        for combination in product(*possible):
+            self.clock.check()
+            values = dict(zip(self.shared, combination, strict=True))
+            yield walks["x"].restricted(values), walks["y"].restricted(values)
+
+    def _by_tolerance(self, axes: Sequence[Axis] = AXES) -> dict[Axis, tuple[AxisSearch, Best]]:
+        """The paper's schedule: the first candidate, in lexicographic order, that aligns at the least tolerance."""
+        out: dict[Axis, tuple[AxisSearch, Best]] = {}
+        walks: dict[Axis, AxisSearch] = {}
+        for tolerance in self.tolerances:
+            walks = {axis: self._walk(axis, tolerance) for axis in axes if axis not in out}
+            if self.shared:
+                for side_x, side_y in self._pairs(walks):
+                    x = self._first_aligned(side_x)
+                    y = self._first_aligned(side_y) if x else None
+                    if x is not None and y is not None:
+                        return {"x": (walks["x"], x), "y": (walks["y"], y)}
+                continue
+            for n, (axis, walk) in enumerate(walks.items()):
+                if len(axes) > 1:
+                    self.clock.allot(0.75 if n < len(walks) - 1 else 1.0)
+                found, over = self._first_unless_over(walk)
+                if over:  # here, where nothing is left of what may have used up the memory
+                    walk.forget()
+                    walk, found = self._any_aligned(axis)
+                if found is not None:
+                    out[axis] = (walk, found)
+            if len(out) == len(axes):
+                return out
+        failed = next(axis for axis in axes if axis not in out)
+        raise self._failure(walks[failed], Best(), walks["y"] if self.shared else None)
+
+    def _first_aligned(self, walk: AxisSearch) -> Best | None:
+        """The first candidate, in lexicographic order, that aligns and can be sized."""
+        progress, axis = self.clock.progress, walk.problem.axis
+        whole = all(found.left == inf for found in walk.found.values())
+        complete = True
+        with stage(self.trace, axis, "search"):
+            for n, candidate in enumerate(walk.in_order(), 1):
+                progress.at("alignment", axis, candidate=n, of=n)
+                case = walk.case(candidate)
+                solved = walk.solve(case)
+                if self.trace is not None:
+                    self.trace.tried(walk, case)
+                complete = complete and not any(run.cut for run in case.runs)
+                if solved is not None:
+                    return Best(solved, solved.cost if whole and complete else 0.0, complete)
+        return None
+
+    def _first_unless_over(self, walk: AxisSearch) -> tuple[Best | None, bool]:
+        """The same; and whether time or memory were over before."""
+        try:
+            return self._first_aligned(walk), False
+        except Stopped as stop:
+            if stop.asked:
+                raise
+            return None, True
+
+    def _any_aligned(self, axis: Axis) -> tuple[AxisSearch, Best | None]:
+        """Any layout of an axis at the largest tolerance, for when the time is up.
+
+        The default objective, which is not degenerate, finds one soon.
+        """
+        gc.collect()
+        start_afresh()
+        walk = self._walk(axis, self.tolerances[-1], self.clock.last_attempt())
+        other = AxisSearch(walk.problem, Objective(), walk.tolerance, check=walk.check, found=walk.found)
+        answer = other.best().solved
+        solved = None if answer is None else adopted(walk, answer)
+        if solved is None:
+            raise Stopped
+        return walk, Best(solved, 0.0, False)
+
+    def _assemble(self, solved: Mapping[Axis, tuple[AxisSearch, Best]]) -> Layout:
+        warnings: list[str] = []
+        counters: dict[str, int] = {}
+        axes: dict[Axis, AxisLayout] = {}
+        complete = True
+        for axis in AXES:
+            walk, best = solved[axis]
+            answer = best.solved
+            assert answer is not None
+            counters.update(answer.candidate.counters)
+            axes[axis] = axis_layout(self.design, walk.problem, best, answer)
+            complete = complete and best.complete
+            warnings += axis_warnings(walk, answer)
+            if self.trace is not None:
+                self.trace.answer(walk, answer, axes[axis], best.complete)
+        with stage(self.trace, "", "merging"):
+            shapes, holes, told = self._merged(axes)
+            warnings += told
+        return Layout(
+            self.design.name,
+            self.design.canvas,
+            dict(sorted(counters.items())),
+            axes["x"],
+            axes["y"],
+            shapes,
+            holes,
+            tuple(warnings),
+            complete,
+            self.design,
+        )
+
+    def _merged(
+        self, axes: Mapping[Axis, AxisLayout]
+    ) -> tuple[tuple[PlacedShape, ...], tuple[Rect, ...], list[str]]:
+        """Shapes, holes, and what there is to say about these."""
+        x, y = axes["x"], axes["y"]
+        check = self.clock.closing()
+        self.clock.progress.at("merging", "")
+        try:
+            shapes = merge(self.design, x, y, check)
+        except Stopped:
+            raise ran_out(self.design, self.clock, list(self.problems.values())) from None
+        holes = find_holes(self.design.canvas, shapes)
+        try:
+            return shapes, holes, hole_warnings(self.design, x, y, holes, check)
+        except Stopped:
+            return (
+                shapes,
+                holes,
+                [f"There are {len(holes)} holes; the time was over before they were explained."],
+            )
+
+
+def _less(a: tuple[float, int, float], b: tuple[float, int, float]) -> bool:
+    if abs(a[0] - b[0]) > 1e-9:
+        return a[0] < b[0]
+    return a[1:] < b[1:]
+
+
+def _values_in(walk: AxisSearch, counter: str) -> set[int]:
+    """Values of a counter that every pattern it stands in has a word for."""
+    sets = [
+        {word.counters[counter] for word in walk.found[name].words}
+        for name, pattern in walk.problem.patterns
+        if counter in pattern.counters
+    ]
+    return set.intersection(*sets)

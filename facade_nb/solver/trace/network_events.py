@@ -1,0 +1,315 @@
+"""What a search did in a network, told: nodes, edges, what was refused, prices (the paper's 5.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import isfinite
+from typing import Any
+
+from ..alignment.columns import EPS, Band, Group, Option
+from ..alignment.pricing import Priced
+from ..events import (
+    BandNote,
+    ColumnNote,
+    ControlsAligned,
+    EdgeRefused,
+    EdgeWeighed,
+    Event,
+    LeftOut,
+    LetterNote,
+    LimitRaised,
+    NetworkClosed,
+    NetworkOpened,
+    NodeTaken,
+    PairsMerged,
+    RegionTraced,
+    StructurePriced,
+    WaysMet,
+)
+from ..model.letters import Letter
+from .recorder import Partial, Walk
+from .weights import Refusal, columns_at, refusal, weigh
+
+__all__ = ["Walked", "band_notes", "column_note", "letter_note"]
+
+NODES = 300
+"""At so many nodes the columns that were refused are told:"""
+REFUSED = 40
+"""so many of each constraint,"""
+LOOKED = 1_000
+"""and so many columns looked at;"""
+BUDGET = 30_000
+"""so many in a whole network."""
+
+
+def letter_note(letter: Letter) -> LetterNote:
+    """A letter, as events have it."""
+    return LetterNote(
+        letter.symbol,
+        letter.size,
+        letter.transparent,
+        letter.opaque,
+        letter.attached,
+        letter.unoccludable,
+        letter.mirrored,
+        letter.origin,
+    )
+
+
+def band_notes(group: Group) -> tuple[BandNote, ...]:
+    """The distinct words of a group."""
+    return tuple(BandNote(tuple(map(letter_note, band.letters)), band.rows) for band in group.bands)
+
+
+def column_note(group: Group, column: Sequence[Option], sizes: Sequence[Sequence[float]]) -> ColumnNote:
+    """A column of a priced structure."""
+    here = {b: sum(own) for b, own in enumerate(sizes) if not column[b].empty}
+    rest = [s for b, s in here.items() if group.objective.plain or not column[b].soft] or list(here.values())
+    width = max(here.values())
+    return ColumnNote(
+        tuple(option.letters for option in column),
+        _places([option.target for option in column]),
+        tuple(map(tuple, sizes)),
+        width,
+        width - min(rest),
+    )
+
+
+class Walked:
+    """A walk, with a number for each path: in the order in which they came up, those of `end` in any case."""
+
+    def __init__(self, walk: Walk, end: Partial | None) -> None:
+        self.walk = walk
+        self._number: dict[int, int] = {}
+        self._left = self._looked = 0
+        self._paths: list[Partial] = []  # holds on to them, so that an identity stays one
+        for kind, *own in walk.steps:
+            if kind in ("node", "edge", "price"):
+                self._name(own[0])
+        self._told = len(self._paths)
+        for path in _chain(end):
+            self._name(path)
+
+    def _name(self, path: Partial) -> int:
+        number = self._number.setdefault(id(path), len(self._number))
+        if number == len(self._paths):
+            self._paths.append(path)
+        return number
+
+    def chain(self, end: Partial) -> tuple[int, ...]:
+        """Numbers of the paths that lead to one, itself at the end."""
+        return tuple(self._number[id(path)] for path in _chain(end))
+
+    def events(self) -> Iterator[Event]:
+        """The network, from its opening to its closing."""
+        walk = self.walk
+        axis, network, groups = walk.axis, walk.number, walk.groups
+        bands = tuple(map(band_notes, groups))
+        yield NetworkOpened(
+            axis, network, walk.names, bands, groups[0].canvas, groups[0].tolerance, walk.search
+        )
+        made, seen = self._made(), set[object]()
+        for kind, *own in walk.steps:
+            if kind == "limit":
+                yield LimitRaised(axis, network, own[0] if isfinite(own[0]) else None)
+            elif kind == "node":
+                yield self._node(*own)
+                path: Partial = own[0]
+                node = (path.group, path.state, path.owed)
+                if path.group < len(groups) and node not in seen:
+                    seen.add(node)
+                    if len(seen) <= NODES:
+                        yield from self._refused(path, made.get(self._number[id(path)], set()))
+                    else:
+                        self._left += 1
+            elif kind == "edge":
+                yield self._edge(*own)
+            elif kind == "price":
+                yield self._price(*own)
+            else:
+                yield _observed(walk, kind, own)
+        if walk.left:
+            yield LeftOut(axis, f"steps in network {network}", walk.left)
+        for late in self._paths[self._told :]:
+            if late.parent is not None:
+                yield self._edge(late, None, False)
+        if self._left:
+            yield LeftOut(axis, f"refused edges in network {network}", self._left)
+        bound = walk.bound
+        yield NetworkClosed(
+            axis,
+            network,
+            walk.taken,
+            walk.seconds,
+            bound if bound is not None and isfinite(bound) else None,
+            walk.ties,
+            walk.cut,
+        )
+
+    def _node(self, path: Partial, bound: float) -> NodeTaken:
+        return NodeTaken(
+            self.walk.axis,
+            self.walk.number,
+            path.group,
+            _places(path.state),
+            path.cost,
+            bound,
+            path=self._number[id(path)],
+            width=path.width,
+            columns=path.columns,
+        )
+
+    def _edge(self, path: Partial, bound: float | None, dropped: bool) -> EdgeWeighed:
+        parent = path.parent
+        assert parent is not None
+        weight = weigh(self.walk.groups[parent.group], path.column)
+        return EdgeWeighed(
+            self.walk.axis,
+            self.walk.number,
+            parent.group,
+            _places(parent.state),
+            tuple(option.letters for option in path.column),
+            weight.omega,
+            path.cost - parent.cost,
+            _places([option.target for option in path.column]),
+            weight.width,
+            bound,
+            "dropped" if dropped else "overtaken" if path.dropped else "open",
+            path=self._number[id(path)],
+            parent=self._name(parent),
+        )
+
+    def _price(self, path: Partial, priced: Priced | None) -> StructurePriced:
+        axis, network, number = self.walk.axis, self.walk.number, self._number[id(path)]
+        if priced is None:
+            return StructurePriced(axis, network, number, None, None, path.columns, False)
+        return StructurePriced(
+            axis,
+            network,
+            number,
+            priced.cost,
+            priced.omega,
+            priced.columns,
+            priced.proper,
+            priced.widths,
+            dict(priced.unsized),
+        )
+
+    def _made(self) -> dict[int, set[object]]:
+        """Per path: the columns that it was made longer by."""
+        made: dict[int, set[object]] = {}
+        for path in self._paths:
+            if path.parent is not None:
+                key = tuple((option.letters, option.target) for option in path.column)
+                made.setdefault(self._number[id(path.parent)], set()).add(key)
+        return made
+
+    def _refused(self, path: Partial, made: set[object]) -> Iterator[EdgeRefused]:
+        """At a node: the columns that were not made, each with what forbids it."""
+        group = self.walk.groups[path.group]
+        count: dict[str, int] = {}
+        for looked, (column, refused) in enumerate(columns_at(group, path.state, path.owed)):
+            if looked >= LOOKED or self._looked >= BUDGET:
+                self._left += 1
+                return
+            self._looked += 1
+            if refused is None:
+                if tuple((o.letters, o.target) for o in column if o is not None) in made:
+                    continue
+                refused = _too_dear(group, path, [option for option in column if option is not None])
+            count[refused.constraint] = count.get(refused.constraint, 0) + 1
+            if count[refused.constraint] > REFUSED:
+                self._left += 1
+                continue
+            yield EdgeRefused(
+                self.walk.axis,
+                self.walk.number,
+                path.group,
+                _places(path.state),
+                tuple(None if option is None else option.letters for option in column),
+                refused.constraint,
+                tuple(None if option is None else option.target >> 2 for option in column),
+                refused.bands,
+                refused.letters,
+                refused.amount,
+                refused.text,
+                parent=self._number[id(path)],
+            )
+
+
+def _observed(walk: Walk, kind: str, own: Sequence[Any]) -> Event:
+    """What the paper's search told as `paper.observer.Observer`."""
+    axis, network = walk.axis, walk.number
+    if kind == "met":
+        group, places, cost, columns = own
+        return WaysMet(axis, network, group, places, cost, columns)
+    if kind in ("prealigned", "merged"):
+        nodes, cost = own
+        kind_of = ControlsAligned if kind == "prealigned" else PairsMerged
+        return kind_of(axis, network, nodes, cost if isfinite(cost) else None)
+    way, group, places, *rest = own
+    if kind == "visited":
+        cost, bound = rest
+        return NodeTaken(axis, network, group, places, cost, bound, way=way)
+    if kind == "traced":
+        words, lower, upper = rest
+        return RegionTraced(axis, network, group, places, words, lower, upper, way=way)
+    if kind == "weighed":
+        column, error, cost, after = rest
+        return EdgeWeighed(axis, network, group, places, column, error, cost, after, way=way)
+    column, constraint = rest
+    options = [_option(band, letters) for band, letters in zip(walk.groups[group].bands, column, strict=True)]
+    why = refusal(walk.groups[group], constraint == "boundary", tuple(options))
+    if why is None or why.constraint != constraint:  # which pieces they were is not told
+        return EdgeRefused(axis, network, group, places, column, constraint, way=way)
+    return EdgeRefused(
+        axis,
+        network,
+        group,
+        places,
+        column,
+        constraint,
+        None,
+        why.bands,
+        why.letters,
+        why.amount,
+        why.text,
+        way,
+    )
+
+
+def _option(band: Band, letters: tuple[int, ...]) -> Option:
+    """An element with these letters; of a letter that may be cut, its rest and no more."""
+    if not letters:
+        return Option(0, empty=True)
+    place = 8 * letters[0]
+    if band.letters[letters[0]].transparent and band.cuts:
+        place += 4
+    return next(option for option in band.options(place) if option.letters == letters)
+
+
+def _too_dear(group: Group, path: Partial, column: Sequence[Option]) -> Refusal:
+    """Why a column was not made that keeps all constraints: by W, or by its cost."""
+    everyone = tuple(range(len(column)))
+    width = path.width + weigh(group, column).width
+    over = width + max(b.at_least(o.target) for b, o in zip(group.bands, column, strict=True))
+    over -= group.canvas + group.tolerance
+    if over > EPS:
+        return Refusal("width", everyone, (), f"W would be {over:.3g} m more than canvas + μ.", over)
+    last = all(o.target >> 2 == band.end >> 2 for o, band in zip(column, group.bands, strict=True))
+    under = group.canvas - group.tolerance - width
+    if last and group.stiff and under > EPS:
+        return Refusal("width", everyone, (), f"W would be {under:.3g} m less than canvas − μ.", under)
+    return Refusal("bound", (), (), "An alignment with it costs more than the search had to look at.")
+
+
+def _places(state: Sequence[int]) -> tuple[int, ...]:
+    return tuple(position >> 2 for position in state)
+
+
+def _chain(end: Partial | None) -> list[Partial]:
+    out: list[Partial] = []
+    while end is not None:
+        out.append(end)
+        end = end.parent
+    return out[::-1]

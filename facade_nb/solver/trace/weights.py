@@ -1,0 +1,265 @@
+"""Every column that might come next at a node, with its weight, or with the constraint that forbids it.
+
+The search never looks at most of them: what its bounds or the constraints rule out is not made at all. Here each is
+made and judged by the letter of SPEC 3, one constraint after the other, for views and lessons. It is the slow and
+plain twin of `network`, which a test compares with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import inf
+
+from ..alignment.columns import EPS, Band, Group, Option
+
+__all__ = ["Refusal", "Weight", "columns_at", "elements", "judge", "refusal", "weigh"]
+
+
+@dataclass(frozen=True, slots=True)
+class Weight:
+    """What a column costs where elastic letters cost nothing: ω, ω + empty·E + loose·Λ, and its width."""
+
+    omega: float
+    cost: float
+    width: float
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why a column may not come next: see `events.EdgeRefused`."""
+
+    constraint: str
+    bands: tuple[int, ...]
+    letters: tuple[tuple[int, int], ...]
+    text: str
+    amount: float | None = None
+
+
+Column = tuple[Option, ...]
+Partial = tuple[Option | None, ...]
+
+
+def elements(group: Group, b: int, position: int) -> Iterator[tuple[Option, Refusal | None]]:
+    """Every element that a band may put into the next column, and those that C2 or C4 keep from it."""
+    band = group.bands[b]
+    i, mid, gap, held = position >> 3, position & 4, position & 2, position & 1
+    word = band.letters
+    if held:
+        ahead = i < len(word) and word[i].attached and not word[i].transparent
+        text = f"{word[i - 1]} is attached and ends its element, so {_row(band)} may not be empty next (C4)."
+        refused = Refusal("C4", (b,), ((b, i - 1),), text)
+        yield Option(8 * i + mid + (2 if ahead else 0), empty=True), refused
+    for option in band.options(position):
+        yield option, None
+    if gap:
+        text = f"{word[i]} is attached and begins its element, but {_row(band)} was empty before it (C4)."
+        for option in band.options(position & ~2):
+            if not option.empty:
+                yield option, Refusal("C4", (b,), ((b, i),), text)
+    for j in range(i, len(word)):
+        run = range(i, j + 1)
+        if len({word[n].transparent for n in run}) == 1:
+            continue
+        names = " ".join(str(word[n]) for n in run)
+        text = f"{names} of {_row(band)} are partly transparent, partly not (C2)."
+        refused = Refusal("C2", (b,), tuple((b, n) for n in run), text)
+        sizes = [word[n].size for n in run]
+        size = None if mid or None in sizes else sum(s for s in sizes if s is not None)
+        held_next = 1 if word[j].attached and not word[j].transparent else 0
+        if word[j].transparent and band.cuts:
+            yield Option(8 * j + 4, size=None, begins=not mid, letters=tuple(run)), refused
+        made = Option(8 * (j + 1) + held_next, size=size, begins=not mid, ends=True, letters=tuple(run))
+        yield made, refused
+
+
+def weigh(group: Group, column: Sequence[Option | None]) -> Weight:
+    """ω (Eq. 9, or its variant for non-opaque rows), cost and width of a column, or of some of its rows."""
+    plain, objective = group.objective.plain, group.objective
+    high, low, low_all = 0.0, inf, inf
+    empties = softs = 0
+    loose = soft_sizes = 0.0
+    elastic = False
+    for option in column:
+        if option is None:
+            continue
+        if option.empty:
+            empties += 1
+        elif option.size is None:
+            elastic = True
+        else:
+            high, low_all = max(high, option.size), min(low_all, option.size)
+            if plain or not option.soft:
+                low = min(low, option.size)
+            loose += option.loose
+            if option.soft:
+                softs, soft_sizes = softs + 1, soft_sizes + option.size
+    if low == inf:
+        low = high if elastic or low_all == inf else low_all
+    omega = max(0.0, high - low)
+    by_empty, by_loose = objective.empty * group.share, objective.loose * group.share
+    cost = omega + by_empty * empties * high + by_loose * (loose + softs * high - soft_sizes)
+    return Weight(omega, cost, high)
+
+
+def refusal(group: Group, owed: bool, column: Column) -> Refusal | None:
+    """The first constraint that a column breaks, of those that do not depend on what came before; None: none.
+
+    `owed`: no letter ended at the boundary before it.
+    """
+    everyone = tuple(range(len(column)))
+    if all(option.empty for option in column):
+        return Refusal("empty", everyone, (), "No row has a letter in it.")
+    found = _omega(group, column) or _c3(group, column)
+    if found is not None:
+        return found
+    needy = [b for b, option in enumerate(column) if option.empty or option.soft]
+    if needy and not group.waived and not any(option.opaque for option in column):
+        soft = tuple((b, i) for b in needy for i in column[b].letters if not group.bands[b].letters[i].opaque)
+        names = ", ".join(str(group.bands[b].letters[i]) for b, i in soft)
+        what = f"{names} is not opaque" if soft else f"{_row(group.bands[needy[0]])} is empty"
+        return Refusal(
+            "C1", tuple(needy), soft, f"{what}, and no row stands behind it with opaque letters (C1)."
+        )
+    if owed and not any(option.begins for option in column):
+        return Refusal("boundary", everyone, (), "The boundary before it is no row's letter boundary.")
+    return None
+
+
+def _omega(group: Group, column: Partial) -> Refusal | None:
+    weight = weigh(group, column)
+    over = weight.omega - group.tolerance
+    if over <= EPS:
+        return None
+    sized = [
+        (o.size, b) for b, o in enumerate(column) if o is not None and not o.empty and o.size is not None
+    ]
+    firm = [(s, b) for s, b in sized if group.objective.plain or not _option(column, b).soft] or sized
+    blamed = tuple(sorted({max(sized)[1], min(firm)[1]}))
+    sides = " and ".join(_element(group.bands[b], _option(column, b)) for b in blamed)
+    return Refusal(
+        "omega",
+        blamed,
+        _letters(column, blamed),
+        f"{sides} differ by {weight.omega:.3g} m, more than μ = {group.tolerance:.3g} m.",
+        over,
+    )
+
+
+def _c3(group: Group, column: Partial) -> Refusal | None:
+    for b, option in enumerate(column):
+        if option is None or not option.guarded:
+            continue
+        for o in group.guards[b]:
+            other = column[o]
+            if other is not None and other.soft:
+                below = tuple((b, i) for i in option.letters if group.bands[b].letters[i].unoccludable)
+                above = tuple((o, i) for i in other.letters if not group.bands[o].letters[i].opaque)
+                text = (
+                    f"{_named(group, below)} is unoccludable, and {_named(group, above)} above it is not "
+                    "opaque (C3)."
+                )
+                return Refusal("C3", tuple(sorted({b, o})), (*above, *below), text)
+    return None
+
+
+def columns_at(
+    group: Group, state: Sequence[int], owed: bool, *, whole: bool = False
+) -> Iterator[tuple[Partial, Refusal | None]]:
+    """Every column that might come next, each with what forbids it, if anything does.
+
+    Rows are chosen one by one. What is forbidden by some rows alone comes once, with None for the others; with
+    `whole` all rows are chosen nevertheless.
+    """
+    choices = [list(elements(group, b, position)) for b, position in enumerate(state)]
+    n = len(choices)
+    if not whole:
+        for b, own in enumerate(choices):
+            for option, refused in own:
+                if refused is not None:
+                    yield tuple(option if o == b else None for o in range(n)), refused
+
+    def descend(chosen: list[Option], refused: Refusal | None) -> Iterator[tuple[Partial, Refusal | None]]:
+        if len(chosen) == n:
+            column = tuple(chosen)
+            yield column, refused or refusal(group, owed, column)
+            return
+        for option, own in choices[len(chosen)]:
+            if own is not None and not whole:
+                continue
+            more = [*chosen, option]
+            if not whole and len(more) < n:
+                partial = (*more, *(None for _ in range(n - len(more))))
+                broken = _omega(group, partial) or _c3(group, partial)
+                if broken is not None:
+                    yield partial, broken
+                    continue
+            yield from descend(more, refused or own)
+
+    yield from descend([], None)
+
+
+def judge(group: Group, columns: Sequence[Sequence[Sequence[int]]]) -> list[tuple[Weight, Refusal | None]]:
+    """Weight of each column of an alignment that somebody made up, and the first constraint that it breaks.
+
+    Parameters
+    ----------
+    columns
+        Per column, per band, the numbers of the letters in it, in order. A letter that stands in several columns is
+        cut.
+
+    Raises
+    ------
+    ValueError
+        Where a word's letters are not all there in their order, or a letter is cut that may not be.
+    """
+    out: list[tuple[Weight, Refusal | None]] = []
+    state: Sequence[int] = group.start
+    owed = False
+    for j, column in enumerate(columns):
+        options: list[Option] = []
+        broken: Refusal | None = None
+        for b, letters in enumerate(column):
+            later = next((own[b][0] for own in columns[j + 1 :] if own[b]), None)
+            cut = bool(letters) and later == letters[-1]
+            own = (
+                (option, refused)
+                for option, refused in elements(group, b, state[b])
+                if option.letters == tuple(letters) and (not letters or bool(option.target & 4) == cut)
+            )
+            option, refused = next(own, (None, None))
+            if option is None:
+                raise ValueError(
+                    f"column {j}: {_row(group.bands[b])} cannot have the letters {list(letters)} after "
+                    f"{state[b] >> 3} have been read"
+                )
+            options.append(option)
+            broken = broken or refused
+        out.append((weigh(group, tuple(options)), broken or refusal(group, owed, tuple(options))))
+        state = tuple(option.target for option in options)
+        owed = not any(option.ends for option in options)
+    if tuple(p >> 2 for p in state) != tuple(p >> 2 for p in group.goal):
+        raise ValueError("the columns do not hold all letters of every word")
+    return out
+
+
+def _option(column: Partial, b: int) -> Option:
+    option = column[b]
+    assert option is not None
+    return option
+
+
+def _letters(column: Partial, bands: Sequence[int]) -> tuple[tuple[int, int], ...]:
+    return tuple((b, i) for b in bands for i in _option(column, b).letters)
+
+
+def _named(group: Group, letters: Sequence[tuple[int, int]]) -> str:
+    return " ".join(str(group.bands[b].letters[i]) for b, i in letters)
+
+
+def _element(band: Band, option: Option) -> str:
+    return " ".join(str(band.letters[i]) for i in option.letters) + f" ({option.size:.3g} m)"
+
+
+def _row(band: Band) -> str:
+    return f"row {band.top}"

@@ -1,0 +1,463 @@
+"""From one pattern to its words that can fit the canvas (the paper's 5.1, Eq. 7)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from math import inf
+from typing import Any
+
+from ...design.model import Counter, Symbol
+from ...design.pattern import Pattern
+from ...design.tree import Concat, Count, Node, concatenation, spellings, walk
+from ..alignment.columns import EPS
+from ..cache import Kept
+from ..model.letters import Letter, Word
+from .lengths import Growth, Way, measure
+from .sums import Sums
+
+__all__ = [
+    "MAX_COPIES",
+    "MAX_SPELLED",
+    "MAX_WORDS",
+    "Instances",
+    "Range",
+    "forget_measures",
+    "instances",
+    "ranges",
+]
+
+MAX_COPIES = 16
+"""A counter that repeats only letters without a size could go on for ever; it is tried up to this count."""
+
+MAX_WORDS = 2000
+"""A pattern with three counters or more is left with about so many words, those nearest to the canvas."""
+
+MAX_SPELLED = 2000
+"""Most letters of a word that a counter makes long: far beyond any façade. More could not be aligned or sized."""
+
+_MAX_FEW = 20_000
+"""So many for one or two counters."""
+
+_MAX_TOTAL = 400_000
+"""Most letters in all words of a pattern together: the words nearest to the canvas come first."""
+
+_WAY = ""
+"""In tables of counters: the choice of alternatives. No counter has that name."""
+
+_ways: Kept[tuple[list[Way] | None]] = Kept(50_000)
+"""Measures of patterns asked for last, weighed by their choices of alternatives."""
+
+SymbolOf = Callable[[str], Symbol]
+CounterOf = Callable[[str], Counter]
+Check = Callable[[], None]
+Range = tuple[int, int]
+
+
+def forget_measures() -> None:
+    """Let go of all measures that are kept for unchanged patterns."""
+    _ways.clear()
+
+
+@dataclass(frozen=True, slots=True)
+class Instances:
+    """The words of a pattern that are within limits.
+
+    Attributes
+    ----------
+    words
+        In lexicographic order of counter values, then of alternatives.
+    shortest
+        The shortest word of the pattern, whether or not it is within the limit.
+    endless
+        Counters that repeat nothing with a size, cut off at `MAX_COPIES`.
+    left
+        Words that were left out, as there are too many, miss the canvas by at least so many metres.
+    clipped
+        Counters that would go on, if a word could have more letters than `MAX_SPELLED`.
+    """
+
+    words: tuple[Word, ...]
+    shortest: Word
+    endless: tuple[str, ...] = ()
+    left: float = inf
+    clipped: tuple[str, ...] = ()
+
+
+def instances(
+    pattern: Pattern,
+    symbol: SymbolOf,
+    counter: CounterOf,
+    limit: float,
+    check: Check | None = None,
+    canvas: float | None = None,
+    low: float = -inf,
+    common: Mapping[str, Range] | None = None,
+) -> Instances:
+    """Every word of a pattern whose sized letters measure at most `limit` metres, and at least `low`.
+
+    Counters are tried outwards from the value nearest to 0; a longer count never makes a word shorter, so
+    that each direction ends where the shortest word has become too long. Words are measured before they are spelled
+    out (`measures`).
+
+    Parameters
+    ----------
+    canvas
+        With it, where there are more words than `MAX_WORDS` (or their letters are too many), those nearest to it
+        are kept.
+    low
+        Does not hold for words with an unsized letter, which takes what is left.
+    common
+        Values of counters beyond which other patterns have no word (`ranges`).
+    """
+    ways = _measured(pattern, symbol, check)
+    speller = _Speller(symbol)
+    if ways is None:
+        return _one_by_one(pattern, speller, counter, limit, low, check)
+    zero = {name: _nearest_zero(counter(name)) for name in pattern.counters}
+    shortest = min(ways, key=lambda way: way.measure.at(zero))
+    letters = inf if canvas is None else MAX_SPELLED
+    kinds = [_Kind(own, zero, counter, limit, common or {}, letters, check) for own in _alike(ways).values()]
+    few = len(pattern.counters) <= 2
+    chosen: list[tuple[float, tuple[int, ...], int]] = []
+    left = inf
+    for kind in kinds:
+        for name in kind.tables:
+            kind.go_on(name, [other.tables[name][-1][0] for other in kinds if other.tables[name]])
+        least = -inf if kind.open else low
+        sums = Sums(kind.tables, limit + 1e-7, check)
+        if canvas is None:
+            found, _ = sums.within(least - EPS, limit + 1e-7)
+        else:
+            found, missed = sums.nearest(canvas, least - EPS, _MAX_FEW if few else MAX_WORDS)
+            left = min(left, missed)
+        chosen += [
+            (size, tuple(values[name] for name in pattern.counters), values[_WAY]) for size, values in found
+        ]
+    if canvas is not None:
+        chosen, missed = _few_letters(chosen, canvas, ways, pattern.counters)
+        left = min(left, missed)
+    free = set.intersection(*(kind.endless for kind in kinds))
+    return Instances(
+        tuple(
+            _spelled(sorted(chosen, key=lambda own: own[1:]), ways, pattern.counters, speller, limit, check)
+        ),
+        speller.word(shortest.pattern, zero),
+        tuple(sorted(free)),
+        left,
+        tuple(sorted(set().union(*(kind.clipped for kind in kinds)))),
+    )
+
+
+def ranges(
+    pattern: Pattern, symbol: SymbolOf, counter: CounterOf, limit: float, check: Check | None = None
+) -> dict[str, Range]:
+    """Between which values of its counters a pattern has words within the limit, for counters that repeat something
+    with a size whatever alternatives are chosen.
+    """
+    ways = _measured(pattern, symbol, check)
+    if ways is None:
+        return {}
+    zero = {name: _nearest_zero(counter(name)) for name in pattern.counters}
+    kinds = [_Kind(own, zero, counter, limit, {}, MAX_SPELLED, check) for own in _alike(ways).values()]
+    found: dict[str, Range] = {}
+    for name in pattern.counters:
+        tables = [kind.tables[name] for kind in kinds if kind.tables[name]]
+        if tables and not any(name in kind.free for kind in kinds):
+            values = [value for table in tables for value, _ in table]
+            found[name] = min(values), max(values)
+    return found
+
+
+def _measured(pattern: Pattern, symbol: SymbolOf, check: Check | None) -> list[Way] | None:
+    """What `measure` says, kept for the next time the sizes are the same."""
+    key = (pattern, tuple(symbol(name).size for name in pattern.symbols))
+    known = _ways.get(key)
+    if known is None:
+        known = (measure(pattern, lambda name: symbol(name).size, check),)
+        _ways.put(key, known, len(known[0] or ()) + 1)
+    return known[0]
+
+
+def _alike(ways: Sequence[Way]) -> dict[object, list[tuple[int, Way]]]:
+    """Choices of alternatives, with their numbers, by what the counters add to them."""
+    found: dict[object, list[tuple[int, Way]]] = {}
+    for n, way in enumerate(ways):
+        key = (way.measure.open, tuple(sorted(way.measure.growth.items())))
+        found.setdefault(key, []).append((n, way))
+    return found
+
+
+class _Kind:
+    """Choices of alternatives to which the counters add the same.
+
+    Attributes
+    ----------
+    tables
+        Per counter: its values, each with the metres that it adds; and the choices with theirs.
+    free
+        Counters that add nothing in some direction that is open to them.
+    endless
+        Those of them that were cut off.
+    clipped
+        Counters at which a word would have too many letters.
+    """
+
+    def __init__(
+        self,
+        ways: Sequence[tuple[int, Way]],
+        zero: Mapping[str, int],
+        counter: CounterOf,
+        limit: float,
+        common: Mapping[str, Range],
+        most: float,
+        check: Check | None,
+    ) -> None:
+        self.open = ways[0][1].measure.open
+        self.free: set[str] = set()
+        self.endless: set[str] = set()
+        self.clipped: set[str] = set()
+        self._zero, self._counter, self._common = zero, counter, common
+        growth = ways[0][1].measure.growth
+        self._growth = {name: growth.get(name, Growth()) for name in zero}
+        own = {name: self._growth[name].size(value) for name, value in zero.items()}
+        letters = {name: self._growth[name].length(value) for name, value in zero.items()}
+        least = min(way.measure.size for _, way in ways) + sum(own.values())
+        fewest = min(way.measure.letters for _, way in ways) + sum(letters.values())
+        self.tables: dict[str, list[tuple[int, float]]] = {
+            name: self._values(
+                name, limit - least + own[name], max(0.0, most - fewest) + letters[name], check
+            )
+            for name in zero
+        }
+        self.tables[_WAY] = [(n, way.measure.size) for n, way in ways]
+        if least > limit + EPS:
+            self.tables = {name: [] for name in self.tables}
+
+    def _values(self, name: str, room: float, letters: float, check: Check | None) -> list[tuple[int, float]]:
+        """The values of a counter that leave room, in order."""
+        bounds, growth, zero = self._counter(name), self._growth[name], self._zero[name]
+        low, high = self._common.get(name, (-inf, inf))
+        found: list[tuple[int, float]] = []
+        for step in (1, -1):
+            value = zero if step == 1 else zero - 1
+            end = bounds.max if step == 1 else bounds.min
+            free = self._still(growth, zero, step)
+            while _inside(bounds, value) and growth.size(value) <= room + EPS:
+                if check is not None:
+                    check()
+                if growth.length(value) > letters:
+                    self.clipped.add(name)
+                    break
+                if free:
+                    self.free.add(name)
+                    tried = abs(value - zero)
+                    known = name in self._common and low <= value <= high
+                    if tried >= MAX_COPIES and not known and (end is None or abs(end - value) > MAX_COPIES):
+                        if name not in self._common:
+                            self.endless.add(name)
+                        break
+                if low <= value <= high:
+                    found.append((value, growth.size(value)))
+                value += step
+        return sorted(found)
+
+    @staticmethod
+    def _still(growth: Growth, zero: int, step: int) -> bool:
+        """Whether going on from a value in a direction adds no metre."""
+        return growth.size(zero + 2 * step) <= growth.size(zero) if zero * step >= 0 else False
+
+    def go_on(self, name: str, tops: Sequence[int]) -> None:
+        """A counter that was cut off here goes as far as it does under other alternatives."""
+        table = self.tables[name]
+        if name in self.endless and table and name != _WAY:
+            top, size = table[-1]
+            table += [(value, size) for value in range(top + 1, max(tops) + 1)]
+
+
+def _few_letters(
+    chosen: list[tuple[float, tuple[int, ...], int]], canvas: float, ways: Sequence[Way], names: Sequence[str]
+) -> tuple[list[tuple[float, tuple[int, ...], int]], float]:
+    """Those nearest to the canvas, until they have `_MAX_TOTAL` letters; by how much one that is left out misses it."""
+    total = 0.0
+    chosen.sort(key=lambda own: abs(own[0] - canvas))
+    kept: list[tuple[float, tuple[int, ...], int]] = []
+    left, full = inf, False
+    for one in chosen:
+        size, values, way = one
+        own = ways[way].measure
+        added = zip(names, values, strict=True)
+        letters = own.letters + sum(g.length(v) for name, v in added if (g := own.growth.get(name)))
+        long = letters > max(MAX_SPELLED, own.letters)
+        full = full or (not long and bool(kept) and total + letters > _MAX_TOTAL)
+        if long or full:
+            left = min(left, abs(size - canvas))
+        else:
+            kept.append(one)
+            total += letters
+    return kept, left
+
+
+def _spelled(
+    chosen: Sequence[tuple[float, tuple[int, ...], int]],
+    ways: Sequence[Way],
+    names: Sequence[str],
+    speller: _Speller,
+    limit: float,
+    check: Check | None,
+) -> Iterator[Word]:
+    """The words of values and choices, equal ones once."""
+    last: tuple[int, ...] | None = None
+    seen: set[tuple[tuple[str, bool, bool], ...]] = set()
+    for size, values, way in chosen:
+        if check is not None:
+            check()
+        if values != last:
+            last, seen = values, set()
+        word = speller.word(ways[way].pattern, dict(zip(names, values, strict=True)))
+        if size > limit - 1e-6 and word.size > limit + EPS:
+            continue  # sums of floats are not the same in every order
+        if len(ways) > 1:
+            key = tuple((a.symbol, a.mirrored, a.transparent) for a in word.letters)
+            if key in seen:
+                continue
+            seen.add(key)
+        yield word
+
+
+class _Speller:
+    """Spells words out; letters that are alike are one object, and parts of words are spelled once."""
+
+    def __init__(self, symbol: SymbolOf) -> None:
+        self._letters = _Letters(symbol)
+        self._parts: dict[Node, tuple[tuple[Node, tuple[str, ...]], ...]] = {}
+        self._spelled: dict[tuple[int, tuple[int, ...]], tuple[Letter, ...]] = {}
+
+    def word(self, way: Pattern, values: Mapping[str, int]) -> Word:
+        """The word of a pattern without alternatives."""
+        if way.substitutions or not values:
+            return Word(tuple(map(self._letters.__getitem__, way.spell(values))), dict(values))
+        parts = self._parts.get(way.control)
+        if parts is None:
+            parts = self._parts[way.control] = _parts(way.control)
+        return Word(tuple(chain.from_iterable(self._part(*own, values) for own in parts)), dict(values))
+
+    def _part(self, node: Node, counters: tuple[str, ...], values: Mapping[str, int]) -> tuple[Letter, ...]:
+        key = (id(node), tuple([values[name] for name in counters]))  # nodes of `_parts` stay as they are
+        found = self._spelled.get(key)
+        if found is None:
+            found = tuple(map(self._letters.__getitem__, spellings(node, values)[0]))
+            self._spelled[key] = found
+        return found
+
+    def words(self, pattern: Pattern, values: Mapping[str, int]) -> list[Word]:
+        """All words of a pattern for some values."""
+        return [
+            Word(
+                tuple(self._letters[g.symbol, g.mirrored, g.transparent, g.origin] for g in glyphs),
+                dict(values),
+            )
+            for glyphs in pattern.words(values)
+        ]
+
+
+def _parts(control: Node) -> tuple[tuple[Node, tuple[str, ...]], ...]:
+    """What is concatenated, each part with its counters; what has none is one part with its neighbours."""
+    found: list[tuple[Node, tuple[str, ...]]] = []
+    for part in control.parts if isinstance(control, Concat) else (control,):
+        counts = (node.value for node in walk(part) if isinstance(node, Count))
+        counters = tuple(dict.fromkeys(value for value in counts if isinstance(value, str)))
+        if found and not counters and not found[-1][1]:
+            found[-1] = (concatenation([found[-1][0], part]), ())
+        else:
+            found.append((part, counters))
+    return tuple(found)
+
+
+class _Letters(dict[tuple[object, ...], Letter]):
+    """The letter of each glyph, by its fields, or by the first two of them."""
+
+    def __init__(self, symbol: SymbolOf) -> None:
+        super().__init__()
+        self._symbol = symbol
+
+    def __missing__(self, fields: Any) -> Letter:
+        name, mirrored, clear, origin = fields if len(fields) == 4 else (*fields, False, None)
+        own = self._symbol(name)
+        transparent = clear or own.transparent
+        made = self[fields] = Letter(
+            name,
+            own.size,
+            transparent=transparent,
+            opaque=own.opaque and not transparent,
+            attached=own.attached,
+            unoccludable=own.unoccludable,
+            mirrored=mirrored,
+            origin=origin,
+        )
+        return made
+
+
+def _one_by_one(
+    pattern: Pattern, speller: _Speller, counter: CounterOf, limit: float, low: float, check: Check | None
+) -> Instances:
+    """Words of a pattern that cannot be measured beforehand, by spelling all of them out."""
+    names = pattern.counters
+    zero = {name: _nearest_zero(counter(name)) for name in names}
+    endless: set[str] = set()
+    found: list[Word] = []
+
+    def fitting(name: str, values: Mapping[str, int]) -> list[int]:
+        bounds, rest = counter(name), {other: zero[other] for other in names if other not in values}
+        fits: list[int] = []
+        for step in (1, -1):
+            value = zero[name] if step == 1 else zero[name] - 1
+            before: list[float] = []
+            still = 0
+            while _inside(bounds, value):
+                if check is not None:
+                    check()
+                sizes = sorted(w.size for w in speller.words(pattern, {**rest, **values, name: value}))
+                inside = [size for size in sizes if size <= limit + EPS]
+                if not inside:
+                    break
+                still = still + 1 if inside == before else 0
+                end = bounds.max if step == 1 else bounds.min
+                if still >= MAX_COPIES and (end is None or abs(end - value) > MAX_COPIES):
+                    if len(inside) == len(sizes):
+                        endless.add(name)
+                    break
+                fits.append(value)
+                before = inside
+                value += step
+        return sorted(fits)
+
+    def descend(k: int, values: dict[str, int]) -> None:
+        if k < len(names):
+            for value in fitting(names[k], values):
+                descend(k + 1, {**values, names[k]: value})
+            return
+        for word in speller.words(pattern, values):
+            is_open = any(letter.size is None for letter in word.letters)
+            if word.size <= limit + EPS and (is_open or word.size >= low - EPS):
+                found.append(word)
+
+    shortest = min(speller.words(pattern, zero), key=lambda word: word.size)
+    if shortest.size <= limit + EPS:
+        descend(0, {})
+    return Instances(tuple(found), shortest, tuple(sorted(endless)))
+
+
+def _inside(bounds: Counter, value: int) -> bool:
+    if bounds.value is not None:
+        return value == bounds.value
+    return bounds.min <= value and (bounds.max is None or value <= bounds.max)
+
+
+def _nearest_zero(bounds: Counter) -> int:
+    if bounds.value is not None:
+        return bounds.value
+    if bounds.min > 0:
+        return bounds.min
+    return 0 if bounds.max is None else min(0, bounds.max)

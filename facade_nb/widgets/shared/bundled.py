@@ -1,0 +1,151 @@
+"""What every wire to the browser does: carry the front end's code once, and put it away while nobody looks."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.resources import files
+from typing import Any, ClassVar, Self
+from weakref import WeakKeyDictionary
+
+from ipywidgets import Widget, widget_serialization
+from traitlets import Instance, Unicode
+
+__all__ = ["Bundled", "Code", "Message", "ModelWire", "bundle"]
+
+Message = dict[str, Any]
+
+
+@cache
+def bundle(name: str) -> str:
+    """The text of a file of the built front end."""
+    return files("facade_nb.widgets").joinpath("static", name).read_text(encoding="utf-8")
+
+
+class Code(Widget):
+    """The module and the style sheet of a bundle: one widget for all channels of a kernel. Get it by `Code.of`.
+
+    It is empty while none of them is looked at, so that running a cell again and again does not pile bundles up.
+    """
+
+    module = Unicode().tag(sync=True)
+    css = Unicode().tag(sync=True)
+
+    def __init__(self, front: str) -> None:
+        self._front = front
+        self._holders: set[int] = set()
+        super().__init__()
+
+    @classmethod
+    def of(cls, front: str) -> Code:
+        """The code of a bundle, made when first asked for, or anew if it was closed."""
+        code = _codes.get(front)
+        if code is None or code.comm is None:
+            code = _codes[front] = cls(front)
+        return code
+
+    def hold(self, holder: object) -> None:
+        """Have the code in the traits, for this channel too."""
+        self._holders.add(id(holder))
+        if not self.module:
+            with self.hold_sync():
+                self.css = bundle(f"{self._front}.css")
+                self.module = bundle(f"{self._front}.js")
+
+    def release(self, holder: object) -> None:
+        """Let go of it; when nobody holds it any more it is put away."""
+        self._holders.discard(id(holder))
+        if not self._holders:
+            with self.hold_sync():
+                self.module = self.css = ""
+
+
+_codes: dict[str, Code] = {}
+
+
+class Bundled(Widget):
+    """A widget without a view that parts refer to, and that refers to their code.
+
+    Every front end knows its class, so it needs no code of its own there. Each view says when it comes and goes; while
+    there is none, the large traits are empty.
+    """
+
+    front = ""
+    """Name of the bundle: ``studio`` for ``studio.js`` and ``studio.css``."""
+
+    front_end = Instance(Widget).tag(sync=True, **widget_serialization)
+    trouble = Unicode().tag(sync=True)
+
+    def __init__(self, **traits: Any) -> None:
+        self._asleep = False
+        self._views: set[str] = set()
+        code = Code.of(self.front)
+        code.hold(self)
+        super().__init__(front_end=code, **traits)
+        self.on_msg(self._receive)
+
+    def wake(self) -> None:
+        """Have all that a view needs in the traits, if it is not there already."""
+        self.front_end.hold(self)
+        if self._asleep:
+            self._asleep = False
+            self._refill()
+
+    def _sleep(self) -> None:
+        """Drop what is large while nobody looks."""
+        self._asleep = True
+        self.front_end.release(self)
+        with self.hold_sync():
+            self._empty()
+
+    def close(self) -> None:
+        """Close the wire; it may be closed already."""
+        if self.comm is not None:
+            self.front_end.release(self)
+        super().close()
+
+    def _refill(self) -> None:
+        """Put the large traits back."""
+
+    def _empty(self) -> None:
+        """Empty the large traits; called with the sync held."""
+
+    def _receive(self, _: Widget, message: Message, __: list[Any]) -> None:
+        """Note that a view came or went; whatever else is asked, `_answer` it."""
+        op = message.get("op")
+        if op == "wake":
+            self.wake()
+        elif op == "view":
+            if message["here"]:
+                self._views.add(message["client"])
+                self.wake()
+            else:
+                self._views.discard(message["client"])
+                if not self._views:
+                    self._sleep()
+        else:
+            self._answer(message)
+
+    def _answer(self, message: Message) -> None:
+        """Do what the front end asks for."""
+
+
+class ModelWire(Bundled):
+    """The wire between one model and the browser. Get it by `of`: there is one for each model."""
+
+    _wires: ClassVar[WeakKeyDictionary[Any, Any]]
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls._wires = WeakKeyDictionary()
+
+    @classmethod
+    def of(cls, model: Any) -> Self:
+        """The wire of a model, made when first asked for, or anew if it was closed."""
+        wire: Self | None = cls._wires.get(model)
+        if wire is None or wire.comm is None:
+            wire = cls._wires[model] = cls(model)
+        return wire
+
+    def __init__(self, model: Any, **traits: Any) -> None:
+        self.model = model
+        super().__init__(**traits)

@@ -1,0 +1,101 @@
+import { h, mark, setText } from "../shared/dom.ts";
+import { formatNumber } from "../shared/fields.ts";
+import type { Store } from "../shared/store.ts";
+import type { MakePart } from "./common.ts";
+
+const PATIENCE = 1500;
+
+/** One line that says how things stand: solved, solving, at fault, or why there is no layout. */
+export const statusLine: MakePart = ({ store, signal }) => {
+  const dot = h("span", { class: "fnb-dot", "aria-hidden": "true" });
+  const text = h("span", { class: "fnb-status-text" });
+  const facts = h("span", { class: "fnb-facts" });
+  const warnings = h("details", { class: "fnb-warnings", hidden: true });
+  const changes = h("div", { class: "fnb-suggestions", role: "group", "aria-label": "Changes that would work" });
+  const line = h("div", { class: "fnb-status-line" }, dot, text, facts);
+  const el = h("div", { class: "fnb-status", role: "status", "aria-live": "polite" }, line, changes, warnings);
+
+  let timer = 0;
+  const show = () => {
+    const [state, sentence] = describe(store);
+    mark(el, "data-state", state);
+    setText(text, sentence);
+    setText(facts, describeFacts(store));
+    showSuggestions(changes, store);
+    showWarnings(warnings, store);
+    clearTimeout(timer);
+    if (store.waiting && store.waiting < PATIENCE) timer = window.setTimeout(show, PATIENCE + 50 - store.waiting);
+  };
+  store.watch(["status", "drafts"], show);
+  store.watchQueue(() => {
+    clearTimeout(timer);
+    if (el.dataset.state === "waiting") show();
+    else if (store.waiting) timer = window.setTimeout(show, PATIENCE);
+  });
+  signal.addEventListener("abort", () => clearTimeout(timer));
+  return el;
+};
+
+function describe(store: Store): [state: string, sentence: string] {
+  const status = store.get("status");
+  const drafts = store.get("drafts");
+  if (!store.live) return ["off", "No kernel: the façade as it was saved, read only"];
+  if (store.waiting > PATIENCE) return ["waiting", "The kernel is busy; edits will follow when it answers"];
+  if (status.message) return ["none", status.message];
+  if (drafts.length) {
+    const [first] = drafts;
+    const where = first ? first.path.slice(0, 2).reverse().join(" in ") : "";
+    return ["fault", drafts.length > 1 ? `${drafts.length} fields are at fault` : `At fault: ${where}`];
+  }
+  if (status.busy) return ["busy", "Solving…"];
+  if (!status.solved) return ["off", "Nothing to solve yet"];
+  if (!status.solved.complete) return ["warn", `Best layout found in ${time(status.milliseconds)}, not proven`];
+  return [status.solved.warnings.length ? "warn" : "good", `Solved in ${time(status.milliseconds)}`];
+}
+
+function time(milliseconds: number): string {
+  return milliseconds < 1000 ? `${Math.max(1, Math.round(milliseconds))} ms` : `${(milliseconds / 1000).toFixed(1)} s`;
+}
+
+function describeFacts(store: Store): string {
+  const { solved } = store.get("status");
+  if (!solved) return "";
+  const { x, y } = solved.deviation;
+  return [
+    `${solved.shapes} ${solved.shapes === 1 ? "shape" : "shapes"}`,
+    `deviation ${formatNumber(x, 2)} × ${formatNumber(y, 2)} m`,
+    solved.proven ? "proven best" : `within ${formatNumber(solved.gap, 2)} of the best`,
+    solved.holes ? `${solved.holes} ${solved.holes === 1 ? "hole" : "holes"}` : "",
+  ]
+    .filter(Boolean)
+    .join("  ·  ");
+}
+
+/** A button for each change that the solver has found to work, which makes it. */
+function showSuggestions(el: HTMLElement, store: Store): void {
+  const { suggestions, busy } = store.get("status");
+  const texts = store.live ? (suggestions ?? []) : [];
+  const key = texts.join("\n");
+  el.hidden = texts.length === 0 || busy;
+  if (el.dataset.key === key) return;
+  el.dataset.key = key;
+  el.replaceChildren(
+    ...texts.map((text) => {
+      const take = h("button", { type: "button", class: "fnb-fix" }, `Fix: ${text}`);
+      take.addEventListener("click", () => store.ask({ op: "take", text }));
+      return take;
+    }),
+  );
+}
+
+function showWarnings(el: HTMLDetailsElement, store: Store): void {
+  const warnings = store.get("status").solved?.warnings ?? [];
+  const key = warnings.join("\n");
+  if (el.dataset.key === key) return;
+  el.dataset.key = key;
+  el.hidden = warnings.length === 0;
+  el.replaceChildren(
+    h("summary", {}, warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`),
+    h("ul", {}, ...warnings.map((warning) => h("li", {}, warning))),
+  );
+}

@@ -1,0 +1,63 @@
+import { h, mark } from "../shared/dom.ts";
+import type { WidgetModel } from "../shared/types.ts";
+import { canvas } from "./canvas.ts";
+import { type Context, section } from "./common.ts";
+import { counters } from "./counters.ts";
+import { elevation } from "./elevation.ts";
+import { layers } from "./layers.ts";
+import { massing } from "./massing.ts";
+import { patterns } from "./patterns.ts";
+import { statusLine } from "./status.ts";
+import { symbols } from "./symbols.ts";
+import { toolbar } from "./toolbar.ts";
+
+const VIEWS = { elevation: "Elevation", both: "Both", massing: "3D" } as const;
+type View = keyof typeof VIEWS;
+
+/** All parts together. */
+export function studio(context: Context, model: WidgetModel): HTMLElement {
+  const { store, signal } = context;
+  const add = (kind: string) => ({ label: `Add a ${kind}`, action: () => store.ask({ op: "add", kind }) });
+  const panel = h(
+    "div",
+    { class: "fnb-panel" },
+    section("Canvas", canvas(context)),
+    section("Patterns", patterns(context), { add: add("pattern") }),
+    section("Layers", layers(context), { add: add("layer") }),
+    section("Symbols", symbols(context), { add: add("symbol") }),
+    section("Counters", counters(context)),
+  );
+  const flat = elevation(context);
+  const stage = h("div", { class: "fnb-stage" }, flat);
+
+  let massingView: HTMLElement | null = null;
+  const tabs = (Object.keys(VIEWS) as View[]).map((view) => {
+    const tab = h("button", { type: "button", class: "fnb-tab" }, VIEWS[view]);
+    tab.addEventListener("click", () => choose(view));
+    return { view, tab };
+  });
+  const choose = (view: View) => {
+    for (const other of tabs) mark(other.tab, "aria-pressed", String(other.view === view));
+    mark(stage, "data-view", view);
+    flat.hidden = view === "massing";
+    if (view !== "elevation" && !massingView) {
+      massingView = massing(context, model, signal);
+      stage.append(massingView);
+    }
+    if (massingView) massingView.hidden = view === "elevation";
+    if (model.get("view") !== view) {
+      model.set({ view });
+      model.save_changes();
+    }
+  };
+  const bar = toolbar(context);
+  bar.append(h("span", { class: "fnb-tabs", role: "group", "aria-label": "View" }, ...tabs.map(({ tab }) => tab)));
+  choose(model.get<View>("view"));
+
+  const el = h("div", { class: "fnb-studio" }, bar, h("div", { class: "fnb-main" }, stage, panel), statusLine(context));
+  const resize = () => el.style.setProperty("--fnb-height", `${model.get<number>("height")}px`);
+  resize();
+  model.on("change:height", resize);
+  signal.addEventListener("abort", () => model.off("change:height", resize));
+  return el;
+}

@@ -1,0 +1,145 @@
+"""The wire between one model and the browser: its state in traits, the front end's messages, the answers."""
+
+from __future__ import annotations
+
+import asyncio
+import traceback
+from typing import Any
+
+from traitlets import Dict, List, Unicode
+
+from ... import gallery
+from ...design import DesignError
+from ...render import GEOMETRIES, MATERIALS, elevation_svg
+from ...solver import Layout
+from ..shared.bundled import Message, ModelWire
+from .commands import COMMANDS
+from .model import FacadeModel
+from .wire import describe_design, describe_drafts, describe_faults, describe_selection, describe_status
+
+__all__ = ["Channel"]
+
+_MOMENT = 0.025
+"""Seconds that the event loop stands still at most for a layout that is almost there."""
+
+_PATIENCE = 0.08
+"""Seconds that an answer waits for the layout, so that both fit in one message.
+
+The front end has one message under way, so this is also how long a solve is left alone while a person types on.
+"""
+
+
+class Channel(ModelWire):
+    """One model's line to the browser. Get it by `Channel.of`: there is one per model."""
+
+    front = "studio"
+
+    gallery = List().tag(sync=True)
+    catalogue = Dict().tag(sync=True)
+    design = Dict().tag(sync=True)
+    status = Dict().tag(sync=True)
+    drafts = List().tag(sync=True)
+    selection = Dict().tag(sync=True)
+    svg = Unicode().tag(sync=True)
+    theme = Unicode("light").tag(sync=True)
+    ack = Dict().tag(sync=True)
+
+    def __init__(self, model: FacadeModel) -> None:
+        self._drawn: tuple[Layout | None, str] | None = None
+        self._answering = False
+        self._answered: dict[str, Any] = {}
+        self._failure = ""
+        self._later: asyncio.TimerHandle | None = None
+        super().__init__(
+            model,
+            gallery=list(gallery.names()),
+            catalogue={"geometries": list(GEOMETRIES), "materials": list(MATERIALS)},
+        )
+        self.publish()
+        model.observe(self._on_version, "version")
+
+    def _refill(self) -> None:
+        self._drawn = None
+        self.publish()
+
+    def _empty(self) -> None:
+        self._forget_timer()
+        self.svg = ""
+
+    def close(self) -> None:
+        """Close the wire; the model lives on."""
+        if self.comm is not None:
+            self.model.unobserve(self._on_version, "version")
+            self._forget_timer()
+        super().close()
+
+    def publish(self) -> None:
+        """Send all that has changed, in one message."""
+        self._forget_timer()
+        with self.hold_sync():
+            try:
+                self._describe()
+            except Exception:  # as in `_receive`: it is shown, and the fields are answered all the same
+                self._failure = traceback.format_exc()
+            self.trouble = self._failure
+            self.ack = self._answered
+
+    def _describe(self) -> None:
+        layout = self.model.layout
+        status = describe_status(self.model)
+        if self._drawn is None or self._drawn[0] is not layout or self._drawn[1] != self.theme:
+            try:
+                self.svg = "" if layout is None else self._draw(layout)
+                self._drawn = (layout, self.theme)
+            except DesignError as error:  # a material that there is not: the last good picture stays
+                status |= {"stale": True, "message": str(error)}
+        self.design = describe_design(self.model)
+        self.status = status
+        self.drafts = describe_drafts(self.model)
+        self.selection = describe_selection(self.model)
+
+    def _draw(self, layout: Layout) -> str:
+        prefix = (
+            f"f{self.model_id}"  # known to the browser, which gives each of its views a prefix of its own
+        )
+        return elevation_svg(layout, theme=self.theme, holes=True, background=False, prefix=prefix)
+
+    def _on_version(self, _: object) -> None:
+        if not self._answering and not self._asleep:
+            self._publish_soon()
+
+    def _publish_soon(self) -> None:
+        """Publish now, or, where the layout may come at any moment, together with it."""
+        if not self.model.busy:
+            self.publish()
+        elif self._later is None:
+            self._later = asyncio.get_running_loop().call_later(_PATIENCE, self.publish)
+
+    def _forget_timer(self) -> None:
+        if self._later is not None:
+            self._later.cancel()
+            self._later = None
+
+    def _answer(self, message: Message) -> None:
+        """Carry out what the front end asks for; whatever happens, it is answered."""
+        tag = {"client": message.get("client", ""), "seq": message.get("seq", 0)}
+        reply: dict[str, Any] | None = None
+        self._answering = True
+        try:
+            if message["op"] == "theme":
+                self.theme = "dark" if message["theme"] == "dark" else "light"
+            else:
+                reply = COMMANDS[message["op"]](self.model, message)
+            self._failure = ""
+        except DesignError as error:
+            reply = {"kind": "refused", "faults": describe_faults(error.faults)}
+        except Exception:  # the edge to the browser: shown under the widget, not lost in a log
+            self._failure = traceback.format_exc()
+        # Most designs are solved in a moment. Waiting it out here, without the interpreter's lock, spares the two
+        # threads from passing it back and forth, and the event loop a turn.
+        self.model.wait(_MOMENT)
+        self._answering = False
+        self._answered = tag
+        self._publish_soon()
+        if reply is not None:
+            self.send({**reply, **tag})

@@ -1,0 +1,317 @@
+"""The shared observable design that every widget shows and edits."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path as FilePath
+from typing import Any
+
+from traitlets import Any as AnyTrait
+from traitlets import Bool, Float, HasTraits, Instance, Int, Unicode
+
+from ...design import Design, DesignError, FacadeError, Fault, NoLayout
+from ...solver import Layout, Trace, solve
+from ..shared.history import History
+from .background import LatestSolver, Outcome, Solve
+from .fields import Path, apply
+
+__all__ = ["Draft", "FacadeModel", "Selection"]
+
+
+@dataclass(frozen=True, slots=True)
+class Draft:
+    """What was typed into a field and is not (yet) part of the design, with its faults."""
+
+    value: Any
+    faults: tuple[Fault, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """What is picked: a shape of the layout, and the layer and the two symbols it leads to.
+
+    A layer or a symbol can be picked without a shape. Empty fields pick nothing.
+    """
+
+    shape: int | None = None
+    layer: str = ""
+    x: str = ""
+    y: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Snapshot:
+    """What undo brings back."""
+
+    design: Design
+    drafts: Mapping[Path, Draft] = field(default_factory=dict)
+
+
+class FacadeModel(HasTraits):
+    """A design, its last good layout, and what is to be said about them.
+
+    Parameters
+    ----------
+    design
+        A `Design`, its JSON text or a path to it; without one, an empty canvas. Raises `DesignError` if it is at fault.
+    time_limit
+        Seconds after which a solve gives the best layout it has.
+    solve
+        What solves; `facade_nb.solve` by default.
+
+    Notes
+    -----
+    Edit from one thread only, the one that runs the event loop (in a notebook: cells and callbacks do).
+    """
+
+    design: Design = Instance(Design)
+    layout: Layout | None = Instance(Layout, allow_none=True)
+    stale: bool = Bool(
+        False, help="Whether `layout` is that of an earlier design, or of one without the drafts."
+    )
+    message: str = Unicode("", help="Why the present design has no layout.")
+    blame: NoLayout | None = Instance(NoLayout, allow_none=True, help="What is to blame for that.")
+    drafts: Mapping[Path, Draft] = AnyTrait({}, help="Typed values that are not part of the design, by path.")
+    trace: Trace | None = Instance(
+        Trace, allow_none=True, help="What the last solve did, also one without a layout; see `follow`."
+    )
+    busy: bool = Bool(False, help="Whether a solve is under way.")
+    seconds: float = Float(0.0, help="How long the last solve took.")
+    selection: Selection = Instance(Selection, ())
+    trouble: Exception | None = Instance(
+        Exception, allow_none=True, help="An error that should not have been."
+    )
+    version: int = Int(0, help="Goes up once after each consistent change of all of the above.")
+
+    def __init__(
+        self, design: Design | str | FilePath | None = None, *, time_limit: float = 10.0, solve: Solve = solve
+    ) -> None:
+        super().__init__(design=_read(design) if design is not None else Design())
+        self.time_limit = time_limit
+        self._history = History(_Snapshot(self.design))
+        self._revision = 0
+        self._reason = ""
+        self._traced = False
+        self._outcomes: deque[Outcome] = deque()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._solver = LatestSolver(self._post, solve)
+        self._solve()
+        self._changed()
+
+    # ---- editing -------------------------------------------------------------------------------------------------
+
+    def edit(self, change: Design | Callable[[Design], Design], *, key: object = None) -> None:
+        """Take over a new design.
+
+        Parameters
+        ----------
+        change
+            The new design, or a function that makes it from the present one.
+        key
+            What is edited; edits with one key in quick succession are one step of undo.
+
+        Raises
+        ------
+        DesignError
+            If the outcome is not valid. Nothing has changed then.
+        """
+        design = _valid(change if isinstance(change, Design) else change(self.design))
+        self._take(_Snapshot(*_settle(design, self.drafts)), key=key)
+
+    def enter(self, path: Path | str, value: Any) -> None:
+        """Take over what was typed into a field; where that gives no valid design, keep it as the field's draft.
+
+        Parameters
+        ----------
+        path
+            The field, as `fields` names it: ``("patterns", "Bx", "text")``, or with dots between.
+        value
+            What was typed or chosen: text, a truth value, a list of names, or None.
+        """
+        if isinstance(path, str):  # as faults name their place
+            path = tuple(path.split("."))
+        others = {other: draft for other, draft in self.drafts.items() if other != path}
+        try:
+            design = apply(self.design, path, value)
+        except DesignError as error:
+            snapshot = _Snapshot(self.design, {**others, path: Draft(value, error.faults)})
+        else:
+            snapshot = _Snapshot(*_settle(design, others))
+        self._take(snapshot, key=path)
+
+    def discard(self, path: Path) -> None:
+        """Forget the draft of a field."""
+        self._take(_Snapshot(self.design, {p: d for p, d in self.drafts.items() if p != path}), key=None)
+
+    def undo(self) -> None:
+        """Go back one step; does nothing where there is none."""
+        if self._history.can_undo:
+            self._restore(self._history.undo())
+
+    def redo(self) -> None:
+        """Go forward again one step; does nothing where there is none."""
+        if self._history.can_redo:
+            self._restore(self._history.redo())
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a step to undo."""
+        return self._history.can_undo
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is an undone step to redo."""
+        return self._history.can_redo
+
+    def load(self, source: Design | str | FilePath) -> None:
+        """Replace the design, as one step that can be undone.
+
+        Parameters
+        ----------
+        source
+            A design, its JSON text, or a path to it.
+
+        Raises
+        ------
+        DesignError
+            With every fault of the document. Nothing has changed then.
+        """
+        self._take(_Snapshot(_read(source)), key=None)
+        self.select()
+
+    def save(self, path: str | FilePath | None = None) -> str:
+        """The design as JSON text; with `path` it is also written there, atomically. Drafts are not part of it."""
+        return self.design.to_json(path)
+
+    def select(self, shape: int | None = None, *, layer: str = "", x: str = "", y: str = "") -> None:
+        """Pick a shape by its index in `layout.shapes`, or a layer, or symbols; without arguments pick nothing."""
+        if shape is not None and self.layout is not None and 0 <= shape < len(self.layout.shapes):
+            placed = self.layout.shapes[shape]
+            self.selection = Selection(shape, placed.layer, placed.x, placed.y)
+        else:
+            self.selection = Selection(None, layer, x, y)
+        self._changed()
+
+    # ---- solving -------------------------------------------------------------------------------------------------
+
+    def wait(self, seconds: float | None = None) -> bool:
+        """Block until the layout of the present design has come; returns whether it came within `seconds`."""
+        done = self._solver.join(seconds)
+        self._arrive()
+        return done
+
+    def follow(self) -> None:
+        """Have `trace` from now on: what shows the solver at work asks for it, all others are spared it."""
+        if not self._traced:
+            self._traced = True
+            self._solve()
+            self._changed()
+
+    def close(self) -> None:
+        """Stop solving; the model keeps what it has."""
+        self._revision += 1
+        self._solver.cancel(self._revision)
+        self._solver.join()
+        self._outcomes.clear()
+        self.busy = False
+
+    def _take(self, snapshot: _Snapshot, *, key: object) -> None:
+        self._history.record(snapshot, key=key, now=time.monotonic())
+        self._restore(snapshot)
+
+    def _restore(self, snapshot: _Snapshot) -> None:
+        moved = snapshot.design != self.design
+        self.design, self.drafts = snapshot.design, snapshot.drafts
+        if moved:
+            self._solve()
+        self._judge()
+        self._changed()
+
+    def _solve(self) -> None:
+        self._revision += 1
+        self.busy = True
+        try:
+            self._loop = asyncio.get_running_loop()
+        except RuntimeError:
+            self._loop = None
+        self._solver.submit(self._revision, self.design, self.time_limit, self._traced)
+        if self._loop is None:  # nobody will call back later
+            self._solver.join()
+            self._collect()
+
+    def _post(self, outcome: Outcome) -> None:
+        """Hand an outcome over to the loop (called in the worker thread)."""
+        self._outcomes.append(outcome)
+        if self._loop is not None:
+            with suppress(RuntimeError):  # the loop was closed meanwhile: the outcome waits for `wait`
+                self._loop.call_soon_threadsafe(self._arrive)
+
+    def _arrive(self) -> None:
+        if self._collect():
+            self._changed()
+
+    def _collect(self) -> bool:
+        """Take over the outcomes that have come, drop those of superseded solves; whether one counted."""
+        fresh = False
+        while self._outcomes:
+            outcome = self._outcomes.popleft()
+            if outcome.revision == self._revision:
+                fresh = True
+                self._land(outcome)
+        return fresh
+
+    def _land(self, outcome: Outcome) -> None:
+        self.busy = False
+        self.seconds = outcome.seconds
+        self.blame = outcome.error if isinstance(outcome.error, NoLayout) else None
+        self.trouble = None if isinstance(outcome.error, FacadeError) else outcome.error
+        self._reason = str(outcome.error) if outcome.error is not None else ""
+        told = outcome.layout or self.blame
+        if told is not None and told.trace is not None:
+            self.trace = told.trace
+        if outcome.layout is not None:
+            self.layout = outcome.layout
+            self._reselect(outcome.layout)
+        self._judge()
+
+    def _judge(self) -> None:
+        """Say whether the layout shown is that of what stands in the fields, and if not, why."""
+        self.message = self._reason
+        self.stale = self.layout is not None and bool(self._reason or self.drafts)
+
+    def _reselect(self, layout: Layout) -> None:
+        """Keep the picked cell picked when its shape has another index, or is no more."""
+        picked = self.selection
+        shape = picked.shape
+        if shape is not None:
+            cell = (picked.layer, picked.x, picked.y)
+            same = [i for i, s in enumerate(layout.shapes) if (s.layer, s.x, s.y) == cell]
+            self.selection = Selection(min(same, key=lambda i: abs(i - shape), default=None), *cell)
+
+    def _changed(self) -> None:
+        self.version += 1
+
+
+def _read(source: Design | str | FilePath) -> Design:
+    return source if isinstance(source, Design) else Design.from_json(source)
+
+
+def _valid(design: Design) -> Design:
+    """The design, if it is a valid document. Raises `DesignError` with all its faults."""
+    return Design.from_dict(design.to_dict())
+
+
+def _settle(design: Design, drafts: Mapping[Path, Draft]) -> tuple[Design, dict[Path, Draft]]:
+    """Take over those drafts that have become valid with `design`; the rest keep their present faults."""
+    left: dict[Path, Draft] = {}
+    for path, draft in drafts.items():
+        try:
+            design = apply(design, path, draft.value)
+        except DesignError as error:
+            left[path] = Draft(draft.value, error.faults)
+    return design, left

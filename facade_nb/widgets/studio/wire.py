@@ -1,0 +1,225 @@
+"""What the front end is told about a model: plain JSON values, made from the model and nothing else."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+from ...design import DesignError, Fault, parse
+from ...design.model import AXES, Axis, Design, Layer, LayerAxis
+from .model import FacadeModel
+
+__all__ = ["describe_design", "describe_drafts", "describe_faults", "describe_selection", "describe_status"]
+
+Json = dict[str, Any]
+
+
+def describe_design(model: FacadeModel) -> Json:
+    """The design as its editors show it: lists in order, with what was solved beside what was asked for."""
+    design = model.design
+    uses = _uses(design)
+    return {
+        "name": design.name,
+        "canvas": {"width": design.canvas.width, "height": design.canvas.height},
+        "layers": [_layer(design, layer) for layer in layers_from_top(design)],
+        "patterns": [
+            {
+                "name": pattern.name,
+                "text": pattern.text,
+                "hidden": list(pattern.hidden),
+                "letters": _letters(design, pattern.name),
+                "axes": "".join(axis for axis in AXES if _used(design, pattern.name, axis)),
+            }
+            for pattern in design.patterns.values()
+        ],
+        "symbols": [_symbol(model, name, uses.get(name, "")) for name in {**design.symbols, **uses}],
+        "counters": [_counter(model, name) for name in _counters(design)],
+        "groups": sorted({layer.along(axis).group for layer in design.layers for axis in AXES} | {"default"}),
+    }
+
+
+def describe_status(model: FacadeModel) -> Json:
+    """How the last solve went, and what can be undone."""
+    layout, blame = model.layout, model.blame
+    status: Json = {
+        "busy": model.busy,
+        "stale": model.stale,
+        "message": model.message,
+        "blame": {
+            "patterns": list(blame.patterns) if blame else [],
+            "symbols": list(blame.symbols) if blame else [],
+            "counters": list(blame.counters) if blame else [],
+        },
+        "suggestions": [one.text for one in blame.suggestions if one.path != ("tolerances",)]
+        if blame
+        else [],
+        "canUndo": model.can_undo,
+        "canRedo": model.can_redo,
+        "milliseconds": _rounded(1000 * model.seconds),
+        "trouble": repr(model.trouble) if model.trouble is not None else "",
+        "solved": None,
+    }
+    if layout is not None:
+        status["solved"] = {
+            "shapes": len(layout.shapes),
+            "holes": len(layout.holes),
+            "warnings": list(layout.warnings),
+            "complete": layout.complete,
+            "proven": layout.x.proven and layout.y.proven,
+            "gap": _rounded(layout.x.gap + layout.y.gap),
+            "deviation": {"x": _rounded(layout.x.deviation), "y": _rounded(layout.y.deviation)},
+            "width": layout.canvas.width,
+            "height": layout.canvas.height,
+        }
+    return status
+
+
+def describe_drafts(model: FacadeModel) -> list[Json]:
+    """The drafts, each with its faults and the symbols that would have to be given a size first."""
+    return [
+        {
+            "path": list(path),
+            "value": draft.value,
+            "faults": describe_faults(draft.faults),
+            "missing": _missing(model.design, path, draft.value),
+        }
+        for path, draft in model.drafts.items()
+    ]
+
+
+def describe_faults(faults: Iterable[Fault]) -> list[Json]:
+    """Faults as the front end shows them."""
+    return [
+        {
+            "place": fault.place,
+            "message": fault.message,
+            "line": fault.line,
+            "column": fault.column,
+            "excerpt": fault.excerpt,
+        }
+        for fault in faults
+    ]
+
+
+def describe_selection(model: FacadeModel) -> Json:
+    """What is picked, with the rectangle of the shape."""
+    picked = model.selection
+    told: Json = {"shape": picked.shape, "layer": picked.layer, "x": picked.x, "y": picked.y, "cell": None}
+    if picked.shape is not None and model.layout is not None and picked.shape < len(model.layout.shapes):
+        shape = model.layout.shapes[picked.shape]
+        own = next((layer.shapes for layer in model.design.layers if layer.name == shape.layer), {})
+        override = own.get(f"{shape.x} {shape.y}")
+        told["cell"] = {
+            "rect": [_rounded(value) for value in shape.rect],
+            "kind": shape.kind,
+            "geometry": shape.geometry,
+            "material": shape.material,
+            "offset": shape.offset,
+            "thickness": shape.thickness,
+            "own": [key for key in _LOOKS if override is not None and getattr(override, key) is not None],
+        }
+    return told
+
+
+_LOOKS = ("kind", "geometry", "material", "offset", "thickness")
+
+
+def layers_from_top(design: Design) -> list[Layer]:
+    """All layers, also those that are not visible, topmost first."""
+    order = sorted(design.layers, key=lambda layer: layer.depth)
+    return order[::-1]
+
+
+def _layer(design: Design, layer: Layer) -> Json:
+    def axis(side: LayerAxis) -> Json:
+        return {
+            "pattern": side.pattern,
+            "group": side.group,
+            "mask": None if side.mask is None else list(side.mask),
+            "letters": _letters(design, side.pattern),
+        }
+
+    return {
+        "name": layer.name,
+        "visible": layer.visible,
+        "depth": layer.depth,
+        "x": axis(layer.x),
+        "y": axis(layer.y),
+    }
+
+
+def _letters(design: Design, pattern: str) -> list[str]:
+    """The symbols that can stand solid in words of a pattern, in order."""
+    definition = design.patterns.get(pattern)
+    if definition is None:
+        return []
+    parsed = definition.parsed
+    return [symbol for symbol in parsed.symbols if symbol in parsed.solids]
+
+
+def _used(design: Design, pattern: str, axis: Axis) -> bool:
+    return any(layer.along(axis).pattern == pattern for layer in design.layers)
+
+
+def _uses(design: Design) -> dict[str, str]:
+    """For each symbol that a pattern can write: the axes it stands on, such as ``"xy"``."""
+    uses: dict[str, str] = {}
+    for pattern in design.patterns.values():
+        axes = "".join(axis for axis in AXES if _used(design, pattern.name, axis))
+        for symbol in pattern.parsed.symbols:
+            uses[symbol] = "".join(a for a in AXES if a in axes + uses.get(symbol, ""))
+    return uses
+
+
+def _symbol(model: FacadeModel, name: str, axes: str) -> Json:
+    symbol = model.design.symbol(name)
+    layout = model.layout
+    solved = {axis: layout.along(axis).sizes.get(name) for axis in AXES} if layout is not None else {}
+    return {
+        "name": name,
+        "axes": axes,
+        "size": symbol.size,
+        "opaque": symbol.opaque,
+        "attached": symbol.attached,
+        "unoccludable": symbol.unoccludable,
+        "transparent": symbol.transparent,
+        "placement": symbol.placement,
+        "min": symbol.min,
+        "max": symbol.max,
+        "solved": [_rounded(size) for size in solved.values() if size is not None],
+    }
+
+
+def _counters(design: Design) -> list[str]:
+    names = dict.fromkeys(design.counters)
+    for pattern in design.patterns.values():
+        names.update(dict.fromkeys(pattern.parsed.counters))
+    return list(names)
+
+
+def _counter(model: FacadeModel, name: str) -> Json:
+    counter = model.design.counter(name)
+    return {
+        "name": name,
+        "min": counter.min,
+        "max": counter.max,
+        "value": counter.value,
+        "solved": model.layout.counters.get(name) if model.layout is not None else None,
+    }
+
+
+def _missing(design: Design, path: tuple[str, ...], value: Any) -> list[str]:
+    """Symbols that a pattern's draft writes solid and that have no size."""
+    if path[:1] != ("patterns",) or path[-1] != "text" or not isinstance(value, str):
+        return []
+    try:
+        parsed = parse(value)
+    except DesignError:
+        return []
+    return [s for s in parsed.symbols if s in parsed.solids and design.symbol(s).size is None]
+
+
+def _rounded(value: float) -> float | None:
+    """Four decimals are a tenth of a millimetre; what is not finite is not JSON."""
+    return round(value, 4) if math.isfinite(value) else None
