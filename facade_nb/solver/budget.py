@@ -11,9 +11,7 @@ from math import inf
 from pathlib import Path
 from typing import Literal
 
-from .alignment.reference.best_first import Stopped
-
-__all__ = ["Clock", "Progress", "Stage"]
+__all__ = ["Clock", "Progress", "Stage", "Stopped"]
 
 Stage = Literal["words", "analysis", "candidates", "alignment", "attempt", "explanation", "merging"]
 
@@ -41,6 +39,14 @@ _DOING: dict[Stage, str] = {
     "explanation": "finding out why there is none",
     "merging": "merging both axes into shapes",
 }
+
+
+class Stopped(Exception):
+    """The time is up, or, `asked`, the caller wants no answer any more."""
+
+    def __init__(self, asked: bool = False) -> None:
+        super().__init__()
+        self.asked = asked
 
 
 @dataclass(slots=True)

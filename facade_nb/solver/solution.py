@@ -12,19 +12,18 @@ from math import inf
 
 from ..design.errors import DesignError, Fault, NoLayout
 from ..design.model import AXES, Axis, Design
-from .alignment.columns import EPS
 from .alignment.core.binding import start_afresh
-from .alignment.reference.best_first import Stopped
 from .analysis.systems import analyse
 from .assembly.axes import axis_layout, axis_warnings
 from .assembly.shapes import find_holes, hole_warnings, merge
-from .budget import Clock
+from .budget import Clock, Stopped
 from .cache import Kept
 from .diagnosis.explanation import explain, ran_out
 from .diagnosis.refusal import Blame
 from .diagnosis.remedies import Tried
 from .model.layout import AxisLayout, Layout, PlacedShape, Rect
 from .model.objective import Objective
+from .model.precision import EPS
 from .model.problem import AxisProblem, axis_problem
 from .selection.axis import AxisSearch, Best, Solved, forget_groups
 from .selection.warm_start import adopted, upper_bound

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from facade_nb.solver import Letter, Objective, align
 from facade_nb.solver.alignment.columns import make_group
-from facade_nb.solver.alignment.reference.best_first import search as search_best
+from facade_nb.solver.alignment.core.search import search_best
 from tests.oracle import DEFAULT, Case, TooBig, Weights, best, check, make_case
 
 T = TypeVar("T")

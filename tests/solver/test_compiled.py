@@ -20,8 +20,9 @@ from facade_nb.solver.alignment.columns import Group
 from facade_nb.solver.alignment.core import binding as compiled
 from facade_nb.solver.alignment.core.binding import CompiledDives, CompiledSearch, available, best_first
 from facade_nb.solver.alignment.pricing import Priced
-from facade_nb.solver.alignment.reference.best_first import BestFirst, Stopped
+from facade_nb.solver.alignment.reference.best_first import BestFirst
 from facade_nb.solver.alignment.reference.dives import Dives
+from facade_nb.solver.budget import Stopped
 from tests.oracle.designs import make_design
 from tests.solver.ida_cases import case_group, group_of, random_case
 from tests.solver.test_tall import stack

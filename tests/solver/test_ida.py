@@ -10,10 +10,11 @@ import pytest
 
 from facade_nb.solver import Letter, Objective, align
 from facade_nb.solver.alignment.columns import Group, make_group
+from facade_nb.solver.alignment.core.search import search_best
+from facade_nb.solver.alignment.found import Found
 from facade_nb.solver.alignment.paper.ida import search_ida
 from facade_nb.solver.alignment.pricing import Priced
-from facade_nb.solver.alignment.reference.best_first import Found, Stopped
-from facade_nb.solver.alignment.reference.best_first import search as search_best
+from facade_nb.solver.budget import Stopped
 from tests.oracle import Case
 from tests.solver.ida_cases import case_group, group_of, letters, random_case
 

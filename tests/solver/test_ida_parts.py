@@ -10,7 +10,8 @@ from itertools import accumulate, pairwise, product
 import pytest
 
 from facade_nb.solver import Letter, Objective
-from facade_nb.solver.alignment.columns import EPS, Group, Option, make_group
+from facade_nb.solver.alignment.columns import Group, Option, make_group
+from facade_nb.solver.alignment.core.search import search_best
 from facade_nb.solver.alignment.paper.decision_network import Lattice, mirrored
 from facade_nb.solver.alignment.paper.deepening import Deepening, Ends
 from facade_nb.solver.alignment.paper.guides import Guide, nodes_between
@@ -23,7 +24,7 @@ from facade_nb.solver.alignment.paper.tolerance_region import trace
 from facade_nb.solver.alignment.paper.transposition import Transpositions
 from facade_nb.solver.alignment.paper.word_pairs import merged_guides
 from facade_nb.solver.alignment.pricing import Priced, Structure
-from facade_nb.solver.alignment.reference.best_first import search as search_best
+from facade_nb.solver.model.precision import EPS
 from tests.solver.ida_cases import PAPER, case_group, group_of, letters, random_case
 
 

@@ -20,10 +20,9 @@ from facade_nb.solver import Letter, Objective, align
 from facade_nb.solver import budget as clock
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment.core import binding as compiled
-from facade_nb.solver.alignment.reference.best_first import Stopped
 from facade_nb.solver.analysis.systems import analyse
 from facade_nb.solver.assembly.shapes import merge
-from facade_nb.solver.budget import Clock
+from facade_nb.solver.budget import Clock, Stopped
 from facade_nb.solver.model.problem import axis_problem
 from facade_nb.solver.selection.axis import AxisSearch
 from facade_nb.solver.words.instances import instances

@@ -13,11 +13,12 @@ from facade_nb.solver import Letter, Objective, align
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment.columns import Group, make_group
 from facade_nb.solver.alignment.core.binding import CompiledDives
+from facade_nb.solver.alignment.core.search import search_best as search
 from facade_nb.solver.alignment.heuristic.local_search import can_sweep, mended, sweeps
 from facade_nb.solver.alignment.pricing import Priced
-from facade_nb.solver.alignment.reference.best_first import Stopped, search
 from facade_nb.solver.alignment.reference.dives import Dives
 from facade_nb.solver.alignment.single import alignment_of
+from facade_nb.solver.budget import Stopped
 from facade_nb.solver.model.problem import axis_problem
 from facade_nb.solver.selection import clusters as running
 from facade_nb.solver.selection.axis import AxisSearch

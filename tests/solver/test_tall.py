@@ -11,7 +11,7 @@ import pytest
 from facade_nb.solver import Letter, Objective, align
 from facade_nb.solver.alignment import columns
 from facade_nb.solver.alignment.columns import Group, make_group
-from facade_nb.solver.alignment.reference.best_first import search
+from facade_nb.solver.alignment.core.search import search_best as search
 from facade_nb.solver.alignment.reference.dives import Dives
 from facade_nb.solver.alignment.reference.skeleton import Skeleton, greatest_width
 from tests.oracle import DEFAULT, Case, check, make_case

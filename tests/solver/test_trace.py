@@ -21,8 +21,7 @@ import pytest
 from facade_nb import Design, DesignError, Layout, NoLayout, gallery, solve
 from facade_nb.cli import main
 from facade_nb.solver import Objective, Trace
-from facade_nb.solver.alignment.reference.best_first import Stopped
-from facade_nb.solver.budget import Clock
+from facade_nb.solver.budget import Clock, Stopped
 from facade_nb.solver.events import (
     ActiveSetStep,
     AxisSolved,

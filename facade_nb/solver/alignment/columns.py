@@ -25,12 +25,10 @@ from typing import Any
 
 from ..model.letters import Letter
 from ..model.objective import Objective
+from ..model.precision import EPS
 from .pairs import PairTable, choose_reference
 
-__all__ = ["EPS", "Band", "Group", "Option", "Position", "lone_unsized", "make_group", "unsizable"]
-
-EPS = 1e-9
-"""Costs and sizes closer than this are equal."""
+__all__ = ["Band", "Group", "Option", "Position", "lone_unsized", "make_group", "unsizable"]
 
 _TALL = 6
 """From so many rigid bands on, a group's columns are looked for by their skeleton."""

@@ -21,7 +21,8 @@ from math import inf
 
 import numpy as np
 
-from .columns import EPS, Group, Option
+from ..model.precision import EPS
+from .columns import Group, Option
 from .linear_programme import FREE, solve_lp
 
 __all__ = ["Columns", "Priced", "Structure", "price"]

@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from ...design.errors import NoLayout
+from ..budget import Stopped
 from ..model.letters import Letter
 from ..model.objective import Objective
 from .columns import Group, make_group
+from .core.search import search_best
+from .found import Found
 from .paper.ida import search_ida
 from .pricing import Priced
-from .reference.best_first import Found, Stopped
-from .reference.best_first import search as search_best
 
 __all__ = ["SEARCHES", "Alignment", "Element", "align", "alignment_of"]
 

@@ -10,9 +10,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
-from ..alignment.columns import EPS
 from ..model.letters import Letter, Word
 from ..model.objective import Objective
+from ..model.precision import EPS
 from ..model.problem import AxisProblem
 
 __all__ = ["Chosen", "Floors", "GroupKey", "LongEnough", "Measured", "inputs_of", "measured", "rows_of"]

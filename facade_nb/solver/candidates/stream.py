@@ -8,9 +8,9 @@ from heapq import heappop, heappush, heapreplace
 from itertools import count
 from math import inf
 
-from ..alignment.columns import EPS
 from ..model.letters import Word
 from ..model.objective import Objective
+from ..model.precision import EPS
 from ..model.problem import AxisProblem
 from .bounds import Chosen, Floors, GroupKey, LongEnough, Measured, measured
 

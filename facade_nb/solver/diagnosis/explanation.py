@@ -7,9 +7,8 @@ from itertools import chain, islice
 
 from ...design.errors import NoLayout, Suggestion
 from ...design.model import Axis, Design
-from ..alignment.reference.best_first import Stopped
 from ..analysis.systems import Analysis, analyse
-from ..budget import MEMORY, Clock
+from ..budget import MEMORY, Clock, Stopped
 from ..model.letters import Word
 from ..model.problem import AxisProblem
 from ..selection.axis import AxisSearch

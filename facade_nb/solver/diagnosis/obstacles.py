@@ -6,9 +6,8 @@ from dataclasses import replace
 from itertools import chain, islice
 
 from ...design.errors import NoLayout
-from ..alignment.reference.best_first import Stopped
 from ..analysis.systems import analyse
-from ..budget import Clock
+from ..budget import Clock, Stopped
 from ..candidates.stream import CandidateStream
 from ..model.problem import AxisProblem
 from ..selection.axis import AxisSearch

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from ...design.errors import NoLayout, Suggestion
 from ...design.model import Axis, Design
-from ..alignment.reference.best_first import Stopped
-from ..budget import Clock
+from ..budget import Clock, Stopped
 from ..model.problem import AxisProblem
 from ..selection.axis import AxisSearch, Best
 from .remedies import Remedies, Works

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ...design.edit import take
 from ...design.errors import DesignError, Suggestion
 from ...design.model import Axis, Counter, Design, Symbol
-from ..alignment.reference.best_first import Stopped
+from ..budget import Stopped
 
 __all__ = ["Remedies", "Tried", "Works", "nice", "relaxed", "size_of"]
 

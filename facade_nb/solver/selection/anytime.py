@@ -12,11 +12,11 @@ from itertools import count, islice
 from math import inf
 from typing import TYPE_CHECKING
 
-from ..alignment.columns import EPS
 from ..alignment.core.binding import start_afresh
 from ..alignment.heuristic.local_search import LETTERS
-from ..alignment.reference.best_first import Stopped
+from ..budget import Stopped
 from ..candidates.stream import CandidateStream
+from ..model.precision import EPS
 
 if TYPE_CHECKING:
     from .axis import AxisSearch, Case, Solved

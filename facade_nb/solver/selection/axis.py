@@ -9,22 +9,22 @@ from itertools import islice, product
 from math import inf
 
 from ...design.model import Symbol
-from ..alignment.columns import EPS, Group, lone_unsized, make_group
+from ..alignment.columns import Group, lone_unsized, make_group
 from ..alignment.pricing import Priced
-from ..alignment.reference.best_first import Stopped
-from ..budget import Progress
+from ..budget import Progress, Stopped
 from ..cache import Kept
 from ..candidates.bounds import GroupKey, inputs_of, rows_of
 from ..candidates.stream import Candidate, CandidateStream, candidates
 from ..model.letters import Letter, Word
 from ..model.objective import Objective
+from ..model.precision import EPS
 from ..model.problem import AxisProblem
 from ..sizing.system import Sized, size_axis, strain
-from ..trace import Recorder, sizing
 from ..words.enumeration import axis_words
 from ..words.instances import Instances, Range
 from .anytime import Anytime
 from .clusters import GROWTH, STEP, TIES, GroupSearch
+from .observer import AxisObserver, sizing
 
 __all__ = ["AxisSearch", "Best", "Case", "Solved", "forget_groups"]
 
@@ -126,7 +126,7 @@ class AxisSearch:
     tolerance: float
     method: str = "best"
     check: Callable[[], None] | None = None
-    trace: Recorder | None = None
+    trace: AxisObserver | None = None
     extend: Callable[[], None] | None = None
     progress: Progress = field(default_factory=Progress)
     found: dict[str, Instances] = field(default_factory=dict)

@@ -6,14 +6,17 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from math import inf
 
-from ..alignment.columns import EPS, Group
+from ..alignment.columns import Group
 from ..alignment.core.binding import CompiledDives, CompiledSearch, best_first, dives
+from ..alignment.found import Found
 from ..alignment.heuristic.local_search import can_sweep, mended, polished, sweeps
+from ..alignment.observer import NetworkObserver
 from ..alignment.paper.ida import search_ida
 from ..alignment.pricing import Priced
-from ..alignment.reference.best_first import BestFirst, Found, Stopped
+from ..alignment.reference.best_first import BestFirst
 from ..alignment.reference.dives import Dives
-from ..trace import Walk
+from ..budget import Stopped
+from ..model.precision import EPS
 
 __all__ = ["GROWTH", "STEP", "TIES", "GroupSearch"]
 
@@ -53,7 +56,7 @@ class GroupSearch:
         nodes: int,
         check: Callable[[], None] | None,
         accept: Callable[[Priced], bool] | None,
-        log: Walk | None = None,
+        log: NetworkObserver | None = None,
         known: tuple[list[Priced], float] | None = None,
         fits: Callable[[Priced], bool] | None = None,
         strain: Callable[[Priced], float] | None = None,

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .recorder import Recorder, Walk, sizing, stage
+from .recorder import Recorder, Walk, stage
 
 if TYPE_CHECKING:
     from .trace import Events, Trace
 
-__all__ = ["Events", "Recorder", "Trace", "Walk", "sizing", "stage"]
+__all__ = ["Events", "Recorder", "Trace", "Walk", "stage"]
 
 
 def __getattr__(name: str) -> object:

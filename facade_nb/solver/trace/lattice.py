@@ -14,7 +14,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ...design.errors import DesignError, Fault, nearest
-from ..alignment.columns import EPS, Group, make_group
+from ..alignment.columns import Group, make_group
 from ..events import (
     BandNote,
     CandidateJudged,
@@ -28,6 +28,7 @@ from ..events import (
 )
 from ..model.letters import Letter
 from ..model.objective import Objective
+from ..model.precision import EPS
 from .network_events import band_notes
 from .tables import rest_of
 from .weights import columns_at, weigh

@@ -13,7 +13,6 @@ from math import isfinite
 from typing import Any
 
 from ...design.model import AXES
-from ..alignment.columns import EPS
 from ..analysis.systems import Analysis
 from ..events import (
     AxisPosed,
@@ -40,6 +39,7 @@ from ..events import (
     Warned,
 )
 from ..model.layout import Layout
+from ..model.precision import EPS
 from ..model.problem import axis_problem
 from .codec import from_plain
 from .network_events import Walked, band_notes, column_note

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from math import isfinite
 from typing import Any
 
-from ..alignment.columns import EPS, Band, Group, Option
+from ..alignment.columns import Band, Group, Option
+from ..alignment.observer import Partial
 from ..alignment.pricing import Priced
 from ..events import (
     BandNote,
@@ -27,7 +28,8 @@ from ..events import (
     WaysMet,
 )
 from ..model.letters import Letter
-from .recorder import Partial, Walk
+from ..model.precision import EPS
+from .recorder import Walk
 from .weights import Refusal, columns_at, refusal, weigh
 
 __all__ = ["Walked", "band_notes", "column_note", "letter_note"]

@@ -10,12 +10,13 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ...design.errors import NoLayout
     from ...design.model import Design
-    from ..alignment.columns import Group, Option
+    from ..alignment.columns import Group
+    from ..alignment.observer import Partial
     from ..alignment.pricing import Priced
     from ..analysis.systems import Analysis
     from ..candidates.stream import Candidate
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from ..words.instances import Instances
     from .trace import Trace
 
-__all__ = ["Answer", "Judged", "Partial", "Recorder", "Walk", "sizing", "stage"]
+__all__ = ["Answer", "Judged", "Recorder", "Walk", "stage"]
 
 STEPS = 10_000
 """So many steps are kept of one network."""
@@ -50,51 +51,6 @@ _NOTHING: AbstractContextManager[None] = nullcontext()
 def stage(recorder: Recorder | None, axis: str, name: str) -> AbstractContextManager[None]:
     """Note when a stage begins and how long it takes, if there is a recorder."""
     return _NOTHING if recorder is None else recorder.stage(axis, name)
-
-
-def sizing(recorder: Recorder | None, axis: str) -> AbstractContextManager[None]:
-    """Add up the time that sizing takes, if there is a recorder; it happens within the search."""
-    return _NOTHING if recorder is None else recorder.sizing(axis)
-
-
-class Partial(Protocol):
-    """What is read of a partial path (`network.Path`), and not before the trace is."""
-
-    @property
-    def group(self) -> int:
-        """Which group of the network it is in."""
-
-    @property
-    def state(self) -> Sequence[int]:
-        """Position of every band of that group; empty where it is complete."""
-
-    @property
-    def owed(self) -> bool:
-        """No letter ended at its last boundary."""
-
-    @property
-    def cost(self) -> float:
-        """J so far at least."""
-
-    @property
-    def width(self) -> float:
-        """W so far in this group."""
-
-    @property
-    def columns(self) -> int:
-        """How many it has, in all groups."""
-
-    @property
-    def column(self) -> Sequence[Option]:
-        """Its newest column."""
-
-    @property
-    def parent(self) -> Partial | None:
-        """The path without that column."""
-
-    @property
-    def dropped(self) -> bool:
-        """A better one was found later."""
 
 
 class Walk:
@@ -158,7 +114,7 @@ class Walk:
         if priced is not None and len(self.ends) < ENDS:
             self.ends[id(priced)] = (path, priced)
 
-    # The paper's search tells these (`paper.observer.Observer`).
+    # The paper's search tells these (`alignment.observer.Observer`).
 
     def deepened(self, limit: float) -> None:
         """Begin a pass that follows nothing dearer. It goes over all that earlier ones did, which make room for it."""

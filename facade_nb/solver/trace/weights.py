@@ -11,7 +11,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
 
-from ..alignment.columns import EPS, Band, Group, Option
+from ..alignment.columns import Band, Group, Option
+from ..model.precision import EPS
 
 __all__ = ["Refusal", "Weight", "columns_at", "elements", "judge", "refusal", "weigh"]
 

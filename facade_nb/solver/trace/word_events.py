@@ -10,10 +10,10 @@ from ...design.errors import DesignError
 from ...design.model import Counter, Symbol
 from ...design.pattern import Alt, Concat, Count, Mirror, Node, Pattern
 from ...design.tree import unparse
-from ..alignment.columns import EPS
 from ..candidates.stream import CandidateStream
 from ..events import CandidateJudged, Event, LeftOut, WordJudged
 from ..model.letters import Letter, Word
+from ..model.precision import EPS
 from ..model.problem import AxisProblem
 from ..words.instances import Instances
 from .network_events import letter_note

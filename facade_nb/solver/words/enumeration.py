@@ -11,10 +11,10 @@ from numbers import Real
 from ...design.errors import DesignError, Fault, nearest
 from ...design.model import Counter, Symbol
 from ...design.pattern import parse
-from ..alignment.columns import EPS
 from ..budget import Progress
 from ..cache import Kept
 from ..model.letters import Word
+from ..model.precision import EPS
 from ..model.problem import AxisProblem
 from .instances import Instances, Range, forget_measures, instances, ranges
 

@@ -11,9 +11,9 @@ from typing import Any
 from ...design.model import Counter, Symbol
 from ...design.pattern import Pattern
 from ...design.tree import Concat, Count, Node, concatenation, spellings, walk
-from ..alignment.columns import EPS
 from ..cache import Kept
 from ..model.letters import Letter, Word
+from ..model.precision import EPS
 from .lengths import Growth, Way, measure
 from .sums import Sums
 

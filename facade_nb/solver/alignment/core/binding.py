@@ -22,10 +22,13 @@ from struct import Struct, unpack, unpack_from
 from typing import Any
 from weakref import WeakKeyDictionary, WeakSet, finalize, ref
 
-from ...trace import Walk
-from ..columns import EPS, Group, Option
+from ...budget import Stopped
+from ...model.precision import EPS
+from ..columns import Group, Option
+from ..found import Found
+from ..observer import PathObserver
 from ..pricing import Priced, Structure, price
-from ..reference.best_first import BestFirst, Found, Stopped
+from ..reference.best_first import BestFirst
 from ..reference.dives import Dives
 from ..reference.network import ceiling
 from .signals import Deferred
@@ -435,7 +438,7 @@ class CompiledDives:
 
 
 def best_first(
-    groups: Sequence[Group], *, log: Walk | None = None, **options: Any
+    groups: Sequence[Group], *, log: PathObserver | None = None, **options: Any
 ) -> BestFirst | CompiledSearch:
     """The search to be used: the compiled one where there is one and nobody wants to know what it does."""
     if log is None and available():

@@ -17,7 +17,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import inf
 from statistics import median
 
-from ..columns import EPS, Group
+from ...model.precision import EPS
+from ..columns import Group
 from ..pricing import Columns, Priced, price
 from .placement import Table, with_gaps, without_gaps
 from .runs import Cuts

@@ -16,7 +16,8 @@ from math import inf
 
 import numpy as np
 
-from ..columns import EPS, Group, Option
+from ...model.precision import EPS
+from ..columns import Group, Option
 from .runs import Bools, Cuts, Floats, Row, Sum
 
 __all__ = ["Table", "with_gaps", "without_gaps"]

@@ -18,11 +18,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf
 
-from ..columns import EPS, Band, Option
+from ...model.precision import EPS
+from ..columns import Band, Option
+from ..found import Found
+from ..observer import Observer, Places
 from ..pricing import Priced, Structure, price
-from ..reference.best_first import Found
 from .halves import Half, Side, closing
-from .observer import Observer, Places
 from .pieces import Stretch, excess, ledger_bound, merged
 from .relaxation import Relaxation
 from .transposition import Transpositions

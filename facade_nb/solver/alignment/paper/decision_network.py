@@ -25,11 +25,13 @@ from dataclasses import dataclass, replace
 from math import prod
 
 from ...model.letters import Letter
-from ..columns import EPS, Band, Group, Option, Position, make_group
+from ...model.precision import EPS
+from ..columns import Band, Group, Option, Position, make_group
+from ..observer import Observer, Places
 from .edge_weights import Weighing
 from .guides import Guide
 from .hierarchy import Hierarchy
-from .observer import Observer, Places, Watch
+from .observer import Watch
 
 __all__ = ["Column", "Lattice", "Piece", "State", "mirrored"]
 

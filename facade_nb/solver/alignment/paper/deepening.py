@@ -14,14 +14,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from math import inf
 
-from ..columns import EPS, Group
+from ...model.precision import EPS
+from ..columns import Group
+from ..found import Found
+from ..observer import Observer
 from ..pricing import Priced
-from ..reference.best_first import Found
 from .bidirectional import Meeting
 from .decision_network import Lattice, mirrored
 from .guides import Guide
 from .halves import Side
-from .observer import Observer
 
 __all__ = ["Deepening", "Ends"]
 

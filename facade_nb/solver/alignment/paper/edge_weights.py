@@ -18,7 +18,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from math import inf
 
-from ..columns import EPS, Group, Option, Position
+from ...model.precision import EPS
+from ..columns import Group, Option, Position
 from .guides import Guide
 from .hierarchy import Hierarchy
 from .observer import Watch

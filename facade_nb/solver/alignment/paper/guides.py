@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ..columns import Group, Option
-from .observer import Places
+from ..observer import Places
 
 __all__ = ["Guide", "nodes_between"]
 

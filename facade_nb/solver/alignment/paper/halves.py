@@ -11,10 +11,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import inf
 
-from ..columns import EPS, Group, Option
+from ...model.precision import EPS
+from ..columns import Group, Option
+from ..observer import Observer, Places
 from ..pricing import Priced, Structure
 from .decision_network import Column, Lattice, State
-from .observer import Observer, Places, places_from_left
+from .observer import places_from_left
 from .pieces import Stretch, ledger_bound, with_column
 from .remainder import Remainder
 

@@ -12,12 +12,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from math import inf
 
-from ..columns import EPS, Group
+from ...model.precision import EPS
+from ..columns import Group
+from ..found import Found
+from ..observer import Observer
 from ..pricing import Priced
-from ..reference.best_first import Found
 from .deepening import Deepening, Ends
 from .incumbents import incumbents
-from .observer import Observer
 
 __all__ = ["search_ida"]
 

@@ -11,10 +11,10 @@ from collections.abc import Callable, Iterator, Sequence
 from math import inf
 
 from ..columns import Group
+from ..observer import Observer
 from ..pricing import Priced, Structure
 from .deepening import Deepening, Ends
 from .guides import Guide
-from .observer import Observer
 from .prealignment import control_group, control_guides
 from .word_pairs import merged_guides
 

@@ -1,75 +1,13 @@
-"""What the alignment search tells whoever watches it: plain values, nothing of the search itself."""
+"""One node's edges, told to an observer as plain values."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
 
 from ..columns import Group, Option, Position
+from ..observer import Observer, Places
 
-__all__ = ["Observer", "Places", "Watch", "places_from_left"]
-
-Places = tuple[int, ...]
-"""Where the heads stand, one number a word: twice the letters read, and one more inside a cut letter."""
-
-
-class Observer(Protocol):
-    """Methods that the search calls as it goes; without an observer nothing is called, and nothing made for it.
-
-    `way` is ``"forward"`` or ``"backward"``. Places are always counted from the left, and words are the distinct
-    words of a group, topmost first. Letters are numbered from the left, too.
-    """
-
-    def deepened(self, limit: float) -> None:
-        """Begin a pass that follows nothing dearer than `limit`."""
-
-    def visited(self, way: str, group: int, places: Places, cost: float, bound: float) -> None:
-        """Take a node up: what is laid costs at least `cost`, a whole alignment through it at least `bound`."""
-
-    def traced(
-        self,
-        way: str,
-        group: int,
-        places: Places,
-        words: tuple[int, int],
-        lower: tuple[tuple[int, int], ...],
-        upper: tuple[tuple[int, int], ...],
-    ) -> None:
-        """Walk the two borders of the tolerance region of two words from a node, in letters read from there."""
-
-    def weighed(
-        self,
-        way: str,
-        group: int,
-        places: Places,
-        column: tuple[tuple[int, ...], ...],
-        error: float,
-        cost: float,
-        after: Places,
-    ) -> None:
-        """Weigh an edge: the letters of its column in each word, ω and what it costs at least; where it leads."""
-
-    def forbidden(
-        self, way: str, group: int, places: Places, column: tuple[tuple[int, ...], ...], constraint: str
-    ) -> None:
-        """Leave an edge out, by ``"C1"``, ``"C3"`` or ``"boundary"`` (no letter of any word begins or ends there)."""
-
-    def met(self, group: int, places: Places, cost: float, columns: int) -> None:
-        """Join the two walks at a node into an alignment."""
-
-    def prealigned(self, nodes: tuple[tuple[int, tuple[Places, ...]], ...], cost: float) -> None:
-        """Align the control words.
-
-        Told are the nodes between their columns, by group, and J of what was found through them; infinite
-        where nothing was.
-        """
-
-    def merged(self, parts: tuple[tuple[int, tuple[int, ...], tuple[Places, ...]], ...], cost: float) -> None:
-        """Align the words pair by pair, and the pairs with each other.
-
-        Told are the last parts to be merged, as group, words, and the nodes between the columns of these; and J
-        as above.
-        """
+__all__ = ["Watch", "places_from_left"]
 
 
 class Watch:

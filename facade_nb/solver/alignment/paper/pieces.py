@@ -17,7 +17,8 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from math import inf
 
-from ..columns import EPS, Band, Group
+from ...model.precision import EPS
+from ..columns import Band, Group
 from .decision_network import Column, Piece
 
 __all__ = ["Stretch", "excess", "ledger_bound", "merged", "with_column"]

@@ -17,9 +17,9 @@ from itertools import groupby
 
 from ...model.letters import Letter
 from ..columns import Band, Group, make_group
+from ..observer import Places
 from ..pricing import Structure
 from .guides import Guide
-from .observer import Places
 
 __all__ = ["control_group", "control_guides"]
 

@@ -21,7 +21,8 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from math import inf
 
-from ..columns import EPS, Group, Position
+from ...model.precision import EPS
+from ..columns import Group, Position
 
 __all__ = ["Remainder"]
 

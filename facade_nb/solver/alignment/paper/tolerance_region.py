@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..columns import EPS
+from ...model.precision import EPS
 
 __all__ = ["Region", "trace"]
 

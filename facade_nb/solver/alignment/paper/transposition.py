@@ -14,7 +14,7 @@ more reason to keep a path, as long as that may be needed.
 
 from __future__ import annotations
 
-from ..columns import EPS
+from ...model.precision import EPS
 from .halves import Half, Side
 
 __all__ = ["Transpositions"]

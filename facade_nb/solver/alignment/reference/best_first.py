@@ -12,73 +12,26 @@ not all made is parked, and taken up again when the limit has grown.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from itertools import count
 from math import inf
 
-from ...trace import Walk
-from ..columns import EPS, Group
+from ...model.precision import EPS
+from ..columns import Group
+from ..found import Found
+from ..observer import PathObserver
 from ..pricing import Priced, price
 from .dominance import Seen
 from .network import Network, ceiling
 from .paths import Path
 
-__all__ = ["BestFirst", "Found", "Stopped", "search"]
+__all__ = ["BestFirst"]
 
 _STEP = 0.002
 """How much dearer than a path the first of its columns may be, as a fraction of the canvas, where they are many."""
 
 _GRID = 1e10
 """Bounds are rounded to a part of a metre that is less than what tells costs apart."""
-
-
-class Stopped(Exception):
-    """The time is up, or, `asked`, the caller wants no answer any more."""
-
-    def __init__(self, asked: bool = False) -> None:
-        super().__init__()
-        self.asked = asked
-
-
-@dataclass(slots=True)
-class Found:
-    """What a search found.
-
-    Attributes
-    ----------
-    ties
-        The best structures, equal in cost, propriety and number of columns; empty: no alignment within the
-        cap.
-    bound
-        Proven lower bound of the cost.
-    nodes
-        How many partial paths were taken up.
-    cut
-        The search ended before it knew everything below its cap.
-    """
-
-    ties: list[Priced] = field(default_factory=list)
-    bound: float = 0.0
-    nodes: int = 0
-    cut: bool = False
-
-    @property
-    def best(self) -> Priced | None:
-        """The first of the ties."""
-        return self.ties[0] if self.ties else None
-
-    def offer(self, priced: Priced, keep: int) -> None:
-        """Take a structure in, if none known is better."""
-        best = self.best
-        if best is not None and priced.cost <= best.cost + EPS:
-            ours, theirs = (not priced.proper, -priced.columns), (not best.proper, -best.columns)
-            if priced.cost < best.cost - EPS or ours < theirs:
-                self.ties = [priced]
-            elif ours == theirs and len(self.ties) < keep:
-                self.ties.append(priced)
-        elif best is None:
-            self.ties = [priced]
 
 
 class BestFirst:
@@ -102,7 +55,7 @@ class BestFirst:
         nodes: int = 1_000_000,
         check: Callable[[], None] | None = None,
         accept: Callable[[Priced], bool] | None = None,
-        log: Walk | None = None,
+        log: PathObserver | None = None,
         turn: float = inf,
     ) -> None:
         self.network = Network(groups, check)
@@ -237,40 +190,3 @@ class BestFirst:
             self.log.edge(child, bound, drops)
         if not drops:
             self._push(bound, child, late=child.late)
-
-
-def search(
-    groups: Sequence[Group],
-    *,
-    cap: float = inf,
-    keep: int = 8,
-    nodes: int = 1_000_000,
-    check: Callable[[], None] | None = None,
-    accept: Callable[[Priced], bool] | None = None,
-) -> Found:
-    """Align groups that share unsized symbols (or one group alone), with the least J summed over them.
-
-    Parameters
-    ----------
-    cap
-        Alignments that cost more are not looked for.
-    keep
-        How many equally good structures to return.
-    nodes
-        After so many partial paths the best so far is returned, with the bound proven until then.
-    check
-        Called now and then; may raise `Stopped`.
-    accept
-        Says whether a structure will do; those that will not are passed over. As it may look at anything,
-        no path is dropped for another then.
-    """
-    from ..core.binding import best_first
-
-    run = best_first(groups, keep=keep, nodes=nodes, check=check, accept=accept)
-    step = 0.01 * max(group.canvas for group in groups)
-    while not run.done and run.found.bound <= cap + EPS:
-        run.advance(min(cap, run.found.bound + step))
-        if run.found.bound >= cap:
-            break
-        step *= 1.6
-    return run.found

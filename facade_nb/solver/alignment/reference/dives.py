@@ -13,7 +13,8 @@ from heapq import heappop, heappush
 from itertools import count
 from math import inf
 
-from ..columns import EPS, Band, Group
+from ...model.precision import EPS
+from ..columns import Band, Group
 from ..pairs import PairTable
 from ..pricing import Priced, price
 from .network import Network, ceiling

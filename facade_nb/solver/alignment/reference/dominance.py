@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..columns import EPS
+from ...model.precision import EPS
 from .network import Network
 from .paths import Path
 

@@ -6,7 +6,8 @@ from bisect import bisect_right
 from collections.abc import Callable
 from math import inf
 
-from ..columns import EPS, Group, Option
+from ...model.precision import EPS
+from ..columns import Group, Option
 from .paths import Edge, State
 from .shortfall import ahead
 

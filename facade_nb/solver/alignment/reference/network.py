@@ -20,7 +20,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from math import inf
 
-from ..columns import EPS, Group, Option, unsizable
+from ...model.precision import EPS
+from ..columns import Group, Option, unsizable
 from .edges import edges
 from .paths import Edge, Path, Span, Trailed, gathered
 from .shortfall import ahead, shortfall

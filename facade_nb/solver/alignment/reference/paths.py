@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
-from ..columns import EPS, Option, Position
+from ...model.precision import EPS
+from ..columns import Option, Position
 
 __all__ = ["Edge", "Path", "Piece", "Range", "Span", "State", "Trailed", "gathered"]
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from math import inf
 
-from ..columns import EPS, Band, Group
+from ...model.precision import EPS
+from ..columns import Band, Group
 from .paths import Path, Span, State
 
 __all__ = ["ahead", "shortfall"]

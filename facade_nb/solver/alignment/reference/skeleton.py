@@ -24,7 +24,8 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from ..columns import EPS, Band, Group
+from ...model.precision import EPS
+from ..columns import Band, Group
 
 __all__ = ["Skeleton", "greatest_width"]
 

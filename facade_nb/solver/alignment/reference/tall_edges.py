@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf
 
-from ..columns import EPS, Group, Option
+from ...model.precision import EPS
+from ..columns import Group, Option
 from .edges import Maker
 from .paths import Edge, Path
 from .skeleton import Skeleton
