@@ -6,7 +6,7 @@ import random
 from collections.abc import Sequence
 
 from facade_nb.solver import Letter, Objective
-from facade_nb.solver.alignment.columns import Group, make_group
+from facade_nb.solver.alignment.group import Group, make_group
 from tests.oracle import Case, make_case
 
 __all__ = ["PAPER", "case_group", "group_of", "letters", "random_case"]

@@ -11,8 +11,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from facade_nb.solver import Letter, Objective, align
-from facade_nb.solver.alignment.columns import make_group
 from facade_nb.solver.alignment.core.search import search_best
+from facade_nb.solver.alignment.group import make_group
 from tests.oracle import DEFAULT, Case, TooBig, Weights, best, check, make_case
 
 T = TypeVar("T")

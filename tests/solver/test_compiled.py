@@ -15,14 +15,15 @@ from facade_nb.design.errors import NoLayout
 from facade_nb.design.model import Design
 from facade_nb.solver import Letter
 from facade_nb.solver import solution as solving
-from facade_nb.solver.alignment import columns
-from facade_nb.solver.alignment.columns import Group
+from facade_nb.solver.alignment import group as grouping
 from facade_nb.solver.alignment.core import binding as compiled
 from facade_nb.solver.alignment.core.binding import CompiledDives, CompiledSearch, available, best_first
+from facade_nb.solver.alignment.group import Group
 from facade_nb.solver.alignment.pricing import Priced
 from facade_nb.solver.alignment.reference.best_first import BestFirst
 from facade_nb.solver.alignment.reference.dives import Dives
 from facade_nb.solver.budget import Stopped
+from facade_nb.solver.model.objective import Objective
 from tests.oracle.designs import make_design
 from tests.solver.ida_cases import case_group, group_of, random_case
 from tests.solver.test_tall import stack
@@ -93,7 +94,7 @@ class TestSearch:
 
     @pytest.mark.parametrize("seed", range(40))
     def test_tall(self, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setattr(columns, "_TALL", 1)
+        monkeypatch.setattr(grouping, "_TALL", 1)
         both(lambda: [case_group(random_case(1000 + seed))])
 
     @pytest.mark.parametrize("seed", range(40))
@@ -109,7 +110,7 @@ class TestSearch:
             case = random_case(3000 + 2 * seed + 1)
             group = case_group(case)
             return [
-                columns.make_group(own, group.canvas, group.tolerance, group.objective, free=free)
+                grouping.make_group(own, group.canvas, group.tolerance, group.objective, free=free)
                 for own in rows
             ]
 
@@ -118,7 +119,7 @@ class TestSearch:
     def test_many_rows(self) -> None:
         rows, canvas = stack(12, 9, 5, jitter=0.02)
         both(
-            lambda: [columns.make_group(rows, canvas, 0.5 * canvas, columns.Objective())],
+            lambda: [grouping.make_group(rows, canvas, 0.5 * canvas, Objective())],
             turn=40,
         )
 
@@ -130,7 +131,7 @@ class TestDives:
     @pytest.mark.parametrize("seed", range(60))
     def test_random(self, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
         if seed % 2:
-            monkeypatch.setattr(columns, "_TALL", 1)
+            monkeypatch.setattr(grouping, "_TALL", 1)
         case = random_case(4000 + seed)
         slow, fast = Dives([case_group(case)], 0.0), CompiledDives([case_group(case)], 0.0)
         for _ in range(60):
@@ -142,7 +143,7 @@ class TestDives:
 
     def test_structures_that_will_not_do_are_passed_over(self) -> None:
         rows, canvas = stack(7, 6, 5)
-        group = columns.make_group(rows, canvas, 0.5 * canvas, columns.Objective())
+        group = grouping.make_group(rows, canvas, 0.5 * canvas, Objective())
         dives = CompiledDives([group], 0.0, accept=lambda priced: priced.columns < 3)
         while not dives.done and dives.best is None:
             dives.dive()
@@ -181,7 +182,7 @@ class TestControl:
     @staticmethod
     def hard() -> Group:
         rows, canvas = stack(9, 12, 3, jitter=0.15)
-        return columns.make_group(rows, canvas, 0.5 * canvas, columns.Objective())
+        return grouping.make_group(rows, canvas, 0.5 * canvas, Objective())
 
     def test_stops_when_asked(self) -> None:
         """What `check` raises comes out, whatever it is; the search stays usable."""
@@ -299,16 +300,16 @@ class TestUnsizable:
         group = group_of(rows, tolerance=12.0)
         column = [band.options(0)[-1] for band in group.bands]
         assert [len(option.letters) for option in column] == [len(band.letters) for band in group.bands]
-        assert columns.unsizable(group, column) == expected
+        assert grouping.unsizable(group, column) == expected
 
     def test_a_piece_is_shorter_than_its_letter(self) -> None:
-        group = columns.make_group(
-            [(Letter("G", 3.0, transparent=True),), (Letter("G", 3.0),)], 3.0, 3.0, columns.Objective()
+        group = grouping.make_group(
+            [(Letter("G", 3.0, transparent=True),), (Letter("G", 3.0),)], 3.0, 3.0, Objective()
         )
         part, whole = group.bands[0].options(0)[1:]
         solid = group.bands[1].options(0)[1]
-        assert columns.unsizable(group, (part, solid))
-        assert not columns.unsizable(group, (whole, solid))
+        assert grouping.unsizable(group, (part, solid))
+        assert not grouping.unsizable(group, (whole, solid))
 
     @pytest.mark.parametrize("seed", range(40))
     def test_dives_of_both_kinds_leave_them_out(self, seed: int) -> None:
@@ -324,7 +325,7 @@ class TestUnsizable:
             found.append(spelled([best] if best else []))
             if best is not None:
                 assert not any(
-                    columns.unsizable(dives_group, c)
+                    grouping.unsizable(dives_group, c)
                     for dives_group, own in zip([case_group(case)], best.structure, strict=True)
                     for c in own
                 )

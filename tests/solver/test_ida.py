@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from facade_nb.solver import Letter, Objective, align
-from facade_nb.solver.alignment.columns import Group, make_group
 from facade_nb.solver.alignment.core.search import search_best
 from facade_nb.solver.alignment.found import Found
+from facade_nb.solver.alignment.group import Group, make_group
 from facade_nb.solver.alignment.paper.ida import search_ida
 from facade_nb.solver.alignment.pricing import Priced
 from facade_nb.solver.budget import Stopped

@@ -10,8 +10,9 @@ from itertools import accumulate, pairwise, product
 import pytest
 
 from facade_nb.solver import Letter, Objective
-from facade_nb.solver.alignment.columns import Group, Option, make_group
 from facade_nb.solver.alignment.core.search import search_best
+from facade_nb.solver.alignment.elements import Option
+from facade_nb.solver.alignment.group import Group, make_group
 from facade_nb.solver.alignment.paper.decision_network import Lattice, mirrored
 from facade_nb.solver.alignment.paper.deepening import Deepening, Ends
 from facade_nb.solver.alignment.paper.guides import Guide, nodes_between

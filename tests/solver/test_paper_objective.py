@@ -9,7 +9,7 @@ import pytest
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.solver import Letter, Objective, align
-from facade_nb.solver.alignment.columns import make_group
+from facade_nb.solver.alignment.group import make_group
 from facade_nb.solver.solution import TOLERANCES
 from tests.bench.designs import LARGE
 from tests.oracle import PAPER, best

@@ -9,8 +9,8 @@ import pytest
 
 from facade_nb import gallery
 from facade_nb.solver import Objective
-from facade_nb.solver.alignment.columns import Group, make_group
 from facade_nb.solver.alignment.found import Found
+from facade_nb.solver.alignment.group import Group, make_group
 from facade_nb.solver.alignment.reference.best_first import BestFirst
 from facade_nb.solver.alignment.reference.network import Network
 from facade_nb.solver.alignment.reference.paths import Path

@@ -11,9 +11,9 @@ from facade_nb.design import edit
 from facade_nb.design.model import Symbol
 from facade_nb.solver import Letter, Objective, align
 from facade_nb.solver import solution as solving
-from facade_nb.solver.alignment.columns import Group, make_group
 from facade_nb.solver.alignment.core.binding import CompiledDives
 from facade_nb.solver.alignment.core.search import search_best as search
+from facade_nb.solver.alignment.group import Group, make_group
 from facade_nb.solver.alignment.heuristic.local_search import can_sweep, mended, sweeps
 from facade_nb.solver.alignment.pricing import Priced
 from facade_nb.solver.alignment.reference.dives import Dives

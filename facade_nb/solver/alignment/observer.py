@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from typing import Protocol
 
-from .columns import Option
+from .elements import Option
 from .pricing import Priced
 
 __all__ = ["NetworkObserver", "Observer", "Partial", "PathObserver", "Places"]

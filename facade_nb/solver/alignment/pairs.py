@@ -19,7 +19,8 @@ from typing import TYPE_CHECKING
 from ..model.objective import Objective
 
 if TYPE_CHECKING:
-    from .columns import Band, Position
+    from .bands import Band
+    from .elements import Position
 
 __all__ = ["PairTable", "choose_reference"]
 

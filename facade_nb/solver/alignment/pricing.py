@@ -22,8 +22,11 @@ from math import inf
 import numpy as np
 
 from ..model.precision import EPS
-from .columns import Group, Option
+from .elements import Option
+from .group import Group
 from .linear_programme import FREE, solve_lp
+from .rules import fills, slope, tally
+from .rules import price as column_price
 
 __all__ = ["Columns", "Priced", "Structure", "price"]
 
@@ -188,22 +191,18 @@ class _Sizes:
             sizes = {b: self.size(g, j, b) for b, option in enumerate(column) if not option.empty}
             elastic = any(t for _, t in sizes.values())
             empties = sum(option.empty for option in column)
-            rest = [b for b in sizes if objective.plain or not column[b].soft] or list(sizes)
-            softs = [] if objective.plain else [b for b in sizes if column[b].soft]
+            rest = [b for b in sizes if fills(group, column[b])] or list(sizes)
+            softs = [b for b in sizes if column[b].soft]
             if not elastic:
-                largest = max(c for c, _ in sizes.values())
-                omega = largest - min(sizes[b][0] for b in rest)
-                if omega > mu + EPS:
-                    self.impossible = True
-                loose = sum(column[b].loose + (largest - sizes[b][0]) * (b in softs) for b in sizes)
-                programme.constant += omega + group.share * (
-                    objective.empty * empties * largest + objective.loose * loose
+                total = tally(
+                    group, column, [sizes[b][0] if b in sizes else None for b in range(len(column))]
                 )
-                width_const += largest
+                if total.omega > mu + EPS:
+                    self.impossible = True
+                programme.constant += column_price(group, total, total.omega)
+                width_const += total.high
                 continue
-            high = programme.variable(
-                -FREE, 1.0 + group.share * (objective.empty * empties + objective.loose * len(softs))
-            )
+            high = programme.variable(-FREE, slope(group, empties, len(softs)))
             low = programme.variable(-FREE, -1.0)
             fixed_low, fixed_high = inf, -inf
             for b, (constant, terms) in sizes.items():
@@ -221,9 +220,9 @@ class _Sizes:
                 programme.high[low] = fixed_low
             programme.add({high: 1.0, low: -1.0}, -FREE, mu)
             for b in sizes:
-                programme.constant += group.share * objective.loose * column[b].loose
+                programme.constant += group.by_loose * column[b].loose
             for b in softs:
-                programme.constant -= group.share * objective.loose * sizes[b][0]
+                programme.constant -= group.by_loose * sizes[b][0]
             width_terms[high] = 1.0
             tops.append((high, list(sizes.values())))
         gap = group.canvas - width_const
@@ -342,18 +341,12 @@ def _measure(
                 for b in range(len(group.bands))
             )
             taken.append(parts)
-            here = {b: sum(parts[b]) for b, option in enumerate(column) if not option.empty}
-            largest = max(here.values())
-            soft = {b for b in here if column[b].soft}
-            rest = [here[b] for b in here if objective.plain or b not in soft] or list(here.values())
-            own = largest - min(rest)
-            if own > group.tolerance + 1e-7:
+            total = tally(group, column, [sum(own) for own in parts])
+            if total.omega > group.tolerance + 1e-7:
                 return None
-            group_omega += own
-            width += largest
-            empties = len(column) - len(here)
-            loose = sum(column[b].loose + (largest - here[b] if b in soft else 0.0) for b in here)
-            cost += own + group.share * (objective.empty * empties * largest + objective.loose * loose)
+            group_omega += total.omega
+            width += total.high
+            cost += column_price(group, total, total.omega)
         if abs(width - group.canvas) > group.tolerance + 1e-7:
             return None
         cost += objective.fit * abs(width - group.canvas)

@@ -11,9 +11,9 @@ from ...design.errors import NoLayout
 from ..budget import Stopped
 from ..model.letters import Letter
 from ..model.objective import Objective
-from .columns import Group, make_group
 from .core.search import search_best
 from .found import Found
+from .group import Group, make_group
 from .paper.ida import search_ida
 from .pricing import Priced
 

@@ -9,7 +9,7 @@ from itertools import islice, product
 from math import inf
 
 from ...design.model import Symbol
-from ..alignment.columns import Group, lone_unsized, make_group
+from ..alignment.group import Group, lone_unsized, make_group
 from ..alignment.pricing import Priced
 from ..budget import Progress, Stopped
 from ..cache import Kept

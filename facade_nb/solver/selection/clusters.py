@@ -6,9 +6,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from math import inf
 
-from ..alignment.columns import Group
 from ..alignment.core.binding import CompiledDives, CompiledSearch, best_first, dives
 from ..alignment.found import Found
+from ..alignment.group import Group
 from ..alignment.heuristic.local_search import can_sweep, mended, polished, sweeps
 from ..alignment.observer import NetworkObserver
 from ..alignment.paper.ida import search_ida

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from typing import Protocol
 
-from ..alignment.columns import Group
+from ..alignment.group import Group
 from ..alignment.observer import NetworkObserver
 from ..model.problem import AxisProblem
 from ..words.instances import Instances

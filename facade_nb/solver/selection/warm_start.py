@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import inf
 
-from ..alignment.columns import Group, Option
+from ..alignment.elements import Option
+from ..alignment.group import Group
 from ..alignment.pricing import Columns, Priced, price
 from ..candidates.stream import Candidate
 from ..model.letters import Word

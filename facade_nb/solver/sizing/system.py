@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from ...design.model import Symbol
-from ..alignment.columns import Group
+from ..alignment.group import Group
 from ..alignment.pricing import Priced
 from ..model.letters import Letter
 from .least_squares import FREE, Solution, least_squares

@@ -14,7 +14,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ...design.errors import DesignError, Fault, nearest
-from ..alignment.columns import Group, make_group
+from ..alignment.group import Group, make_group
 from ..events import (
     BandNote,
     CandidateJudged,

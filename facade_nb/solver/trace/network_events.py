@@ -6,9 +6,12 @@ from collections.abc import Iterator, Sequence
 from math import isfinite
 from typing import Any
 
-from ..alignment.columns import Band, Group, Option
+from ..alignment.bands import Band
+from ..alignment.elements import Option
+from ..alignment.group import Group
 from ..alignment.observer import Partial
 from ..alignment.pricing import Priced
+from ..alignment.rules import tally
 from ..events import (
     BandNote,
     ColumnNote,
@@ -65,15 +68,13 @@ def band_notes(group: Group) -> tuple[BandNote, ...]:
 
 def column_note(group: Group, column: Sequence[Option], sizes: Sequence[Sequence[float]]) -> ColumnNote:
     """A column of a priced structure."""
-    here = {b: sum(own) for b, own in enumerate(sizes) if not column[b].empty}
-    rest = [s for b, s in here.items() if group.objective.plain or not column[b].soft] or list(here.values())
-    width = max(here.values())
+    total = tally(group, column, [sum(own) for own in sizes])
     return ColumnNote(
         tuple(option.letters for option in column),
         _places([option.target for option in column]),
         tuple(map(tuple, sizes)),
-        width,
-        width - min(rest),
+        total.high,
+        total.omega,
     )
 
 

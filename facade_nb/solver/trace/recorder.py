@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from ...design.errors import NoLayout
     from ...design.model import Design
-    from ..alignment.columns import Group
+    from ..alignment.group import Group
     from ..alignment.observer import Partial
     from ..alignment.pricing import Priced
     from ..analysis.systems import Analysis

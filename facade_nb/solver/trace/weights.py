@@ -9,9 +9,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import inf
 
-from ..alignment.columns import Band, Group, Option
+from ..alignment.bands import Band
+from ..alignment.elements import Option
+from ..alignment.group import Group
+from ..alignment.rules import (
+    after_empty,
+    after_solid,
+    alike,
+    fills,
+    may_be_empty,
+    may_begin_solid,
+    needy,
+    occluded,
+    price,
+    tally,
+    unbacked,
+)
 from ..model.precision import EPS
 
 __all__ = ["Refusal", "Weight", "columns_at", "elements", "judge", "refusal", "weigh"]
@@ -44,63 +58,38 @@ Partial = tuple[Option | None, ...]
 def elements(group: Group, b: int, position: int) -> Iterator[tuple[Option, Refusal | None]]:
     """Every element that a band may put into the next column, and those that C2 or C4 keep from it."""
     band = group.bands[b]
-    i, mid, gap, held = position >> 3, position & 4, position & 2, position & 1
+    i, mid = position >> 3, position & 4
     word = band.letters
-    if held:
-        ahead = i < len(word) and word[i].attached and not word[i].transparent
+    if not may_be_empty(position):
         text = f"{word[i - 1]} is attached and ends its element, so {_row(band)} may not be empty next (C4)."
         refused = Refusal("C4", (b,), ((b, i - 1),), text)
-        yield Option(8 * i + mid + (2 if ahead else 0), empty=True), refused
+        yield Option(after_empty(word, position), empty=True), refused
     for option in band.options(position):
         yield option, None
-    if gap:
+    if not may_begin_solid(position):
         text = f"{word[i]} is attached and begins its element, but {_row(band)} was empty before it (C4)."
         for option in band.options(position & ~2):
             if not option.empty:
                 yield option, Refusal("C4", (b,), ((b, i),), text)
     for j in range(i, len(word)):
         run = range(i, j + 1)
-        if len({word[n].transparent for n in run}) == 1:
+        if all(alike(word[i], word[n]) for n in run):
             continue
         names = " ".join(str(word[n]) for n in run)
         text = f"{names} of {_row(band)} are partly transparent, partly not (C2)."
         refused = Refusal("C2", (b,), tuple((b, n) for n in run), text)
         sizes = [word[n].size for n in run]
         size = None if mid or None in sizes else sum(s for s in sizes if s is not None)
-        held_next = 1 if word[j].attached and not word[j].transparent else 0
         if word[j].transparent and band.cuts:
             yield Option(8 * j + 4, size=None, begins=not mid, letters=tuple(run)), refused
-        made = Option(8 * (j + 1) + held_next, size=size, begins=not mid, ends=True, letters=tuple(run))
+        made = Option(after_solid(word, j), size=size, begins=not mid, ends=True, letters=tuple(run))
         yield made, refused
 
 
 def weigh(group: Group, column: Sequence[Option | None]) -> Weight:
     """ω (Eq. 9, or its variant for non-opaque rows), cost and width of a column, or of some of its rows."""
-    plain, objective = group.objective.plain, group.objective
-    high, low, low_all = 0.0, inf, inf
-    empties = softs = 0
-    loose = soft_sizes = 0.0
-    elastic = False
-    for option in column:
-        if option is None:
-            continue
-        if option.empty:
-            empties += 1
-        elif option.size is None:
-            elastic = True
-        else:
-            high, low_all = max(high, option.size), min(low_all, option.size)
-            if plain or not option.soft:
-                low = min(low, option.size)
-            loose += option.loose
-            if option.soft:
-                softs, soft_sizes = softs + 1, soft_sizes + option.size
-    if low == inf:
-        low = high if elastic or low_all == inf else low_all
-    omega = max(0.0, high - low)
-    by_empty, by_loose = objective.empty * group.share, objective.loose * group.share
-    cost = omega + by_empty * empties * high + by_loose * (loose + softs * high - soft_sizes)
-    return Weight(omega, cost, high)
+    total = tally(group, column)
+    return Weight(total.omega, price(group, total, total.omega), total.high)
 
 
 def refusal(group: Group, owed: bool, column: Column) -> Refusal | None:
@@ -114,13 +103,15 @@ def refusal(group: Group, owed: bool, column: Column) -> Refusal | None:
     found = _omega(group, column) or _c3(group, column)
     if found is not None:
         return found
-    needy = [b for b, option in enumerate(column) if option.empty or option.soft]
-    if needy and not group.waived and not any(option.opaque for option in column):
-        soft = tuple((b, i) for b in needy for i in column[b].letters if not group.bands[b].letters[i].opaque)
+    if unbacked(group, column):
+        asking = [b for b, option in enumerate(column) if needy(option)]
+        soft = tuple(
+            (b, i) for b in asking for i in column[b].letters if not group.bands[b].letters[i].opaque
+        )
         names = ", ".join(str(group.bands[b].letters[i]) for b, i in soft)
-        what = f"{names} is not opaque" if soft else f"{_row(group.bands[needy[0]])} is empty"
+        what = f"{names} is not opaque" if soft else f"{_row(group.bands[asking[0]])} is empty"
         return Refusal(
-            "C1", tuple(needy), soft, f"{what}, and no row stands behind it with opaque letters (C1)."
+            "C1", tuple(asking), soft, f"{what}, and no row stands behind it with opaque letters (C1)."
         )
     if owed and not any(option.begins for option in column):
         return Refusal("boundary", everyone, (), "The boundary before it is no row's letter boundary.")
@@ -135,7 +126,7 @@ def _omega(group: Group, column: Partial) -> Refusal | None:
     sized = [
         (o.size, b) for b, o in enumerate(column) if o is not None and not o.empty and o.size is not None
     ]
-    firm = [(s, b) for s, b in sized if group.objective.plain or not _option(column, b).soft] or sized
+    firm = [(s, b) for s, b in sized if fills(group, _option(column, b))] or sized
     blamed = tuple(sorted({max(sized)[1], min(firm)[1]}))
     sides = " and ".join(_element(group.bands[b], _option(column, b)) for b in blamed)
     return Refusal(
@@ -148,19 +139,14 @@ def _omega(group: Group, column: Partial) -> Refusal | None:
 
 
 def _c3(group: Group, column: Partial) -> Refusal | None:
-    for b, option in enumerate(column):
-        if option is None or not option.guarded:
-            continue
-        for o in group.guards[b]:
-            other = column[o]
-            if other is not None and other.soft:
-                below = tuple((b, i) for i in option.letters if group.bands[b].letters[i].unoccludable)
-                above = tuple((o, i) for i in other.letters if not group.bands[o].letters[i].opaque)
-                text = (
-                    f"{_named(group, below)} is unoccludable, and {_named(group, above)} above it is not "
-                    "opaque (C3)."
-                )
-                return Refusal("C3", tuple(sorted({b, o})), (*above, *below), text)
+    for b, o in occluded(group, column):
+        option, other = _option(column, b), _option(column, o)
+        below = tuple((b, i) for i in option.letters if group.bands[b].letters[i].unoccludable)
+        above = tuple((o, i) for i in other.letters if not group.bands[o].letters[i].opaque)
+        text = (
+            f"{_named(group, below)} is unoccludable, and {_named(group, above)} above it is not opaque (C3)."
+        )
+        return Refusal("C3", tuple(sorted({b, o})), (*above, *below), text)
     return None
 
 

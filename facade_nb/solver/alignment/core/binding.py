@@ -24,8 +24,9 @@ from weakref import WeakKeyDictionary, WeakSet, finalize, ref
 
 from ...budget import Stopped
 from ...model.precision import EPS
-from ..columns import Group, Option
+from ..elements import Option
 from ..found import Found
+from ..group import Group
 from ..observer import PathObserver
 from ..pricing import Priced, Structure, price
 from ..reference.best_first import BestFirst

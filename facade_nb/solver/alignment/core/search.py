@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Group
 from ..found import Found
+from ..group import Group
 from ..pricing import Priced
 from .binding import best_first
 

@@ -18,7 +18,7 @@ from math import inf
 from statistics import median
 
 from ...model.precision import EPS
-from ..columns import Group
+from ..group import Group
 from ..pricing import Columns, Priced, price
 from .placement import Table, with_gaps, without_gaps
 from .runs import Cuts

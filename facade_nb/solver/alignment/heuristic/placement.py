@@ -17,7 +17,9 @@ from math import inf
 import numpy as np
 
 from ...model.precision import EPS
-from ..columns import Group, Option
+from ..elements import Option
+from ..group import Group
+from ..rules import occluded
 from .runs import Bools, Cuts, Floats, Row, Sum
 
 __all__ = ["Table", "with_gaps", "without_gaps"]
@@ -415,7 +417,7 @@ class Table:
                     return None
                 column.append(found)
                 state[b] = found.target
-            if any(o.guarded and any(column[g].soft for g in group.guards[b]) for b, o in enumerate(column)):
+            if any(occluded(group, column)):
                 return None
             columns.append(tuple(column))
         if any(position >> 3 != len(band.letters) for position, band in zip(state, group.bands, strict=True)):

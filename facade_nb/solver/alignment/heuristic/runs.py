@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..columns import Band
+from ..bands import Band
 
 __all__ = ["Bools", "Cuts", "Floats", "Row", "Sum"]
 

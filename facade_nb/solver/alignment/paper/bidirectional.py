@@ -19,7 +19,8 @@ from collections.abc import Callable
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Band, Option
+from ..bands import Band
+from ..elements import Option
 from ..found import Found
 from ..observer import Observer, Places
 from ..pricing import Priced, Structure, price

@@ -22,12 +22,15 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import prod
+from math import inf, prod
 
 from ...model.letters import Letter
 from ...model.precision import EPS
-from ..columns import Band, Group, Option, Position, make_group
+from ..bands import Band
+from ..elements import Option, Position
+from ..group import Group, make_group
 from ..observer import Observer, Places
+from ..rules import broken, price, slope, tally
 from .edge_weights import Weighing
 from .guides import Guide
 from .hierarchy import Hierarchy
@@ -205,89 +208,43 @@ class Lattice:
     ) -> Column | None:
         """Weigh a column, unless a constraint forbids it."""
         group = self.group
-        objective = group.objective
-        high = loose = soft_sizes = 0.0
-        low = low_all = float("inf")
-        empties = softs = symbols = 0
-        some = backed = begun = ended = guarded = elastic = False
-        for option in options:
-            if option.empty:
-                empties += 1
-                continue
-            some = True
-            symbols += len(option.letters)
-            begun = begun or option.begins
-            ended = ended or option.ends
-            guarded = guarded or option.guarded
-            backed = backed or option.opaque
-            loose += option.loose
-            size = option.size
-            if size is None:
-                elastic = True
-                continue
-            high = max(high, size)
-            low_all = min(low_all, size)
-            if objective.plain or not option.soft:
-                low = min(low, size)
-            if option.soft:
-                softs += 1
-                soft_sizes += size
-        if not some:
-            return None
-        forbidden = None
-        if owed and not begun:
-            forbidden = "boundary"
-        elif (empties or softs) and not backed and not group.waived:
-            forbidden = "C1"
-        elif guarded and any(
-            option.guarded and any(options[o].soft for o in group.guards[b])
-            for b, option in enumerate(options)
-        ):
-            forbidden = "C3"
+        forbidden = broken(group, owed, options)
         if forbidden is not None:
-            if watch is not None:
+            if watch is not None and forbidden in ("boundary", "C1", "C3"):
                 watch.forbidden(options, forbidden)
             return None
-        filled = low < float("inf")
-        if not filled:
-            low = high if elastic else low_all
-        omega = max(0.0, high - low)
-        if omega > group.tolerance + EPS:
-            return None
-        if objective.plain:
-            softs, soft_sizes = 0, 0.0  # they fill their column like others
-        cost = omega + group.share * (
-            objective.empty * empties * high + objective.loose * (loose + softs * high - soft_sizes)
-        )
-        firm = filled or not elastic
-        pieces = [(b, o.letters) for b, o in enumerate(options) if o.tied] if elastic else []
+        column = tally(group, options)
+        filled, omega = column.filling < inf, column.omega
+        cost = price(group, column, omega)
+        firm = filled or not column.elastic
+        pieces = [(b, o.letters) for b, o in enumerate(options) if o.tied] if column.elastic else []
         piece: Piece | None = None
         if firm and len(pieces) == 1 and len(pieces[0][1]) == 1:
             slack = max(0.0, group.tolerance - omega)
             piece = Piece(
                 pieces[0][0],
                 pieces[0][1][0],
-                low,
-                high,
-                min(low, slack),
+                column.low,
+                column.high,
+                min(column.low, slack),
                 slack,
-                1.0 + group.share * (objective.empty * empties + objective.loose * softs),
+                slope(group, column.empties, column.softs),
             )
         if watch is not None:
             watch.weighed(options, omega, cost)
         return Column(
             options,
             tuple([option.target for option in options]),
-            not ended,
+            not any(option.ends for option in options),
             cost,
             omega,
-            high,
-            low if filled else 0.0,
-            symbols,
+            column.high,
+            column.low if filled else 0.0,
+            sum(len(option.letters) for option in options),
             ahead,
             cost + ahead,
             firm,
-            elastic,
+            column.elastic,
             piece,
             not firm or (bool(pieces) and piece is None),
         )

@@ -15,8 +15,8 @@ from collections.abc import Callable, Iterable, Sequence
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Group
 from ..found import Found
+from ..group import Group
 from ..observer import Observer
 from ..pricing import Priced
 from .bidirectional import Meeting

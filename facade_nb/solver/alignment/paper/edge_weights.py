@@ -19,7 +19,9 @@ from collections.abc import Callable, Sequence
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Group, Option, Position
+from ..elements import Option, Position
+from ..group import Group
+from ..rules import Tally, fills, price
 from .guides import Guide
 from .hierarchy import Hierarchy
 from .observer import Watch
@@ -27,10 +29,8 @@ from .tolerance_region import Region, trace
 
 __all__ = ["Weighing"]
 
-_Part = tuple[float, float, float, int, float, int, float, tuple[Option, ...]]
-"""Elements of some words: what is ahead of them beyond the least there could be; largest size; least size of
-those that fill the column; how many are empty; what is loose; how many are soft; sum of their sizes; the
-elements themselves."""
+_Part = tuple[float, Tally, tuple[Option, ...]]
+"""Elements of some words: what is ahead of them beyond the least there could be; what they come to; themselves."""
 
 
 class Weighing:
@@ -62,9 +62,7 @@ class Weighing:
         guides: Sequence[Guide] = (),
     ) -> None:
         self.group, self.pairs, self.limit, self.check, self.watch = group, pairs, limit + EPS, check, watch
-        objective = group.objective
-        self.plain, self.added = objective.plain, pairs.added
-        self.by_empty, self.by_loose = objective.empty * group.share, objective.loose * group.share
+        self.plain, self.added = group.objective.plain, pairs.added
         self.window = min(group.tolerance, max(0.0, limit)) + EPS
         self.choices = [band.options(p) for band, p in zip(group.bands, state, strict=True)]
         places = tuple([p >> 2 for p in state])
@@ -112,7 +110,7 @@ class Weighing:
                 self.beyond = min(self.beyond, base)
                 continue
             for part in self._joined(own, base, lists):
-                taken = (option, *part[7])
+                taken = (option, *part[2])
                 ahead = base + part[0] if self.added else max(base, part[0])
                 found.append((tuple([taken[n] for n in place]), ahead))
         return found
@@ -145,20 +143,12 @@ class Weighing:
                 continue
             j += 1
             # whoever is soft may be shorter, as long as another row fills the column
-            if (j >= first or (other.soft and not self.plain)) and (
-                j <= last or (option.soft and not self.plain)
-            ):
+            if (j >= first or not fills(self.group, other)) and (j <= last or not fills(self.group, option)):
                 out.append(other)
         return out
 
     def _part(self, option: Option, ahead: float) -> _Part:
-        if option.empty:
-            return (ahead, 0.0, inf, 1, 0.0, 0, 0.0, (option,))
-        if option.size is None:
-            return (ahead, 0.0, inf, 0, 0.0, 0, 0.0, (option,))
-        if option.soft and not self.plain:
-            return (ahead, option.size, inf, 0, option.loose, 1, option.size, (option,))
-        return (ahead, option.size, option.size, 0, option.loose, 0, 0.0, (option,))
+        return (ahead, Tally().plus(option, self.plain), (option,))
 
     def _joined(self, own: _Part, base: float, lists: list[list[_Part]]) -> list[_Part]:
         """Join the words pairwise, the pairs pairwise, and so on; `own` is the reference's element."""
@@ -178,15 +168,11 @@ class Weighing:
         return fits
 
     def _fits(self, own: _Part, base: float, part: _Part) -> bool:
-        high = max(own[1], part[1])
-        low = min(own[2], part[2])
-        omega = high - low if low < inf else 0.0
+        column = own[1].joined(part[1])
+        omega = column.omega_so_far
         if omega > self.window:
             return False
-        ahead = base + part[0] if self.added else max(base, part[0])
-        softs = own[5] + part[5]
-        loose = own[4] + part[4] + softs * high - own[6] - part[6]
-        value = omega + self.by_empty * (own[3] + part[3]) * high + self.by_loose * loose + ahead
+        value = price(self.group, column, omega) + (base + part[0] if self.added else max(base, part[0]))
         if value > self.limit:
             self.beyond = min(self.beyond, value)
             return False
@@ -210,16 +196,7 @@ class Weighing:
                         break
                 else:
                     ahead = max(p[0], q[0])
-                part = (
-                    ahead,
-                    max(p[1], q[1]),
-                    min(p[2], q[2]),
-                    p[3] + q[3],
-                    p[4] + q[4],
-                    p[5] + q[5],
-                    p[6] + q[6],
-                    p[7] + q[7],
-                )
+                part = (ahead, p[1].joined(q[1]), p[2] + q[2])
                 if self._fits(own, base, part):
                     out.append(part)
         out.sort(key=_ahead)

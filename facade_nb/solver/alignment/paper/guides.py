@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from ..columns import Group, Option
+from ..elements import Option
+from ..group import Group
 from ..observer import Places
 
 __all__ = ["Guide", "nodes_between"]

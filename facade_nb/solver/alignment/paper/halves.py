@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Group, Option
+from ..elements import Option
+from ..group import Group
 from ..observer import Observer, Places
 from ..pricing import Priced, Structure
 from .decision_network import Column, Lattice, State

@@ -17,7 +17,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import inf
 
-from ..columns import Band, Group, Position
+from ..bands import Band
+from ..elements import Position
+from ..group import Group
 
 __all__ = ["Hierarchy", "PairBound"]
 

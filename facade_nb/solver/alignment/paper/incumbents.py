@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from math import inf
 
-from ..columns import Group
+from ..group import Group
 from ..observer import Observer
 from ..pricing import Priced, Structure
 from .deepening import Deepening, Ends

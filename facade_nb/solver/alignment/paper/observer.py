@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..columns import Group, Option, Position
+from ..elements import Option, Position
+from ..group import Group
 from ..observer import Observer, Places
 
 __all__ = ["Watch", "places_from_left"]

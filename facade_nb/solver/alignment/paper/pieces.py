@@ -18,7 +18,8 @@ from itertools import accumulate
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Band, Group
+from ..bands import Band
+from ..group import Group
 from .decision_network import Column, Piece
 
 __all__ = ["Stretch", "excess", "ledger_bound", "merged", "with_column"]

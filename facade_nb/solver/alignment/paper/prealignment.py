@@ -16,7 +16,8 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from ...model.letters import Letter
-from ..columns import Band, Group, make_group
+from ..bands import Band
+from ..group import Group, make_group
 from ..observer import Places
 from ..pricing import Structure
 from .guides import Guide

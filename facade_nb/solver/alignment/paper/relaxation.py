@@ -20,8 +20,10 @@ from math import inf
 
 import numpy as np
 
-from ..columns import Group, Option
+from ..elements import Option
+from ..group import Group
 from ..linear_programme import FREE, solve_lp
+from ..rules import fills, slope
 from .halves import Half, Side
 
 __all__ = ["Relaxation"]
@@ -154,12 +156,9 @@ class Relaxation:
 
     def _price(self, group: Group, sizes: Sequence[tuple[Option, float, _Linear]], empties: int) -> int:
         """ω, E and Λ of an elastic column; its largest size as a variable."""
-        objective = group.objective
-        softs = [] if objective.plain else [own for own in sizes if own[0].soft]
-        filling = [own for own in sizes if objective.plain or not own[0].soft] or list(sizes)
-        high = self._variable(
-            0.0, FREE, 1.0 + group.share * (objective.empty * empties + objective.loose * len(softs))
-        )
+        softs = [own for own in sizes if own[0].soft]
+        filling = [own for own in sizes if fills(group, own[0])] or list(sizes)
+        high = self._variable(0.0, FREE, slope(group, empties, len(softs)))
         low = self._variable(-FREE, FREE, -1.0)
         for _, constant, terms in sizes:
             if terms:
@@ -172,11 +171,7 @@ class Relaxation:
             else:
                 self._high[low] = min(self._high[low], constant)
         self._add({high: 1.0, low: -1.0}, -FREE, group.tolerance)
-        self._constant += (
-            group.share
-            * objective.loose
-            * (sum(own[0].loose for own in sizes) - sum(own[1] for own in softs))
-        )
+        self._constant += group.by_loose * (sum(own[0].loose for own in sizes) - sum(own[1] for own in softs))
         return high
 
     def _future(self, half: Half, taken: dict[tuple[int, int, int], list[int]]) -> int:

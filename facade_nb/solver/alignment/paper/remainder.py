@@ -22,7 +22,8 @@ from collections.abc import Sequence
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Group, Position
+from ..elements import Position
+from ..group import Group
 
 __all__ = ["Remainder"]
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from ..columns import Group, make_group
+from ..group import Group, make_group
 from ..pricing import Structure
 from .guides import Guide, nodes_between
 

@@ -17,8 +17,8 @@ from itertools import count
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Group
 from ..found import Found
+from ..group import Group
 from ..observer import PathObserver
 from ..pricing import Priced, price
 from .dominance import Seen

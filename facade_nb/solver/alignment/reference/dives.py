@@ -14,7 +14,8 @@ from itertools import count
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Band, Group
+from ..bands import Band
+from ..group import Group
 from ..pairs import PairTable
 from ..pricing import Priced, price
 from .network import Network, ceiling

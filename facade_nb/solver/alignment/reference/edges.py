@@ -7,7 +7,9 @@ from collections.abc import Callable
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Group, Option
+from ..elements import Option
+from ..group import Group
+from ..rules import Tally, broken, price, slope
 from .paths import Edge, State
 from .shortfall import ahead
 
@@ -72,9 +74,8 @@ class Maker:
         self.limit = limit + EPS + self.before
         self.floor = -inf
         self.mu = group.tolerance + EPS
-        objective, share = group.objective, group.share
-        self.plain = objective.plain
-        self.by_empty, self.by_loose = objective.empty * share, objective.loose * share
+        self.plain = group.objective.plain
+        self.by_empty, self.by_loose = group.by_empty, group.by_loose
         self.choices = [band.options(position) for band, position in zip(group.bands, state, strict=True)]
         bands = range(len(group.bands))
         self.order = (
@@ -90,7 +91,7 @@ class Maker:
         """All of them, in no order."""
         if len(self.chosen) < len(self.choices):
             return []  # an attached letter that ends its word forbids any further column (C4)
-        self._descend(0, 0.0, inf, inf, 0, 0.0, 0, 0.0, False, 0.0)
+        self._descend(0, Tally(), 0.0)
         return self.made
 
     def _enter(self, option: Option) -> None:
@@ -105,21 +106,9 @@ class Maker:
             total += min([row[o.target >> 2] for o in self.choices[b]], default=inf)
             self.rest[n] = total
 
-    def _descend(
-        self,
-        n: int,
-        high: float,
-        low: float,
-        low_all: float,
-        empties: int,
-        loose: float,
-        softs: int,
-        soft_sizes: float,
-        elastic: bool,
-        ahead_so_far: float,
-    ) -> None:
+    def _descend(self, n: int, so_far: Tally, ahead_so_far: float) -> None:
         if n == len(self.order):
-            self._close(high, low, low_all, empties, loose, softs, soft_sizes, elastic, ahead_so_far)
+            self._close(so_far, ahead_so_far)
             return
         if self.check is not None:
             self.calls += 1
@@ -128,89 +117,51 @@ class Maker:
         if len(self.made) >= self.most:
             return
         b = self.order[n]
-        by_empty, by_loose, limit = self.by_empty, self.by_loose, self.limit
+        by_empty, by_loose, limit, plain = self.by_empty, self.by_loose, self.limit, self.plain
         paired = self.group.reference is not None
         for option in self.choices[b]:
-            high_, low_, low_all_, empties_, loose_, softs_, sizes_, elastic_ = (
-                high, low, low_all, empties, loose, softs, soft_sizes, elastic,
-            )  # fmt: skip
+            own = so_far.plus(option, plain)
             if paired and n == 0:
                 self._enter(option)
             row = self.rows[b]
             ahead_ = ahead_so_far + row[option.target >> 2] if row is not None and n else ahead_so_far
-            size = option.size
-            if option.empty:
-                empties_ += 1
-            elif size is None:
-                elastic_ = True
-                if option.least > high:
-                    high_ = option.least
-            else:
-                if size > high:
-                    high_ = size
-                if size < low_all:
-                    low_all_ = size
-                if size < low and (self.plain or not option.soft):
-                    low_ = size
-                loose_ += option.loose
-                if option.soft:
-                    softs_ += 1
-                    sizes_ += size
-            omega = high_ - low_ if low_ < inf else 0.0
+            omega = own.omega_so_far
             bound = (
                 omega
-                + by_empty * empties_ * high_
-                + by_loose * loose_
+                + by_empty * own.empties * own.high
+                + by_loose * own.loose
                 + ahead_
                 + (self.rest[n + 1] if paired else 0.0)
             )
             if omega > self.mu or bound > limit:
-                if size is not None and size > low and omega > min(self.mu, limit) and not option.transparent:
+                size = option.size
+                if (
+                    size is not None
+                    and size > own.filling
+                    and omega > min(self.mu, limit)
+                    and not option.transparent
+                ):
                     break  # longer runs are dearer still
                 continue
             self.chosen[b] = option
-            self._descend(n + 1, high_, low_, low_all_, empties_, loose_, softs_, sizes_, elastic_, ahead_)
+            self._descend(n + 1, own, ahead_)
 
-    def _close(
-        self,
-        high: float,
-        low: float,
-        low_all: float,
-        empties: int,
-        loose: float,
-        softs: int,
-        soft_sizes: float,
-        elastic: bool,
-        after: float,
-    ) -> None:
-        rested = low < inf
-        if not rested:
-            low = high if elastic else low_all
-        omega = high - low if high > low else 0.0
-        cost = omega + self.by_empty * empties * high + self.by_loose * (loose + softs * high - soft_sizes)
+    def _close(self, column: Tally, after: float) -> None:
+        group, chosen = self.group, self.chosen
+        omega = column.omega
+        cost = price(group, column, omega)
         if cost + after > self.limit or cost + after <= self.floor or omega > self.mu:
             return
-        some = backed = begun = ended = tied = guarded = pinched = False
-        needy = empties > 0
-        chosen = self.chosen
-        for option in chosen:
-            if option.empty:
-                continue
-            some = True
-            begun = begun or option.begins
-            ended = ended or option.ends
-            tied = tied or option.tied
-            guarded = guarded or option.guarded
-            backed = backed or option.opaque
-            needy = needy or option.soft
-            pinched = pinched or (rested and option.size is None and option.least >= high - EPS)
-        if not some or (self.owed and not begun) or (needy and not backed and not self.group.waived):  # C1
+        if broken(group, self.owed, chosen) is not None:
             return
-        if guarded:  # C3
-            for b, option in enumerate(chosen):
-                if option.guarded and any(chosen[o].soft for o in self.group.guards[b]):
-                    return
-        firm = rested or not elastic
+        rested = column.filling < inf
+        ended = any(option.ends for option in chosen)
+        tied = any(option.tied for option in chosen)
+        pinched = rested and any(
+            not option.empty and option.size is None and option.least >= column.high - EPS
+            for option in chosen
+        )
+        firm = rested or not column.elastic
         pieces = tuple([(b, o.letters) for b, o in enumerate(chosen) if o.tied]) if tied and firm else ()
         self.made.append(
             Edge(
@@ -218,15 +169,15 @@ class Maker:
                 tuple([option.target for option in chosen]),
                 cost,
                 omega,
-                high,
-                low,
+                column.high,
+                column.low,
                 cost + after - self.before,
                 after,
                 firm,
                 not ended,
                 tied or not firm,
                 pieces,
-                1.0 + self.by_empty * empties + self.by_loose * softs,
+                slope(group, column.empties, column.softs),
                 pinched,
             )
         )

@@ -21,7 +21,8 @@ from collections.abc import Callable, Sequence
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Group, Option, unsizable
+from ..elements import Option
+from ..group import Group, unsizable
 from .edges import edges
 from .paths import Edge, Path, Span, Trailed, gathered
 from .shortfall import ahead, shortfall

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Option, Position
+from ..elements import Option, Position
 
 __all__ = ["Edge", "Path", "Piece", "Range", "Span", "State", "Trailed", "gathered"]
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Band, Group
+from ..bands import Band
+from ..group import Group
 from .paths import Path, Span, State
 
 __all__ = ["ahead", "shortfall"]

@@ -25,7 +25,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.precision import EPS
-from ..columns import Band, Group
+from ..bands import Band
+from ..group import Group
 
 __all__ = ["Skeleton", "greatest_width"]
 

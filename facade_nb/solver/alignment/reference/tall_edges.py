@@ -11,7 +11,9 @@ from collections.abc import Callable
 from math import inf
 
 from ...model.precision import EPS
-from ..columns import Group, Option
+from ..elements import Option
+from ..group import Group
+from ..rules import fills, tally
 from .edges import Maker
 from .paths import Edge, Path
 from .skeleton import Skeleton
@@ -72,7 +74,8 @@ class _Stepper(Maker):
         """All columns of one width."""
         room = self.skeleton.width - right + EPS
         choices: list[tuple[int, list[_Choice]]] = []
-        for b, (band, options) in enumerate(zip(self.group.bands, self.choices, strict=True)):
+        group = self.group
+        for b, (band, options) in enumerate(zip(group.bands, self.choices, strict=True)):
             own: list[_Choice] = []
             for option in options:
                 size = option.size
@@ -88,7 +91,7 @@ class _Stepper(Maker):
                     own.append((0.0, inf, False, option))
                 else:
                     loose = option.loose + (height - size if option.soft else 0.0)
-                    counts = self.plain or not option.soft
+                    counts = fills(group, option)
                     own.append((self.by_loose * loose, size if counts else inf, size >= height - EPS, option))
             if not own:
                 return
@@ -140,25 +143,8 @@ class _Stepper(Maker):
             self._choose(n + 1, choices, after, hits, height, price + cost, low_, hit or hits_)
 
     def _finish(self, height: float) -> None:
-        low = low_all = inf
-        empties = softs = 0
-        loose = soft_sizes = 0.0
-        elastic = False
-        for option in self.chosen:
-            size = option.size
-            if option.empty:
-                empties += 1
-            elif size is None:
-                elastic = True
-            else:
-                low_all = min(low_all, size)
-                if self.plain or not option.soft:
-                    low = min(low, size)
-                loose += option.loose
-                if option.soft:
-                    softs += 1
-                    soft_sizes += size
-        self._close(height, low, low_all, empties, loose, softs, soft_sizes, elastic, 0.0)
+        column = tally(self.group, self.chosen)
+        self._close(column._replace(high=height), 0.0)
 
 
 def _by_price(choice: _Choice) -> float:
