@@ -4,6 +4,7 @@
 >>> layout = solve(gallery.load("residential-house"))
 """
 
+from . import display as display  # registers how designs and layouts show themselves
 from .design import Design, DesignError, NoLayout
 from .solver import Layout, solve
 
@@ -12,10 +13,8 @@ __version__ = "0.1.0"
 
 
 def __getattr__(name: str) -> object:
-    if (
-        name == "gallery"
-    ):  # sits above solver; loaded when asked for, so that importing the solver stays quick
-        from importlib import import_module
+    if name == "gallery":  # loaded when asked for, so that importing the solver stays quick
+        import facade_nb.gallery as gallery
 
-        return import_module(".gallery", __name__)
+        return gallery
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

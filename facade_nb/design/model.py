@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, Literal
 
+from .mimebundle import bundle_of
 from .pattern import Pattern, parse
 
 if TYPE_CHECKING:
@@ -178,5 +178,4 @@ class Design:
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         """In a notebook a design shows itself as the elevation of its layout."""
-        bundle: dict[str, str] = import_module("facade_nb.display").design_bundle(self)
-        return bundle
+        return bundle_of(self)

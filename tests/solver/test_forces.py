@@ -14,9 +14,8 @@ from hypothesis import strategies as st
 from facade_nb import Layout, NoLayout, gallery, solve
 from facade_nb.design import edit
 from facade_nb.design.model import AXES
-from facade_nb.solver.sizing.forces import Sizing
-from facade_nb.solver.sizing.least_squares import FREE, Solution, least_squares
-from facade_nb.solver.sizing.system import System
+from facade_nb.solver.model.sizing import FREE, Sizing, Solution, System
+from facade_nb.solver.sizing.least_squares import least_squares
 from tests.oracle.designs import design, make_design
 
 QUICK = [

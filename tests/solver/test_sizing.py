@@ -17,7 +17,8 @@ from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.design.model import AXES, Axis
 from facade_nb.solver.events import SystemPosed, SystemSolved
 from facade_nb.solver.model.layout import PlacedLetter
-from facade_nb.solver.sizing.least_squares import FREE, Solution, least_squares
+from facade_nb.solver.model.sizing import FREE, Solution
+from facade_nb.solver.sizing.least_squares import least_squares
 from tests.oracle.designs import design, make_design
 from tests.oracle.solving import structure_of
 

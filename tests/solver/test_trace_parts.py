@@ -13,7 +13,8 @@ from facade_nb import DesignError, gallery, solve
 from facade_nb.solver import Letter, Objective, Trace, align
 from facade_nb.solver.alignment.group import make_group
 from facade_nb.solver.events import EdgeWeighed, LeftOut, PathChosen, WordJudged
-from facade_nb.solver.sizing.least_squares import FREE, least_squares
+from facade_nb.solver.model.sizing import FREE
+from facade_nb.solver.sizing.least_squares import least_squares
 from facade_nb.solver.trace.active_set import steps
 from facade_nb.solver.trace.lattice import Lattice, LatticeEdge, lattice_of
 from facade_nb.solver.trace.weights import judge

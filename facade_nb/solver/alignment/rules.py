@@ -19,17 +19,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import inf
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import Literal, NamedTuple, Protocol
 
 from ..model.letters import Letter
+from ..model.objective import Objective
 from ..model.precision import EPS
 from .elements import Option, Position
 
-if TYPE_CHECKING:
-    from .group import Group
-
 __all__ = [
     "Broken",
+    "Rows",
     "Tally",
     "after_empty",
     "after_solid",
@@ -48,6 +47,34 @@ __all__ = [
 
 Broken = Literal["empty", "boundary", "C1", "C3", "omega"]
 """Why a column may not be: no row has a letter in it, its first boundary is nobody's, a constraint, the tolerance."""
+
+
+class Rows(Protocol):
+    """What the rules ask about a group (`group.Group`)."""
+
+    @property
+    def objective(self) -> Objective:
+        """What is minimised."""
+
+    @property
+    def tolerance(self) -> float:
+        """μ, metres."""
+
+    @property
+    def waived(self) -> bool:
+        """No letter of the group is opaque, so C1 does not apply."""
+
+    @property
+    def guards(self) -> tuple[tuple[int, ...], ...]:
+        """Per band: the bands with a row above one of its rows."""
+
+    @property
+    def by_empty(self) -> float:
+        """What a metre of a column costs that is empty in one band."""
+
+    @property
+    def by_loose(self) -> float:
+        """What a metre costs that one band has loose."""
 
 
 # C2 and C4: which elements a word may put into a column
@@ -174,9 +201,7 @@ class Tally(NamedTuple):
         return self.high - self.filling if self.filling < inf else 0.0
 
 
-def tally(
-    group: Group, column: Sequence[Option | None], sizes: Sequence[float | None] | None = None
-) -> Tally:
+def tally(group: Rows, column: Sequence[Option | None], sizes: Sequence[float | None] | None = None) -> Tally:
     """What a column comes to; None stands for a row that is not chosen yet.
 
     Parameters
@@ -192,7 +217,7 @@ def tally(
     return total
 
 
-def price(group: Group, column: Tally, omega: float) -> float:
+def price(group: Rows, column: Tally, omega: float) -> float:
     """ω + empty·E + loose·Λ of a column, metres."""
     return (
         omega
@@ -201,12 +226,12 @@ def price(group: Group, column: Tally, omega: float) -> float:
     )
 
 
-def slope(group: Group, empties: int, softs: int) -> float:
+def slope(group: Rows, empties: int, softs: int) -> float:
     """How fast the price of a column grows with its width, where its other rows keep their sizes."""
     return 1.0 + group.by_empty * empties + group.by_loose * softs
 
 
-def fills(group: Group, option: Option) -> bool:
+def fills(group: Rows, option: Option) -> bool:
     """Whether a row counts in ω, whatever the others are: it has to fill its column."""
     return group.objective.plain or not option.soft
 
@@ -219,7 +244,7 @@ def needy(option: Option) -> bool:
     return option.empty or option.soft
 
 
-def unbacked(group: Group, column: Sequence[Option]) -> bool:
+def unbacked(group: Rows, column: Sequence[Option]) -> bool:
     """Whether C1 forbids a column: some row asks for another one that is all opaque, and there is none."""
     return (
         not group.waived
@@ -228,7 +253,7 @@ def unbacked(group: Group, column: Sequence[Option]) -> bool:
     )
 
 
-def occluded(group: Group, column: Sequence[Option | None]) -> Iterator[tuple[int, int]]:
+def occluded(group: Rows, column: Sequence[Option | None]) -> Iterator[tuple[int, int]]:
     """Pairs of bands for which C3 forbids a column: an unoccludable letter, and one above it that is not opaque."""
     for b, option in enumerate(column):
         if option is not None and option.guarded:
@@ -238,7 +263,7 @@ def occluded(group: Group, column: Sequence[Option | None]) -> Iterator[tuple[in
                     yield b, above
 
 
-def broken(group: Group, owed: bool, column: Sequence[Option]) -> Broken | None:
+def broken(group: Rows, owed: bool, column: Sequence[Option]) -> Broken | None:
     """The first rule that a whole column breaks; None where it breaks none.
 
     Parameters

@@ -9,8 +9,8 @@ from ...design.model import Design
 from ..model.layout import AxisLayout, GroupLayout, PlacedLetter, RowLayout
 from ..model.letters import Letter
 from ..model.problem import AxisProblem
+from ..model.sizing import Sizing
 from ..selection.axis import AxisSearch, Best, Solved
-from ..sizing.forces import Sizing
 
 __all__ = ["axis_layout", "axis_warnings"]
 

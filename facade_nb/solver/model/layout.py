@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from ...design.mimebundle import bundle_of
 from ...design.model import Axis, Canvas, Design
 
 if TYPE_CHECKING:
-    from ..sizing.forces import Sizing
+    from .sizing import Sizing
 
 __all__ = ["AxisLayout", "GroupLayout", "Layout", "PlacedLetter", "PlacedShape", "Rect", "RowLayout"]
 
@@ -175,8 +175,7 @@ class Layout:
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         """In a notebook a layout shows itself as its elevation."""
-        bundle: dict[str, str] = import_module("facade_nb.display").layout_bundle(self)
-        return bundle
+        return bundle_of(self)
 
     def __repr__(self) -> str:
         counters = "".join(f", {name} = {value}" for name, value in self.counters.items())

@@ -2,41 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import daqp
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FREE", "Solution", "least_squares"]
+from ..model.sizing import Solution
 
-FREE = 1e30
-"""Bounds at or beyond this are none."""
+__all__ = ["least_squares"]
 
 _MISSED = 1e-11
 """By how much the optimality conditions may be missed, in any component."""
 
 _Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class Solution:
-    """Answer of `least_squares`.
-
-    Attributes
-    ----------
-    x
-        Shape (n,).
-    multipliers
-        Shape (n + m,): of the variables' bounds, then of the rows. Positive: the upper bound pulls;
-        negative: the lower one.
-    iterations
-        Active-set changes.
-    """
-
-    x: _Array
-    multipliers: _Array
-    iterations: int
 
 
 def least_squares(

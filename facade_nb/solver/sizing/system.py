@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import sqrt
-from typing import Any
 
 import numpy as np
 
@@ -25,12 +24,11 @@ from ...design.model import Symbol
 from ..alignment.group import Group
 from ..alignment.pricing import Priced
 from ..model.letters import Letter
-from .least_squares import FREE, Solution, least_squares
+from ..model.sizing import FREE, Key, Solution, System
+from .least_squares import least_squares
 
-__all__ = ["Placement", "Sized", "System", "size_axis", "strain"]
+__all__ = ["Placement", "Sized", "size_axis", "strain"]
 
-_Key = tuple[Any, ...]
-"""What a name is spelled from: its kind, then symbols, indices, or places."""
 _Place = tuple[int, int, int, int]
 """Group, row, column, and place in the element."""
 
@@ -39,53 +37,6 @@ _SOME = 0.1
 
 Placement = tuple[tuple[tuple[float, float], ...], ...]
 """Per band: the intervals of its letters and pieces, column by column."""
-
-
-@dataclass(frozen=True, slots=True)
-class System:
-    """The least-squares system as it was posed.
-
-    Attributes
-    ----------
-    variables
-        Names: ``|A|`` the size of a symbol, ``g:j`` the right edge of column j of group g, ``g:ijk.t`` the
-        upper bound of letter k of row i in column j, ``g:ijk.s`` its lower bound where a gap parts it from
-        the column's edge.
-    rows
-        Names of the equations and inequalities.
-    keys, row_keys
-        What the names are spelled from.
-    matrix, lower, upper
-        The rows, shape (m, n); bounds of the variables, then of the rows.
-    weight, target, pull
-        Per variable: weight in the first round, where it would like to be, weight in the second round.
-    """
-
-    keys: tuple[_Key, ...]
-    row_keys: tuple[_Key, ...]
-    matrix: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
-    weight: np.ndarray
-    target: np.ndarray
-    pull: np.ndarray
-
-    @property
-    def variables(self) -> tuple[str, ...]:
-        """Names of the variables; spelled when asked for, because a search poses many systems and shows one."""
-        return tuple(map(_spelled, self.keys))
-
-    @property
-    def rows(self) -> tuple[str, ...]:
-        """Names of the rows."""
-        return tuple(map(_spelled, self.row_keys))
-
-    def kept(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The bounds of the second round: sized symbols keep the sizes that they have in x."""
-        n, kept = x.size, self.weight > 0
-        lower, upper = self.lower.copy(), self.upper.copy()
-        lower[:n][kept] = upper[:n][kept] = x[kept]
-        return lower, upper
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +70,7 @@ class _Builder:
 
     def __init__(self, canvas: float, symbol: Callable[[str], Symbol], least: float) -> None:
         self.canvas, self.symbol, self.least = canvas, symbol, least
-        self.keys: list[_Key] = []
+        self.keys: list[Key] = []
         self.variables: list[float] = []
         """Five numbers each: low, high, target, weight, pull."""
         self.inner = (0.0, canvas, 0.0, 0.0, 0.0)
@@ -128,35 +79,35 @@ class _Builder:
         self.less: list[int] = []
         self.by: list[float] = []
         """Two variables of which one is greater, and by how much at least."""
-        self.difference_keys: list[_Key] = []
+        self.difference_keys: list[Key] = []
         self.starts: list[int] = []
         self.ends: list[int] = []
         self.lengths: list[int] = []
         """Start, end and size of a letter, which are the same length."""
-        self.span_keys: list[_Key] = []
+        self.span_keys: list[Key] = []
         self.equations: list[Mapping[int, float]] = []
         """Terms that add up to nothing."""
-        self.equation_keys: list[_Key] = []
+        self.equation_keys: list[Key] = []
         self.size_of: dict[str, int] = {}
         self.extents: dict[tuple[int, int, int, str, int], dict[int, float]] = {}
         self.open = False
         """Whether the sizes of the sized symbols leave anything undecided."""
 
     def variable(
-        self, key: _Key, low: float, high: float, target: float, weight: float = 0.0, pull: float = 0.0
+        self, key: Key, low: float, high: float, target: float, weight: float = 0.0, pull: float = 0.0
     ) -> int:
         self.keys.append(key)
         self.variables += (low, high, target, weight, pull)
         return len(self.keys) - 1
 
-    def difference(self, key: _Key, greater: int, less: int, low: float) -> None:
+    def difference(self, key: Key, greater: int, less: int, low: float) -> None:
         """``greater - less >= low``."""
         self.difference_keys.append(key)
         self.greater.append(greater)
         self.less.append(less)
         self.by.append(low)
 
-    def equation(self, key: _Key, terms: Mapping[int, float]) -> None:
+    def equation(self, key: Key, terms: Mapping[int, float]) -> None:
         """``terms = 0``."""
         self.equation_keys.append(key)
         self.equations.append(terms)
@@ -401,34 +352,3 @@ def _gaps(
     if placement == "center":
         build.equation(("gaps", *place, 0), {s: 1.0, start: -1.0, end: -1.0, t: 1.0})
     return s, t
-
-
-def _spelled(key: _Key) -> str:
-    """The name of a variable or a row."""
-    kind, *rest = key
-    match kind:
-        case "|":
-            return f"|{rest[0]}|"
-        case ":":
-            return f"{rest[0]}:{rest[1]}"
-        case "<":
-            return f"{rest[0]}:{rest[1]} < {rest[0]}:{rest[1] + 1}"
-        case "=":
-            return " + ".join(map(_placed, rest[1:])) + f" = |{rest[0]}|"
-        case "extent":
-            return f"extent of {rest[0]} = |{rest[0]}|"
-    name = _placed(rest)
-    match kind:
-        case "piece":
-            return f"{name}.s < {name}.t"
-        case "before" | "after":
-            return f"{name}: gap {kind} ≥ 0"
-        case "gaps":
-            return f"{name}: gaps equal"
-    return f"{name}.{kind}"
-
-
-def _placed(place: Sequence[int]) -> str:
-    """Group, row, column and place in the element of a letter or piece."""
-    g, row, j, i = place
-    return f"{g}:{row}-{j}-{i}"

@@ -15,7 +15,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from ..sizing.least_squares import FREE
+from ..model.sizing import FREE
 
 __all__ = ["Run", "Step", "steps"]
 

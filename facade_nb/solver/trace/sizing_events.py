@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..events import ActiveSetStep, Event, LeftOut, SystemPosed, VariableNote
-from ..sizing.least_squares import Solution
-from ..sizing.system import System
+from ..model.sizing import Solution, System
 from .active_set import Step, steps
 
 __all__ = ["active_set", "system_posed"]

@@ -28,7 +28,7 @@ from ..events import (
     WordJudged,
 )
 from ..model.letters import Letter
-from ..sizing.least_squares import FREE
+from ..model.sizing import FREE
 
 if TYPE_CHECKING:
     import pandas as pd

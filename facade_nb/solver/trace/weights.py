@@ -1,7 +1,7 @@
 """Every column that might come next at a node, with its weight, or with the constraint that forbids it.
 
 The search never looks at most of them: what its bounds or the constraints rule out is not made at all. Here each is
-made and judged by the letter of SPEC 3, one constraint after the other, for views and lessons. It is the slow and
+made and judged, one rule after the other, for views and lessons. It is the slow and
 plain twin of `network`, which a test compares with it.
 """
 
@@ -123,11 +123,11 @@ def _omega(group: Group, column: Partial) -> Refusal | None:
     over = weight.omega - group.tolerance
     if over <= EPS:
         return None
-    sized = [
-        (o.size, b) for b, o in enumerate(column) if o is not None and not o.empty and o.size is not None
-    ]
+    here = [(o, b) for b, o in enumerate(column) if o is not None and not o.empty]
+    reach = [(o.least if o.size is None else o.size, b) for o, b in here]
+    sized = [(o.size, b) for o, b in here if o.size is not None]
     firm = [(s, b) for s, b in sized if fills(group, _option(column, b))] or sized
-    blamed = tuple(sorted({max(sized)[1], min(firm)[1]}))
+    blamed = tuple(sorted({max(reach)[1], min(firm)[1]}))
     sides = " and ".join(_element(group.bands[b], _option(column, b)) for b in blamed)
     return Refusal(
         "omega",
@@ -245,7 +245,8 @@ def _named(group: Group, letters: Sequence[tuple[int, int]]) -> str:
 
 
 def _element(band: Band, option: Option) -> str:
-    return " ".join(str(band.letters[i]) for i in option.letters) + f" ({option.size:.3g} m)"
+    size = f"at least {option.least:.3g} m" if option.size is None else f"{option.size:.3g} m"
+    return " ".join(str(band.letters[i]) for i in option.letters) + f" ({size})"
 
 
 def _row(band: Band) -> str:

@@ -19,7 +19,7 @@ export interface Objective {
   plain: boolean;
 }
 
-/** An element that a band may put into the next column (`columns.Option`). */
+/** An element that a band may put into the next column (`alignment/elements.py`). */
 export interface Option {
   /** 8·next letter + 4 inside a cut letter + 2 may not begin next + 1 may not be empty next (C4). */
   target: number;
@@ -27,6 +27,8 @@ export interface Option {
   transparent: boolean;
   /** Metres; null: elastic. */
   size: number | null;
+  /** Metres: its whole sized letters; of an elastic element, less than its size. */
+  least: number;
   loose: number;
   soft: boolean;
   opaque: boolean;
@@ -158,21 +160,23 @@ export class Group {
       soft ||= !letter.opaque;
       guarded ||= letter.unoccludable;
       const target = 8 * (j + 1) + (letter.attached ? 1 : 0);
-      const ends = { target, size, loose, soft, opaque: !soft, guarded, letters: run(i, j) };
+      const ends = { target, size, least: size, loose, soft, opaque: !soft, guarded, letters: run(i, j) };
       yield { ...BARE, ...ends, begins: true, ends: true };
     }
   }
 
   private *clear(word: readonly LetterNote[], i: number, mid: boolean): Generator<Option> {
     let fixed: number | null = mid ? null : 0;
+    let least = 0;
     for (let j = i; j < word.length; j++) {
       const letter = word[j] as LetterNote;
       if (!letter.transparent) return;
       const own = { ...BARE, transparent: true, begins: !mid, letters: run(i, j) };
-      if (this.cuts) yield { ...own, target: 8 * j + 4, size: null };
+      if (this.cuts) yield { ...own, target: 8 * j + 4, size: null, least };
       const whole = j > i || !mid ? letter.size : null;
+      least += whole ?? 0;
       fixed = fixed === null || whole === null ? null : fixed + whole;
-      yield { ...own, target: 8 * (j + 1), size: fixed, ends: true };
+      yield { ...own, target: 8 * (j + 1), size: fixed, least, ends: true };
     }
   }
 }
@@ -181,6 +185,7 @@ const BARE = {
   empty: false,
   transparent: false,
   size: 0,
+  least: 0,
   loose: 0,
   soft: false,
   opaque: false,
@@ -198,8 +203,10 @@ export function weigh({ objective, share }: Group, column: readonly Option[]): W
   let [empties, softs, loose, softSizes, elastic] = [0, 0, 0, 0, false];
   for (const option of column) {
     if (option.empty) empties++;
-    else if (option.size === null) elastic = true;
-    else {
+    else if (option.size === null) {
+      elastic = true;
+      high = Math.max(high, option.least);
+    } else {
       high = Math.max(high, option.size);
       lowest = Math.min(lowest, option.size);
       if (objective.plain || !option.soft) low = Math.min(low, option.size);
@@ -266,19 +273,21 @@ const letterAt = (group: Group, b: number, i: number): LetterNote => group.bands
 function tooFar(group: Group, column: readonly Option[]): Refusal | null {
   const { omega } = weigh(group, column);
   if (omega - group.tolerance <= EPS) return null;
+  const reach = column.flatMap((option, b) => (option.empty ? [] : [{ size: option.size ?? option.least, b }]));
   const sized = column.flatMap((option, b) =>
     option.empty || option.size === null ? [] : [{ size: option.size, soft: option.soft, b }],
   );
   const hard = sized.filter(({ soft }) => group.objective.plain || !soft);
   const firm = hard.length ? hard : sized;
-  const largest = sized.reduce((a, c) => (c.size > a.size || (c.size === a.size && c.b > a.b) ? c : a));
+  const largest = reach.reduce((a, c) => (c.size > a.size || (c.size === a.size && c.b > a.b) ? c : a));
   const least = firm.reduce((a, c) => (c.size < a.size || (c.size === a.size && c.b < a.b) ? c : a));
   const bands = [...new Set([largest.b, least.b])].sort((a, c) => a - c);
   const text = () => {
     const sides = bands.map((b) => {
       const option = column[b] as Option;
       const names = option.letters.map((i) => letterName(letterAt(group, b, i))).join(" ");
-      return `${names} (${brief(option.size ?? 0)} m)`;
+      const size = option.size === null ? `at least ${brief(option.least)}` : brief(option.size);
+      return `${names} (${size} m)`;
     });
     return `${sides.join(" and ")} differ by ${brief(omega)} m, more than μ = ${brief(group.tolerance)} m.`;
   };

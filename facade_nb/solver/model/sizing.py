@@ -1,4 +1,4 @@
-"""Which constraint pulls where: the multipliers of the sizing problem as forces, and the proof that it is solved.
+"""The sizing problem of an axis as data: the system, its answer, which constraint pulls where, and the proof.
 
 The sizing problem is ``min Σ weight·(x − target)²`` subject to ``lower <= [x; rows @ x] <= upper``. Its answer has one
 multiplier λ for each bound of a variable and for each row, with
@@ -14,21 +14,90 @@ the objective by ``−λ·δ``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .least_squares import FREE, Solution
-from .system import System
-
-__all__ = ["Force", "Sizing"]
+__all__ = ["FREE", "Force", "Key", "Sizing", "Solution", "System"]
 
 _Array = NDArray[np.float64]
+Key = tuple[Any, ...]
+"""What a name is spelled from: its kind, then symbols, indices, or places."""
+FREE = 1e30
+"""Bounds at or beyond this are none."""
 _FELT = 1e-9
 """Metres: smaller multipliers pull nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """Answer of `least_squares`.
+
+    Attributes
+    ----------
+    x
+        Shape (n,).
+    multipliers
+        Shape (n + m,): of the variables' bounds, then of the rows. Positive: the upper bound pulls;
+        negative: the lower one.
+    iterations
+        Active-set changes.
+    """
+
+    x: _Array
+    multipliers: _Array
+    iterations: int
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """The least-squares system as it was posed.
+
+    Attributes
+    ----------
+    variables
+        Names: ``|A|`` the size of a symbol, ``g:j`` the right edge of column j of group g, ``g:ijk.t`` the
+        upper bound of letter k of row i in column j, ``g:ijk.s`` its lower bound where a gap parts it from
+        the column's edge.
+    rows
+        Names of the equations and inequalities.
+    keys, row_keys
+        What the names are spelled from.
+    matrix, lower, upper
+        The rows, shape (m, n); bounds of the variables, then of the rows.
+    weight, target, pull
+        Per variable: weight in the first round, where it would like to be, weight in the second round.
+    """
+
+    keys: tuple[Key, ...]
+    row_keys: tuple[Key, ...]
+    matrix: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+    weight: np.ndarray
+    target: np.ndarray
+    pull: np.ndarray
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of the variables; spelled when asked for, because a search poses many systems and shows one."""
+        return tuple(map(_spelled, self.keys))
+
+    @property
+    def rows(self) -> tuple[str, ...]:
+        """Names of the rows."""
+        return tuple(map(_spelled, self.row_keys))
+
+    def kept(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The bounds of the second round: sized symbols keep the sizes that they have in x."""
+        n, kept = x.size, self.weight > 0
+        lower, upper = self.lower.copy(), self.upper.copy()
+        lower[:n][kept] = upper[:n][kept] = x[kept]
+        return lower, upper
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,3 +208,34 @@ class Sizing:
         distance = np.where(np.abs(end) < FREE, np.abs(end - self.values), FREE)
         slack = np.where(pull == 0.0, 0.0, np.minimum(distance, np.abs(pull)))
         return max(self.primal_residual, float(np.abs(gradient).max()), float(slack.max()))
+
+
+def _spelled(key: Key) -> str:
+    """The name of a variable or a row."""
+    kind, *rest = key
+    match kind:
+        case "|":
+            return f"|{rest[0]}|"
+        case ":":
+            return f"{rest[0]}:{rest[1]}"
+        case "<":
+            return f"{rest[0]}:{rest[1]} < {rest[0]}:{rest[1] + 1}"
+        case "=":
+            return " + ".join(map(_placed, rest[1:])) + f" = |{rest[0]}|"
+        case "extent":
+            return f"extent of {rest[0]} = |{rest[0]}|"
+    name = _placed(rest)
+    match kind:
+        case "piece":
+            return f"{name}.s < {name}.t"
+        case "before" | "after":
+            return f"{name}: gap {kind} ≥ 0"
+        case "gaps":
+            return f"{name}: gaps equal"
+    return f"{name}.{kind}"
+
+
+def _placed(place: Sequence[int]) -> str:
+    """Group, row, column and place in the element of a letter or piece."""
+    g, row, j, i = place
+    return f"{g}:{row}-{j}-{i}"
