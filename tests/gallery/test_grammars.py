@@ -11,10 +11,10 @@ import pytest
 from facade_nb import DesignError, gallery
 from facade_nb.cli import main
 from facade_nb.render.texture import Grammar, decode
-from facade_nb.render.texture.exhibits import EXHIBITS
 from facade_nb.render.texture.painters import choose_painter
 from facade_nb.render.texture.view import Looks
 from facade_nb.render.tiles import TileSet
+from scripts.docs.exhibits import EXHIBITS
 from tests.render.texture.figure_12 import FIGURE_12
 
 NAMES = gallery.grammars()

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from facade_nb.render.tables import geometry_table, material_table, refresh, with_tables
+from scripts.docs.tables import geometry_table, material_table, refresh, with_tables
 
 PAGE = Path(__file__).parents[2] / "docs" / "rendering.md"
 
 
 def test_the_page_has_the_tables_of_the_code() -> None:
     text = PAGE.read_text(encoding="utf-8")
-    assert refresh(text) == text, "run: python -m facade_nb.render.tables docs/rendering.md"
+    assert refresh(text) == text, "run: python -m scripts.docs.tables docs/rendering.md"
     assert geometry_table() in text and material_table() in text
 
 

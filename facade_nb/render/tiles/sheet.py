@@ -1,4 +1,4 @@
-"""A contact sheet of tiles, and the page of the docs that shows it: ``python -m facade_nb.render.tiles``."""
+"""A contact sheet of tiles."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .catalogue import CATALOGUE
 if TYPE_CHECKING:
     from .tileset import TileSet
 
-__all__ = ["sheet", "table"]
+__all__ = ["sheet"]
 
 _PAPER, _INK = (248, 246, 241), (70, 66, 60)
 
@@ -60,23 +60,3 @@ def sheet(tiles: TileSet, names: Sequence[str] | None = None, *, cell: int = 128
     file = BytesIO()
     page.save(file, "PNG", optimize=True)
     return file.getvalue()
-
-
-def table() -> str:
-    """The table of docs/tiles.md."""
-    lines = []
-    group = ""
-    for recipe in CATALOGUE.values():
-        if recipe.group != group:
-            group = recipe.group
-            lines += [
-                f"\n### {group}\n",
-                "| tile | what it shows | metres | goes on | companions |",
-                "|---|---|---|---|---|",
-            ]
-        tiling = {"xy": "both ways", "x": "sideways", "y": "upwards", "": ""}[recipe.tiling]
-        maps = ", ".join(f"`.{kind}`" for kind in recipe.maps)
-        lines.append(
-            f"| `{recipe.name}` | {recipe.summary} | {recipe.width:g} × {recipe.height:g} | {tiling} | {maps} |"
-        )
-    return "\n".join(lines).strip() + "\n"

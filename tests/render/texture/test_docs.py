@@ -11,14 +11,14 @@ import pytest
 from facade_nb.render import Grammar
 from facade_nb.render.texture.limits import MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS
 from facade_nb.render.texture.painters import PAINTERS
-from facade_nb.render.texture.tables import refresh
+from scripts.docs.texture import refresh
 
 PAGE = Path(__file__).parents[3] / "docs" / "texture.md"
 
 
 def test_the_page_has_the_tables_of_the_code() -> None:
     text = PAGE.read_text("utf-8")
-    assert refresh(text) == text, "run: python -m facade_nb.render.texture.tables docs/texture.md"
+    assert refresh(text) == text, "run: python -m scripts.docs.texture docs/texture.md"
     assert "| 13 | `MatAlpha(" in text and "`Repeat" in text
 
 

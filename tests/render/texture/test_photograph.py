@@ -16,7 +16,6 @@ from facade_nb.render.camera import Camera
 from facade_nb.render.developing import developed
 from facade_nb.render.texture import Grammar
 from facade_nb.render.texture.daytime import Daytime, light
-from facade_nb.render.texture.exhibits import EXHIBITS, exhibit, layout_exhibit
 from facade_nb.render.texture.facades import Facade, box, meet, sees
 from facade_nb.render.texture.osmesa import OSMesaContext
 from facade_nb.render.texture.painters import PAINTERS
@@ -25,6 +24,7 @@ from facade_nb.render.texture.picture import texture_pixels
 from facade_nb.render.texture.shaders import shader
 from facade_nb.render.texture.view import Sight
 from facade_nb.render.tiles import TileSet
+from scripts.docs.exhibits import EXHIBITS, exhibit, layout_exhibit
 
 PLAIN = Grammar.parse(
     "S -> Mat(Color, 0, 0.5, 0.5, 0.5, 1)  Red -> Mat(Color, 0, 1, 0, 0, 1)  Veil -> Mat(Color, 0, 0, 0, 1, 0.25)"

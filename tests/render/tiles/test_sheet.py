@@ -8,13 +8,13 @@ from pathlib import Path
 from PIL import Image
 
 from facade_nb.render.tiles import CATALOGUE, TileSet, sheet
-from facade_nb.render.tiles.sheet import table
+from scripts.docs.tiles import table
 
 PAGE = Path(__file__).parents[3] / "docs" / "tiles.md"
 
 
 def test_the_page_has_the_tables_of_the_code() -> None:
-    assert table() in PAGE.read_text(encoding="utf-8"), "run: python -m facade_nb.render.tiles"
+    assert table() in PAGE.read_text(encoding="utf-8"), "run: python -m scripts.docs.tiles"
 
 
 def test_the_picture_of_the_page_is_small_and_whole() -> None:

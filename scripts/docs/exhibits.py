@@ -1,4 +1,4 @@
-"""The texture grammars of the gallery as pictures: ``python -m facade_nb.render.texture.exhibits FOLDER [NAME …]``.
+"""The texture grammars of the gallery as pictures: ``python -m scripts.docs.exhibits FOLDER [NAME …]``.
 
 The name of a design of the gallery gives its layout drawn by a grammar, by day and by night.
 
@@ -16,16 +16,16 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from ...design.errors import DesignError, Fault, nearest
-from ...gallery import grammar as grammar_text
-from ...gallery import load, names
-from ...solver import solve
-from ..camera import Camera
-from ..tiles import TileSet
-from .facades import Facade, box
-from .from_layout import grammar_of
-from .grammar import Grammar
-from .photograph import STANDPOINT, Photo, flat, photographs, save_picture
+from facade_nb.design.errors import DesignError, Fault, nearest
+from facade_nb.gallery import grammar as grammar_text
+from facade_nb.gallery import load, names
+from facade_nb.render.camera import Camera
+from facade_nb.render.texture.facades import Facade, box
+from facade_nb.render.texture.from_layout import grammar_of
+from facade_nb.render.texture.grammar import Grammar
+from facade_nb.render.texture.photograph import STANDPOINT, Photo, flat, photographs, save_picture
+from facade_nb.render.tiles import TileSet
+from facade_nb.solver import solve
 
 __all__ = ["EXHIBITS", "Exhibit", "View", "exhibit", "layout_exhibit", "street"]
 

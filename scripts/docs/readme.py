@@ -1,4 +1,4 @@
-"""The pictures of the README and the documentation: ``python -m facade_nb.render.readme [FOLDER]``.
+"""The pictures of the README and the documentation: ``python -m scripts.docs.readme [FOLDER]``.
 
 It solves the residential house of the gallery and writes ``residential-house.png`` (the building in the morning) and
 ``residential-house.svg`` (its elevation) into the folder, by default ``docs/img``.
@@ -9,17 +9,16 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from ..design.files import write_atomically
-from ..solver import solve
-from . import elevation_svg, render_png
+from facade_nb.design.files import write_atomically
+from facade_nb.gallery import load
+from facade_nb.render import elevation_svg, render_png
+from facade_nb.solver import solve
 
 __all__ = ["main"]
 
 
 def main(folder: Path) -> list[Path]:
     """Write the pictures into a folder, which is made if it is missing, and return their paths."""
-    from ..gallery import load
-
     folder.mkdir(parents=True, exist_ok=True)
     layout = solve(load("residential-house"))
     picture, drawing = folder / "residential-house.png", folder / "residential-house.svg"

@@ -1,4 +1,4 @@
-"""The tables of docs/rendering.md, from the registries: ``python -m facade_nb.render.tables docs/rendering.md``.
+"""The tables of docs/rendering.md, from the registries: ``python -m scripts.docs.tables docs/rendering.md``.
 
 `with_tables` is for the tables of other pages as well.
 """
@@ -9,9 +9,9 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..design.files import write_atomically
-from .geometry import GEOMETRIES
-from .materials import DEFAULT_MATERIAL, MATERIALS
+from facade_nb.design.files import write_atomically
+from facade_nb.render.geometry import GEOMETRIES
+from facade_nb.render.materials import DEFAULT_MATERIAL, MATERIALS
 
 __all__ = ["geometry_table", "material_table", "refresh", "with_tables"]
 

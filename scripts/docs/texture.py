@@ -1,13 +1,14 @@
-"""The tables of docs/texture.md: ``python -m facade_nb.render.texture.tables docs/texture.md``."""
+"""The tables of docs/texture.md: ``python -m scripts.docs.texture docs/texture.md``."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
 
-from ...design.files import write_atomically
-from ..tables import with_tables
-from .operators import OPERATORS, Kind, Operator
+from facade_nb.design.files import write_atomically
+from facade_nb.render.texture.operators import OPERATORS, Kind, Operator
+
+from .tables import with_tables
 
 __all__ = ["channel_table", "operator_table", "refresh"]
 
