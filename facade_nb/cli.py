@@ -1,4 +1,4 @@
-"""The command line: ``python -m facade_nb solve DESIGN.json`` and ``… render GRAMMAR.txt`` (SPEC 6).
+"""The command line: ``python -m facade_nb solve DESIGN.json`` and ``… render GRAMMAR.txt``.
 
 Exit status 0: done; 2: the input is at fault; 3: the design has no layout, and nothing but its trace is written;
 1: a drawing that this machine cannot make. Messages go to stderr, without a traceback. Everything is computed before

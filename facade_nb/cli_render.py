@@ -1,4 +1,4 @@
-"""``python -m facade_nb render GRAMMAR.txt``: a picture of a texture grammar (SPEC 6)."""
+"""``python -m facade_nb render GRAMMAR.txt``: a picture of a texture grammar (docs/texture.md)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How near a layout comes to surveyed openings of a real building (SPEC 6).
+"""How near a layout comes to surveyed openings of a real building (docs/gallery.md).
 
 >>> from facade_nb import gallery, solve
 >>> from facade_nb.survey import compare, load_survey

@@ -1,4 +1,4 @@
-"""Design documents: read with every fault told at once, written compactly and atomically (SPEC 1)."""
+"""Design documents: read with every fault told at once, written compactly and atomically (docs/documents.md)."""
 
 from __future__ import annotations
 

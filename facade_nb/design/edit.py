@@ -1,6 +1,6 @@
 """Edits of a design: each makes a new design and checks it like a document that is read.
 
-Fields are given as in documents (SPEC 1); None takes a field back to its default. Every function raises
+Fields are given as in documents (docs/documents.md); None takes a field back to its default. Every function raises
 `DesignError`, with places as in the document, if the outcome would not be valid; the design given stays as it is.
 """
 

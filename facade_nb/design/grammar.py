@@ -1,4 +1,4 @@
-"""The grammar of patterns and what is said where a text breaks it (SPEC 2)."""
+"""The grammar of patterns and what is said where a text breaks it (docs/patterns.md)."""
 
 from __future__ import annotations
 

@@ -152,7 +152,7 @@ class Design:
 
     @classmethod
     def from_dict(cls, document: Mapping[str, Any]) -> Design:
-        """Read a design document (SPEC 1). Raises `DesignError` with every fault in it."""
+        """Read a design document (docs/documents.md). Raises `DesignError` with every fault in it."""
         from .document import read
 
         return read(document)

@@ -1,4 +1,4 @@
-"""Patterns: read from text, printed, and spelled out as words (SPEC 2; paper 3.2 to 3.4, supplement 1.1).
+"""Patterns: read from text, printed, and spelled out as words (the paper's 3.2 to 3.4, supplement 1.1).
 
 >>> pattern = parse("yBmAm^-1By; m := (AB)^k")
 >>> [" ".join(map(str, word)) for word in pattern.words({"k": 1})]
@@ -285,7 +285,7 @@ def _substitute(control: Spelling, chosen: Mapping[str, Spelling]) -> Iterator[G
 
 @lru_cache(maxsize=1024)
 def parse(text: str) -> Pattern:
-    """Read a pattern text (SPEC 2). Cached by text.
+    """Read a pattern text (docs/patterns.md). Cached by text.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Patterns from text: lark's parse tree made a `Pattern`, and the checks that no grammar can make (SPEC 2)."""
+"""Patterns from text: lark's parse tree made a `Pattern`, and the checks that no grammar can make."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The sections of a design document, read one after the other, every fault noted (SPEC 1)."""
+"""The sections of a design document, read one after the other, every fault noted (docs/documents.md)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tree of a pattern, its printed form and the words it makes (SPEC 2; paper 3.2, supplement 1.1)."""
+"""The tree of a pattern, its printed form and the words it makes (the paper's 3.2, supplement 1.1)."""
 
 from __future__ import annotations
 

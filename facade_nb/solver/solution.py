@@ -1,4 +1,4 @@
-"""The solver's front door: a design in, a layout out (SPEC 3; the paper's section 5)."""
+"""The solver's front door: a design in, a layout out (the paper's section 5; docs/problem.md)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The alignment of given words as a mixed-integer programme: what the solver's own search is measured against.
 
-Exact (SPEC 3, *Columns* and *Objective*), and nothing here is of the solver's search. Every column that the
+Exact (docs/problem.md), and nothing here is of the solver's search. Every column that the
 constraints and the tolerance allow is made beforehand: it is an arc between two states of the words, and an alignment
 is a path. Where every letter has its size the price of an arc is a number, and the relaxation is the shortest-path
 polytope, cut by nothing but the canvas. Where letters are cut, or have no size, each arc has lengths of its own, which

@@ -1,4 +1,4 @@
-"""Design documents: every fault at once, round trips, files (SPEC 1)."""
+"""Design documents: every fault at once, round trips, files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The pattern language: known answers of the papers, words, printing, limits (SPEC 2)."""
+"""The pattern language: known answers of the papers, words, printing, limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An independent answer to what `facade_nb.solver.align` computes, written from SPEC 3 alone, slow and plain."""
+"""An independent answer to what `facade_nb.solver.align` computes: docs/problem.md, slow and plain."""
 
 from .alignment import Best, TooBig, best
 from .cases import Case, make_case

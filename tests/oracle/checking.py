@@ -1,4 +1,4 @@
-"""Whether a given alignment keeps to SPEC 3, and what it costs: plain arithmetic on its columns."""
+"""Whether a given alignment keeps to docs/problem.md, and what it costs: plain arithmetic on its columns."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Measure:
 
 
 def measure(group: Group, columns: Sequence[Cells], canvas: float, weights: Weights) -> Measure:
-    """Ω, J and W from the sizes in the columns (SPEC 3, Columns and Objective)."""
+    """Ω, J and W from the sizes in the columns (docs/problem.md)."""
     rows_with = [group.word_of.count(word) for word in group.word_of]
     shares = [1.0 / len(group.words) / number for number in rows_with]
     omega = empty = loose = total = worst = 0.0

@@ -117,7 +117,7 @@ class Program:
             return Sum(letter.size)
         if not letter.transparent:
             raise ValueError(
-                f"solid letter {letter.symbol} without a size: SPEC 1 keeps unsized symbols transparent"
+                f"solid letter {letter.symbol} without a size: unsized symbols are transparent (docs/documents.md)"
             )
         if letter.symbol not in self.unsized:
             self.unsized[letter.symbol] = self.variable(("size", letter.symbol))

@@ -1,7 +1,7 @@
-"""The least J of a small design by exhaustive search, and whether a structure can be sized: SPEC 3, slow and plain.
+"""The least J of a small design by exhaustive search, and whether a structure can be sized (docs/problem.md).
 
 Patterns and their words are the package's (`facade_nb.design`, tested on its own); which words make a candidate, what
-a candidate costs, and which sizes an alignment allows are worked out here from SPEC 3.
+a candidate costs, and which sizes an alignment allows are worked out here from docs/problem.md.
 """
 
 from __future__ import annotations
@@ -277,7 +277,7 @@ def _next_best(design: Design, rows: Sequence[Rows], canvas: float, tolerance: f
 def sizable(
     design: Design, parts: Sequence[tuple[Group, Sequence[Column]]], canvas: float, least: float = 1e-3
 ) -> bool:
-    """Whether some sizes satisfy SPEC 3, *Sizing*, for the structures of all groups together.
+    """Whether some sizes satisfy docs/problem.md, *Sizing*, for the structures of all groups together.
 
     A linear programme makes the least length as large as it can be; it must come out above `least`, or below it by a
     tenth: in between it is a matter of taste what is positive, and we raise `ArithmeticError`.

@@ -1,4 +1,4 @@
-"""Every way to cut rows into columns, from the words of SPEC 3 alone (nothing of the solver's search is used)."""
+"""Every way to cut rows into columns, from the words of docs/problem.md alone."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ def finished(group: Group, states: tuple[State, ...]) -> bool:
 
 
 def enumerate_structures(rows: Sequence[Sequence[Letter]], cuts: bool) -> Iterator[tuple[Column, ...]]:
-    """Every sequence of columns that SPEC 3 allows, whatever it costs. Only for very small rows."""
+    """Every sequence of columns that docs/problem.md allows, whatever it costs. Only for very small rows."""
     group = Group.of(rows)
 
     def extend(columns: tuple[Column, ...], states: tuple[State, ...]) -> Iterator[tuple[Column, ...]]:

@@ -1,4 +1,4 @@
-"""`align` against exhaustive search (`tests.oracle`): SPEC 3, "equal to exhaustive search wherever that can be run"."""
+"""`align` against exhaustive search (`tests.oracle`): equal wherever that can be run."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def compare(case: Case, search: str, limit: int | None = None) -> None:
     assert found.cost == pytest.approx(expected.cost, abs=1e-6), case
     if (
         expected.strict_columns is not None
-    ):  # else each optimum has a piece of no length, and SPEC says not how many
+    ):  # else each optimum has a piece of no length, and nobody says how many
         assert len(found.columns) == expected.strict_columns, case
 
 
@@ -114,14 +114,14 @@ def test_found_by_long_runs(rows: list[str], canvas: float, tolerance: float, se
 
 
 def test_objective_is_the_default_of_solving() -> None:
-    """The weights that the oracle takes for SPEC's default are those of the package."""
+    """The weights that the oracle takes for the default are those of the package."""
     ours = Objective()
     assert (ours.empty, ours.loose, ours.fit) == (DEFAULT.empty, DEFAULT.loose, DEFAULT.fit)
 
 
 @pytest.mark.parametrize("search", ["best", "ida"])
 def test_a_row_that_has_no_letters(search: str) -> None:
-    """Alone, the paper's Ω is degenerate: an empty lower word costs nothing (SPEC 3)."""
+    """Alone, the paper's Ω is degenerate: an empty lower word costs nothing (docs/problem.md)."""
     found = align([[Letter("A", 3.0)], []], canvas=3.0, search=search)
     assert found is not None and found.error == 0.0
     assert [[len(cell) for cell in column] for column in found.columns] == [[1, 0]]

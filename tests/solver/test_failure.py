@@ -1,4 +1,4 @@
-"""Why there is no layout: each kind of `NoLayout`, its text and what it points at (SPEC 3, *Failure*)."""
+"""Why there is no layout: each kind of `NoLayout`, its text and what it points at."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def columns_of(group: Group, found: Found) -> list[str]:
 
 
 class TestKnownAnswers:
-    """SPEC 7."""
+    """The paper's figures."""
 
     ROWS = ("C:2 e:8 C:2", "A:2 B:3 A:2 B:3 A:2")
 
@@ -345,6 +345,6 @@ def test_the_page_about_it() -> None:
 
 
 def test_align_uses_it() -> None:
-    """`align` takes this search unless told otherwise (SPEC 6)."""
+    """`align` takes this search unless told otherwise (its docstring)."""
     found = align([letters("C:2 e:8 C:2"), letters("A:2 B:3 A:2 B:3 A:2")], cuts=False)
     assert found is not None and str(found) == "C/A | e/B A B | C/A"

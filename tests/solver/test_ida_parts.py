@@ -140,7 +140,7 @@ class TestWeighing:
 
 
 def _allowed(group: Group, options: Sequence[Option], owed: bool) -> bool:
-    """The constraints on one column, word for word (SPEC 3)."""
+    """The constraints on one column, word for word (docs/problem.md)."""
     present = [o for o in options if not o.empty]
     if not present or (owed and not any(o.begins for o in present)):
         return False

@@ -1,4 +1,4 @@
-"""Known answers of the paper and its supplement, asked of `words` and of `solve` (SPEC 7)."""
+"""Known answers of the paper and its supplement, asked of `words` and of `solve`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From two solved axes to shapes: what is shown, what it looks like, what hides what, and holes (SPEC 3, *Result*)."""
+"""From two solved axes to shapes: what is shown, what it looks like, what hides what, and holes."""
 
 from __future__ import annotations
 

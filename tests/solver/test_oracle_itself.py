@@ -1,4 +1,4 @@
-"""The oracle of `tests.oracle`: it gives the known answers of SPEC 7, and agrees with plain enumeration."""
+"""The oracle of `tests.oracle`: it gives the papers' known answers, and agrees with plain enumeration."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class TestFigure8:
         assert [sum(x.size or 0.0 for x in column[0]) for column in columns] == pytest.approx([2, 3, 2, 3, 2])
 
     def test_the_papers_three_options_add_up(self) -> None:
-        """Its table errs in the sums: errors 12, 10 and 4, sizes 18, 22 and 16 (SPEC 7)."""
+        """Its table errs in the sums: errors 12, 10 and 4, sizes 18, 22 and 16."""
         f, e, a, b, c = (Letter(x, FIGURE_8[x], x in "ef") for x in "feABC")
         group = Group.of([word("fAf", FIGURE_8, see_through="f"), *self.rows])
         options: list[list[tuple[tuple[Letter, ...], ...]]] = [

@@ -1,4 +1,4 @@
-"""Façade textures by grammar, evaluated for each pixel (texture paper; SPEC 5).
+"""Façade textures by grammar, evaluated for each pixel (the texture paper; docs/texture.md).
 
 A text is compiled (`compiling`) into rules (`program`), which are checked (`checks`) and written into a texture
 (`encoding`), all by one table of operators (`operators`). Two evaluators read that texture: one in NumPy

@@ -1,4 +1,4 @@
-"""What can be wrong with rules as a whole: probabilities, endless recursion, stacks, values out of range (SPEC 5)."""
+"""What can be wrong with rules as a whole: probabilities, endless recursion, stacks, values out of range."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The reference evaluator, in NumPy: a grammar at many points at once (texture paper, 3; SPEC 5).
+"""The reference evaluator, in NumPy: a grammar at many points at once (the texture paper's 3; docs/texture.md).
 
 It is written for reading; the shader (`glsl/texture`) does the same for one pixel, faster. Points that stand at the
 same rule on the same way go on together, as a `Batch`. An operator takes a batch and gives it on, divided among the

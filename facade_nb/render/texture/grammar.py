@@ -1,4 +1,4 @@
-"""A texture grammar: read, checked, encoded, evaluated (SPEC 5 and 6).
+"""A texture grammar: read, checked, encoded, evaluated (docs/texture.md).
 
 >>> grammar = Grammar.parse("S -> SplitX(Abs, 1, Red, Rel, 1, Blue)  Red -> Mat(Color, 0, 1, 0, 0, 1)"
 ...                         "  Blue -> Mat(Color, 0, 0, 0, 1, 1)")

@@ -1,4 +1,4 @@
-"""Random numbers: a noise texture, looked up at a corner plus the seed, in steps of 1/64 m (SPEC 5).
+"""Random numbers: a noise texture, looked up at a corner plus the seed, in steps of 1/64 m (the texture paper's 3).
 
 Corner and seed are kept apart. The seed is split, in 64 bits, into whole steps and a rest below one; the corner and the
 rest, both small, are rounded to whole steps together, and the seed's whole steps are added as integers. So a large

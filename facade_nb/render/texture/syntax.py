@@ -1,4 +1,4 @@
-"""The language of texture grammars: from text to statements (SPEC 5; texture paper, 3 and Figure 12).
+"""The language of texture grammars: from text to statements (the texture paper's 3 and Figure 12; docs/texture.md).
 
     namespace office {
       width = 1.2                                   # a setting: a parameter of the namespace, with its default

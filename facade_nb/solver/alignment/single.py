@@ -1,4 +1,4 @@
-"""Aligning one candidate of one group: the call that checks and lessons use (SPEC 6)."""
+"""Aligning given words: one candidate of one group (the paper's 5.2)."""
 
 from __future__ import annotations
 

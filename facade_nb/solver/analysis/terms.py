@@ -226,7 +226,7 @@ def check_ways(ways: int) -> None:
 
 
 def _counted(base: Runs, count: Count, counters: Counters) -> Runs:
-    """A count of one word of its base, in any mode (SPEC 2, Table 1 of the supplement)."""
+    """A count of one word of its base, in any mode (the supplement's Table 1)."""
     times, sign = counters.times(count)
     if not times or not base:
         return []

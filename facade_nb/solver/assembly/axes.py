@@ -1,4 +1,4 @@
-"""From the best candidate of an axis to its layout (SPEC 3, *Result*)."""
+"""From the best candidate of an axis to its layout (docs/problem.md)."""
 
 from __future__ import annotations
 

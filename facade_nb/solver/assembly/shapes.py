@@ -1,4 +1,4 @@
-"""From two solved axes to shapes: the outer product of each layer, what hides what, and holes (SPEC 3, *Result*)."""
+"""From two solved axes to shapes: the outer product of each layer, what hides what, and holes (docs/problem.md)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The layout: where every letter stands and which shapes that makes (SPEC 4). y grows upwards."""
+"""The layout: where every letter stands and which shapes that makes (docs/documents.md). y grows upwards."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ class Layout:
         return self.x if axis == "x" else self.y
 
     def to_dict(self) -> dict[str, Any]:
-        """The layout document of SPEC 4."""
+        """The layout document (docs/documents.md)."""
         return {
             "format": "facade-nb/layout/1",
             "name": self.name,

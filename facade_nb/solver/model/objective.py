@@ -1,4 +1,4 @@
-"""What is minimised (SPEC 3, *Objective*; the paper's 5.2).
+"""What is minimised (docs/problem.md; the paper's 5.2).
 
 Both objectives are sums over columns of an alignment, in metres, with ties broken by the larger number of
 columns.

@@ -1,4 +1,4 @@
-"""One axis: from its words to the best candidate, aligned and sized (SPEC 3, *Which candidate*)."""
+"""One axis: from its words to the best candidate, aligned and sized (docs/problem.md, *Which candidate*)."""
 
 from __future__ import annotations
 

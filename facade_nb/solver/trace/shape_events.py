@@ -1,4 +1,4 @@
-"""Which pairs of letters make no shape, and why (SPEC 3, *Result*)."""
+"""Which pairs of letters make no shape, and why (docs/problem.md)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An evaluator of texture grammars from SPEC 5 and the texture paper alone: one point, plain Python, 64-bit floats.
+"""An evaluator of texture grammars from the docs and the paper alone: one point, plain Python, 64-bit floats.
 
 It follows the parsed rules, not their texture, with every number rounded to 16 bits as the texture rounds it. A layer
 is a generator of what it paints; whoever listens stops when colour is opaque. Beside the answer it says how near the

@@ -1,4 +1,4 @@
-"""``python -m facade_nb render``: what it writes, what it says, and how it ends (SPEC 6)."""
+"""``python -m facade_nb render``: what it writes, what it says, and how it ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The NumPy evaluator against one made from the SPEC alone, and against known answers."""
+"""The NumPy evaluator against one made from docs/texture.md and the paper alone, and against known answers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The GLSL evaluator against the NumPy one, pixel by pixel (SPEC 5)."""
+"""The GLSL evaluator against the NumPy one, pixel by pixel."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The language: what is read as what, and every fault with its place (SPEC 5)."""
+"""The language: what is read as what, and every fault with its place."""
 
 from __future__ import annotations
 

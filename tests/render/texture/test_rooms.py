@@ -1,4 +1,4 @@
-"""Rooms: the parallax against ray casting into explicit boxes in the world's coordinates (SPEC 5)."""
+"""Rooms: the parallax against ray casting into explicit boxes in the world's coordinates."""
 
 from __future__ import annotations
 

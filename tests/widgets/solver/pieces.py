@@ -60,7 +60,7 @@ def _pair(over: str, under: str, counters: Mapping[str, Any] | None = None) -> D
 
 
 def _figure_8(search: str = "best") -> Trace:
-    """The network of (CeC, ABABA), with SPEC 7's sizes."""
+    """The network of (CeC, ABABA), with the sizes of Figure 8."""
     return solve(gallery.load("figure-8"), search=search, trace=True).trace
 
 
