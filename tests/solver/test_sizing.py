@@ -1,4 +1,4 @@
-"""Sizes and places: every constraint of docs/problem.md, *Sizing*, on the layout itself; and that no sizes are better."""
+"""Sizes and places: every constraint of docs/problem.md on the layout itself; and that no sizes are better."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ class Group:
     guards: tuple[tuple[int, ...], ...]
     """Per band: the bands with a row above one of its rows (C3), itself among them where it has several rows."""
     weights: tuple[float, ...]
-    """Per band: what a metre that it falls short of W costs at least (see `network.shortfall`)."""
+    """Per band: what a metre that it falls short of W costs at least (see `reference.shortfall`)."""
     tall: bool = False
     """So many rigid bands that `skeleton` bounds what they cost."""
     reference: int | None = None
@@ -64,7 +64,7 @@ class Group:
     identity: object = None
     """Groups with the same identity are aligned and sized alike."""
     edges: dict[Any, Any] = field(default_factory=dict)
-    """Edges of the network already made, by node (see `network.edges`)."""
+    """Edges of the network already made, by node (see `reference.edges`)."""
 
     @property
     def by_empty(self) -> float:
@@ -122,7 +122,7 @@ def make_group(
         Unsized symbols that stand once in all that is aligned together: nothing ties their size. None:
         counted here.
     check
-        Called now and then; may raise `search.Stopped`.
+        Called now and then; may raise `budget.Stopped`.
     """
     words: dict[tuple[Letter, ...], list[int]] = {}
     for index, row in enumerate(rows):

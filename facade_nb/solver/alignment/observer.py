@@ -20,7 +20,7 @@ Places = tuple[int, ...]
 
 
 class Partial(Protocol):
-    """What is read of a partial path (`network.Path`), and not before the trace is."""
+    """What is read of a partial path (`reference.paths.Path`), and not before the trace is."""
 
     @property
     def group(self) -> int:

@@ -52,7 +52,7 @@ __all__ = ["Analysis", "Conflict", "Equation", "LinearSystem", "Row", "Strength"
 def analyse(problem: AxisProblem, check: Callable[[], None] | None = None) -> Analysis:
     """Compare every pair of patterns of an axis (supplement 3.1). Never fails: what it cannot tell, it says.
 
-    `check` is called now and then; it may raise `search.Stopped`.
+    `check` is called now and then; it may raise `budget.Stopped`.
     """
     return _Analyser(problem, check).result()
 

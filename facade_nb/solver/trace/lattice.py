@@ -55,7 +55,7 @@ class LatticeNode:
     places
         Per word: twice the letters read, and one more inside a cut letter.
     position, owed
-        What the constraints ask of the column before (`columns.Position`); whether no letter ended there. Nodes
+        What the constraints ask of the column before (`elements.Position`); whether no letter ended there. Nodes
         with equal places differ in these only.
     reachable, alive
         Whether permitted edges lead to it from the first node, and from it to the last.

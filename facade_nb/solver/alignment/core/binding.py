@@ -313,7 +313,7 @@ def _structure(groups: Sequence[Group], numbers: Sequence[int]) -> Structure:
 
 
 class CompiledSearch:
-    """Does what `search.BestFirst` does, and has its attributes.
+    """Does what `reference.best_first.BestFirst` does, and has its attributes.
 
     Attributes
     ----------

@@ -4,8 +4,8 @@ A row is at a *spot* at each boundary between columns: before a letter, or withi
 So an alignment is a matrix of spots, one row per band, one column per boundary. In a column between two spots stands a
 run of solid letters, or pieces of transparent ones, or nothing.
 
-J is counted as in docs/problem.md, but for this: pieces take whatever is left for them, and a transparent letter that is to
-have a size pays 1 a metre by which the columns it spans miss that. What a structure really costs says `pricing.price`.
+J is counted as in docs/problem.md, but for this: pieces take whatever is left for them, and a transparent letter that
+is to have a size pays 1 a metre by which the columns it spans miss that. What a structure really costs says `pricing.price`.
 """
 
 from __future__ import annotations

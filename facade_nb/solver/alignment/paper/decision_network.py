@@ -5,7 +5,7 @@ heads; its steps form a square lattice with as many dimensions as there are word
 transitive closure of that lattice: an edge reads any number of letters with each head, and what it reads is a
 column of the alignment. A path from the first state to the last is an alignment.
 
-Here a node also says what the constraints have to know of the column before (see `columns.Position`), and
+Here a node also says what the constraints have to know of the column before (see `elements.Position`), and
 whether a letter of any word ended there. Transparent letters may be cut, which gives a head a second place in
 each of them.
 

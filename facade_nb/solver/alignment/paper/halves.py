@@ -41,7 +41,7 @@ class Half:
     spans
         See `remainder.Remainder.shortfall`.
     ledger
-        What is known of the tied letters it has cut (`lengths`).
+        What is known of the tied letters it has cut (`pieces`).
     trail
         The columns whose price depends on lengths in ways the ledger does not tell.
     lax

@@ -34,12 +34,12 @@ def search_ida(
     observer: Observer | None = None,
     patience: int = 300,
 ) -> Found:
-    """Like `search.search`, and with the same result.
+    """Like `core.search.search_best`, and with the same result.
 
     Parameters
     ----------
     observer
-        Is told what happens (`paper.observer`). Nothing that was weighed before is used then, so that it is
+        Is told what happens (`alignment.observer`). Nothing that was weighed before is used then, so that it is
         told everything.
     patience
         So many partial alignments are taken up before a good alignment is looked for by prealigning and

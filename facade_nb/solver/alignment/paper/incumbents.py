@@ -1,7 +1,7 @@
 """Good alignments, soon: what the exact search need not exceed.
 
 The paper aligns control patterns first, and many words pair by pair. Both leave out almost everything, which is
-what makes them fast, and may leave out the best. Here they are searches along guides (`prealign`, `merging`,
+what makes them fast, and may leave out the best. Here they are searches along guides (`prealignment`, `word_pairs`,
 `guides`): what they find is an alignment like any other, priced exactly, and sets the limit of the exact search.
 """
 

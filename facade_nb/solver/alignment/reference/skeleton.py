@@ -44,7 +44,7 @@ _WINDOW = 6
 
 
 def greatest_width(group: Group, limit: float) -> float:
-    """The largest W of an alignment that costs at most `limit` (see `network.shortfall`)."""
+    """The largest W of an alignment that costs at most `limit` (see `reference.shortfall`)."""
     top = group.canvas + group.tolerance
     rests = sorted(
         (band.rest_max[0], weight) for band, weight in zip(group.bands, group.weights, strict=True)
