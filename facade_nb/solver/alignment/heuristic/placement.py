@@ -5,7 +5,8 @@ So an alignment is a matrix of spots, one row per band, one column per boundary.
 run of solid letters, or pieces of transparent ones, or nothing.
 
 J is counted as in docs/problem.md, but for this: pieces take whatever is left for them, and a transparent letter that
-is to have a size pays 1 a metre by which the columns it spans miss that. What a structure really costs says `pricing.price`.
+is to have a size pays 1 a metre by which the columns it spans miss that. What a structure really costs says
+`pricing.price`.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ A column takes an element from every word. There are exponentially many, nearly 
 differ by more than the tolerance, or leave rows behind that can no longer be aligned well. They are never
 formed:
 
-1. Every word is paired with the reference, and the tolerance region of the two is traced (`tolerance_region`). Beside an
+1. Every word is paired with the reference, and the tolerance region of the two is traced. Beside an
    element of the reference only those of the region are looked at, and ε and elastic elements, which fit
    anything. A row with a non-opaque letter need not fill its column (supplement 3.4), so that one border of
    the region is open for it.
