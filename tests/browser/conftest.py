@@ -19,7 +19,7 @@ expect.set_options(timeout=1000 * LIMIT)
 HOUSE = """
 from facade_nb import Design, gallery
 from facade_nb.widgets import *
-model = FacadeModel(gallery.load("residential-house"))
+model = FacadeModel(gallery.load("residential-house"), time_limit=600.0)
 """
 
 TRACED = """

@@ -196,7 +196,7 @@ def test_the_reader_predicts_words(watch: Watch) -> None:
 
 def test_a_live_model_is_followed(watch: Watch) -> None:
     lab = watch("""
-        model = FacadeModel(gallery.load("residential-house"))
+        model = FacadeModel(gallery.load("residential-house"), time_limit=600.0)
         display(CanvasEditor(model), WordsView(model))
     """)
     page = lab.page
