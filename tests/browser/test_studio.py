@@ -176,14 +176,18 @@ def test_a_missing_symbol_can_be_added_from_the_fault(studio: Notebook) -> None:
 
 
 def test_a_design_without_a_layout_says_why_and_keeps_the_last_facade(studio: Notebook) -> None:
-    studio.retype("Least value of counter k", "40")
+    field = studio.retype("Least value of counter k", "4")  # which has a layout, with more bays
+    expect(studio.page.locator(".fnb-counter[data-counter=k] .fnb-solved")).to_have_text("5")
+    shapes(studio, 25)
+    field.press("0")
     expect(studio.page.locator(".fnb-status")).to_have_attribute("data-state", "none")
     expect(studio.page.locator(".fnb-elevation .fnb-tag")).to_be_visible()
     expect(studio.page.locator(".fnb-status-text")).to_have_text(studio.python("model.message"))
-    shapes(studio, 17)
+    shapes(studio, 25)
     studio.retype("Least value of counter k", "")
     expect(studio.page.locator(".fnb-elevation .fnb-tag")).to_be_hidden()
     status(studio, "Solved in")
+    shapes(studio, 17)
 
 
 def test_undo_and_redo_by_buttons_and_keys(studio: Notebook) -> None:
