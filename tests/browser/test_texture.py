@@ -183,6 +183,15 @@ def test_light_agrees_with_numpy(live: Live, hour: float) -> None:
     assert agreeing(lab, 4, 0.01)[..., :3].std() > 10
 
 
+# The states that the picture goes through: a state may be gone before one looks.
+WATCH = """() => {
+    const canvas = document.querySelector(".fnb-tex-canvas");
+    window.states = [];
+    new MutationObserver(() => window.states.push(canvas.dataset.state))
+        .observe(canvas, { attributeFilter: ["data-state"] });
+}"""
+
+
 @pytest.mark.parametrize("options", ["lit=False", "hour=9.5"])
 def test_at_rest_the_picture_is_antialiased_as_offscreen_pictures_are(live: Live, options: str) -> None:
     lab = live(f"""
@@ -200,8 +209,9 @@ def test_at_rest_the_picture_is_antialiased_as_offscreen_pictures_are(live: Live
     assert np.abs(smooth - truth)[edges].mean() < 0.25 * np.abs(raw - truth)[edges].mean()
     # It begins anew when one moves, and comes back to the same picture.
     turn = lab.python("view.turn")
+    lab.page.evaluate(WATCH)
     lab.python("[setattr(view, 'turn', 20.0)]")
-    expect(lab.page.locator(".fnb-tex-canvas")).to_have_attribute("data-state", "moving")
+    lab.page.wait_for_function("() => window.states.includes('moving')")
     lab.python(f"[setattr(view, 'turn', {turn})]")
 
     def back() -> None:
