@@ -288,11 +288,11 @@ def test_faults_are_told_by_every_part(live: Live) -> None:
     expect(note).to_be_hidden()
     expect(listed).to_be_hidden()
     expect(lab.page.locator(".fnb-tex-faults")).to_have_text(lab.python("model.grammar.report()"))
-    coloured(lab, [255, 0, 0, 255])
+    until(lab.page, lambda: pixels(lab)[..., 0].max() > 200)
     retype(area, "S -> Mat(Color, 0, 1, 0, 0)")
     expect(note).to_contain_text("this is the picture of what it was before")
     expect(lab.page.locator(".fnb-tex-canvas")).to_be_visible()
-    coloured(lab, [255, 0, 0, 255])
+    until(lab.page, lambda: pixels(lab)[..., 0].max() > 200)
 
 
 def test_the_step_looked_at_is_in_sight(live: Live) -> None:
