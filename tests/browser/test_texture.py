@@ -540,7 +540,7 @@ def test_keys_and_pointer_move_about(live: Live) -> None:
 
 def test_sliders_and_buttons(live: Live) -> None:
     lab = live("""
-        view = TextureView(TEXT, hour=11.0, antialias='none', layout={'width': '420px'}, flat=False, turn=10.0)
+        view = TextureView(TEXT, hour=11.0, antialias='none', layout={'width': '300px'}, flat=False, turn=10.0)
         view
     """)
     last = pixels(lab)
