@@ -1,39 +1,60 @@
-"""Run all checks and tests, one after the other, and sum up at the end.
+"""Run all checks and tests, side by side where there are cores for it, and sum up at the end.
 
 Usage: python scripts/run_tests.py [NAME ...]
 
-Without names it runs everything in `STEPS`. A step that fails does not keep the later ones from running; the exit
-status is 1 if any failed. Run with the Python of `.venv`, after scripts/setup.py.
+Without names it runs everything in `STEPS`. Each step's output is printed as a whole when the step is over. A step
+that fails does not keep the others from running; the exit status is 1 if any failed. Stopped by a signal, it ends the
+steps that are still running, prints what they have printed by then, and sums up all the same. Run with the Python of
+`.venv`, after scripts/setup.py.
 """
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import os
-import subprocess
+import signal
 import sys
+import tempfile
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import BinaryIO
 
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ROOT / ".venv" / "bin"
 TOOLS = ROOT / "node_modules" / ".bin"
 PYTHON = BIN / "python"
 PYTEST = (PYTHON, "-m", "pytest", "-q", "--durations=8")
+CORES = os.cpu_count() or 1
+GRACE = 20.0  # seconds that a step has to end when it is told to
 
-# The browser tests start servers and a browser of their own, so they run alone; the rest shares the cores.
-STEPS: dict[str, Sequence[str | Path]] = {
-    "ruff": (BIN / "ruff", "check"),
-    "format": (BIN / "ruff", "format", "--check"),
-    "mypy": (BIN / "mypy",),
-    "imports": (BIN / "lint-imports", "--no-logo"),
-    "biome": (TOOLS / "biome", "ci", "--colors=off", "."),
-    "tsc": (TOOLS / "tsc", "--noEmit"),
-    "bundles": ("node", ROOT / "scripts" / "front.mjs", "--check"),
-    "core": (PYTHON, ROOT / "scripts" / "core.py", "--check"),
-    "vitest": (TOOLS / "vitest", "run"),
-    "pytest": (*PYTEST, "-n", "auto", "--dist", "loadfile", "tests", "--ignore=tests/browser"),
-    "browser": (*PYTEST, "tests/browser"),
+
+@dataclass(frozen=True)
+class Step:
+    """A command; `alone` if it takes all cores itself."""
+
+    command: Sequence[str | Path]
+    alone: bool = False
+
+
+# In the order in which they are started. The browser tests wait for a browser and a kernel by turns, so they take one
+# core for themselves; beside them the checks pass on the others, and then the Python tests have all.
+STEPS: dict[str, Step] = {
+    "browser": Step((*PYTEST, "tests/browser")),
+    "mypy": Step((BIN / "mypy",)),
+    "ruff": Step((BIN / "ruff", "check")),
+    "format": Step((BIN / "ruff", "format", "--check")),
+    "imports": Step((BIN / "lint-imports", "--no-logo")),
+    "biome": Step((TOOLS / "biome", "ci", "--colors=off", ".")),
+    "tsc": Step((TOOLS / "tsc", "--noEmit")),
+    "bundles": Step(("node", ROOT / "scripts" / "front.mjs", "--check")),
+    "core": Step((PYTHON, ROOT / "scripts" / "core.py", "--check")),
+    "vitest": Step((TOOLS / "vitest", "run")),
+    "pytest": Step(
+        (*PYTEST, "-n", "auto", "--dist", "loadfile", "tests", "--ignore=tests/browser"), alone=True
+    ),
 }
 GROUPS = {
     "check": ("ruff", "format", "mypy", "imports", "biome", "tsc", "bundles", "core"),
@@ -42,26 +63,106 @@ GROUPS = {
 }
 
 
+@dataclass
+class Result:
+    """How a step went: its exit status, None while it is running, and the last line that it printed."""
+
+    status: int | None
+    seconds: float
+    last: str
+
+    @property
+    def told(self) -> str:
+        if self.status is None:
+            return "STOPPED"
+        return f"FAILED ({self.status})" if self.status else "passed"
+
+
+class Runner:
+    """Runs steps, no more at once than there are cores."""
+
+    def __init__(self) -> None:
+        self.results: dict[str, Result] = {}
+        self._free = asyncio.Semaphore(CORES)
+        self._environment = {**os.environ, "PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}"}
+        if not sys.stdout.isatty():
+            self._environment["NO_COLOR"] = "1"
+
+    async def run(self, names: Sequence[str]) -> None:
+        """Start the steps in their order, each when there is room for it, and wait for all."""
+        async with asyncio.TaskGroup() as group:
+            for name in names:
+                need = CORES if STEPS[name].alone else 1
+                for _ in range(need):
+                    await self._free.acquire()
+                group.create_task(self._one(name, need))
+
+    async def _one(self, name: str, cores: int) -> None:
+        with tempfile.TemporaryFile() as out:
+            start = time.monotonic()
+            print(f"[test] {name} begins", flush=True)
+            process = await asyncio.create_subprocess_exec(
+                *map(str, STEPS[name].command),
+                cwd=ROOT,
+                env=self._environment,
+                stdin=asyncio.subprocess.DEVNULL,
+                stdout=out,
+                stderr=out,
+                start_new_session=True,  # a signal to all is for this process to pass on
+            )
+            status: int | None = None
+            try:
+                status = await process.wait()
+            except asyncio.CancelledError:
+                await _end(process)
+            seconds = time.monotonic() - start
+            self.results[name] = Result(status, seconds, _show(name, seconds, out))
+            for _ in range(cores):
+                self._free.release()
+
+
+async def _end(process: asyncio.subprocess.Process) -> None:
+    """End a step as Ctrl+C does: pytest then sums up what it has got to. What it has started and left goes, too."""
+    if process.returncode is None:
+        process.send_signal(signal.SIGINT)
+    with contextlib.suppress(TimeoutError):
+        await asyncio.wait_for(process.wait(), GRACE)
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+
+
+def _show(name: str, seconds: float, out: BinaryIO) -> str:
+    """Print what a step has printed; return the line that it closes with."""
+    out.seek(0)
+    text = out.read().decode(errors="replace").strip()
+    print(f"\n[test] {name}, {seconds:.1f} s\n{text}\n", flush=True)
+    return text.rpartition("\n")[2].strip(" =")
+
+
+async def _run(names: Sequence[str]) -> dict[str, Result]:
+    runner = Runner()
+    task = asyncio.create_task(runner.run(names))
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        loop.add_signal_handler(number, lambda: task.cancelling() or task.cancel())
+    with contextlib.suppress(asyncio.CancelledError):
+        await task
+    return runner.results
+
+
 def main(names: Sequence[str]) -> int:
-    chosen = [step for name in names for step in GROUPS.get(name, (name,))] or list(STEPS)
-    if unknown := [name for name in chosen if name not in STEPS]:
+    wanted = {step for name in names for step in GROUPS.get(name, (name,))} or set(STEPS)
+    if unknown := sorted(wanted - set(STEPS)):
         print(f"expected some of {', '.join([*STEPS, *GROUPS])}, not {', '.join(unknown)}", file=sys.stderr)
         return 2
-    environment = {**os.environ, "PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}"}
-    if not sys.stdout.isatty():
-        environment["NO_COLOR"] = "1"
-    results = []
+    chosen = [name for name in STEPS if name in wanted]
+    start = time.monotonic()
+    results = asyncio.run(_run(chosen))
+    print(f"\n[test] summary, {time.monotonic() - start:.1f} s in all")
     for name in chosen:
-        print(f"\n[test] {name}", flush=True)
-        start = time.monotonic()
-        status = subprocess.run(
-            list(map(str, STEPS[name])), cwd=ROOT, env=environment, stdin=subprocess.DEVNULL
-        )
-        results.append((name, status.returncode, time.monotonic() - start))
-    print("\n[test] summary")
-    for name, status, seconds in results:
-        print(f"  {name:10} {'passed' if status == 0 else f'FAILED ({status})':12} {seconds:7.1f} s")
-    failed = [name for name, status, _ in results if status]
+        result = results.get(name) or Result(None, 0.0, "not begun")
+        print(f"  {name:10} {result.told:12} {result.seconds:7.1f} s  {result.last}")
+    failed = [name for name in chosen if name not in results or results[name].status != 0]
     print(f"[test] {'failed: ' + ', '.join(failed) if failed else 'all passed'}", flush=True)
     return 1 if failed else 0
 

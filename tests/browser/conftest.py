@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
+import functools
 import textwrap
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, BrowserContext, expect
 
-from .jupyter import Notebook, browse, serve
+from .jupyter import App, Notebook, browse, serve
+from .waiting import LIMIT
 
-expect.set_options(timeout=10_000)
+expect.set_options(timeout=1000 * LIMIT)
 
 HOUSE = """
 from facade_nb import Design, gallery
 from facade_nb.widgets import *
-model = FacadeModel(gallery.load("residential-house"))
+model = FacadeModel(gallery.load("residential-house"), time_limit=600.0)
 """
 
 TRACED = """
@@ -28,6 +31,7 @@ def traced(name, **more):
 """
 
 Watch = Callable[[str], Notebook]
+Visit = Callable[[App], contextlib.AbstractContextManager[Notebook]]
 
 
 @pytest.fixture(scope="session")
@@ -38,12 +42,38 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="session")
-def opened_lab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Notebook]:
-    root = tmp_path_factory.mktemp("lab")
-    with serve(root, "lab") as (address, token), browser.new_page() as page:
-        lab = Notebook(page, address, token, root, "lab")
+def pages(browser: Browser) -> BrowserContext:
+    """Pages that share what has been loaded: JupyterLab is read, and compiled, once."""
+    context = browser.new_context()
+    context.grant_permissions(["clipboard-read", "clipboard-write"])
+    return context
+
+
+@pytest.fixture(scope="session")
+def visit(pages: BrowserContext, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Visit]:
+    """Open a page of an application, for `with`; each has one server, started when it is first asked for."""
+    with contextlib.ExitStack() as stack:
+
+        @functools.cache
+        def server(app: App) -> tuple[str, str, Path]:
+            root = tmp_path_factory.mktemp(app)
+            return *stack.enter_context(serve(root, app)), root
+
+        @contextlib.contextmanager
+        def visiting(app: App) -> Iterator[Notebook]:
+            with pages.new_page() as page:
+                notebook = Notebook(page, *server(app), app)
+                yield notebook
+                notebook.end()
+
+        yield visiting
+
+
+@pytest.fixture(scope="session")
+def opened_lab(visit: Visit) -> Iterator[Notebook]:
+    with visit("lab") as lab:
         lab.open("0")
-        page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
+        lab.page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
         yield lab
 
 
@@ -51,7 +81,7 @@ def opened_lab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> It
 def lab(opened_lab: Notebook) -> Iterator[Notebook]:
     """JupyterLab; the test fails if the console has errors or anything offsite was asked for."""
     opened_lab.take_problems()
-    opened_lab.page.set_viewport_size({"width": 1400, "height": 1000})
+    opened_lab.resize(1400)
     yield opened_lab
     assert opened_lab.take_problems() == []
 
@@ -62,7 +92,7 @@ def show(lab: Notebook) -> Callable[[str], Notebook]:
 
     def run(code: str) -> Notebook:
         lab.run(HOUSE + textwrap.dedent(code))
-        expect(lab.page.locator(".fnb").first).to_be_visible()
+        lab.shown()
         return lab
 
     return run
@@ -76,7 +106,7 @@ def watch(lab: Notebook) -> Watch:
         lab.run("0")  # what the test before has shown must not be taken for this one's
         expect(lab.page.locator(".fnb-view")).to_have_count(0)
         lab.run(TRACED + textwrap.dedent(code))
-        expect(lab.page.locator(".fnb-view").first).to_be_visible()
+        lab.shown()
         return lab
 
     return run

@@ -23,6 +23,9 @@ from typing import Any, Literal
 import nbformat
 from playwright.sync_api import Browser, Locator, Page, sync_playwright
 
+from .keys import retype
+from .waiting import LIMIT, eventually, frames
+
 __all__ = ["App", "Notebook", "browse", "serve"]
 
 App = Literal["lab", "notebook", "voila"]
@@ -97,7 +100,7 @@ def serve(root: Path, app: App) -> Iterator[tuple[str, str]]:
             yield address, token
         finally:
             os.killpg(server.pid, signal.SIGTERM)  # the kernels with it
-            server.wait(20)
+            server.wait(LIMIT)
 
 
 def _server(root: Path, port: int, token: str) -> list[str]:
@@ -113,13 +116,12 @@ def _server(root: Path, port: int, token: str) -> list[str]:
 
 
 def _await_server(address: str, server: subprocess.Popen[bytes], log: Path) -> None:
-    for _ in range(240):
-        if server.poll() is not None:
-            break
+    end = time.monotonic() + LIMIT
+    while server.poll() is None and time.monotonic() < end:
         try:
-            urllib.request.urlopen(address, timeout=2)
+            urllib.request.urlopen(address, timeout=LIMIT)
         except OSError:
-            time.sleep(0.25)
+            time.sleep(0.1)
         else:
             return
     raise RuntimeError(f"the server did not start:\n{log.read_text()[-2000:]}")
@@ -146,11 +148,13 @@ class Notebook:
         self._address = address
         self._token = token
         self._root = root
+        self._names: set[str] = set()
         self._errors: list[str] = []
         self._offsite: list[str] = []
         page.on("console", lambda m: self._errors.append(m.text) if m.type == "error" else None)
         page.on("pageerror", lambda error: self._errors.append(f"{error}\n{error.stack}"))
         page.on("request", lambda r: self._offsite.append(r.url) if _is_offsite(r.url) else None)
+        page.set_default_timeout(1000 * LIMIT)
 
     def open(self, code: str, name: str = "test.ipynb") -> None:
         """Write a notebook with that code and open it; Voilà runs it, too."""
@@ -161,6 +165,7 @@ class Notebook:
 
     def visit(self, name: str) -> None:
         """Open a notebook that is there."""
+        self._names.add(name)
         path = {
             "lab": f"/lab/workspaces/{secrets.token_hex(4)}/tree/{name}?reset&token={self._token}",
             "notebook": f"/notebooks/{name}?token={self._token}",
@@ -175,8 +180,33 @@ class Notebook:
                         && {_PANEL}.sessionContext?.session?.kernel?.connectionStatus === "connected"
                         && {_PANEL}.sessionContext.kernelDisplayStatus === "idle";
                 }}""",
-                timeout=60_000,
             )
+
+    @property
+    def root(self) -> Path:
+        """Where the server finds its notebooks."""
+        return self._root
+
+    def address(self, name: str) -> str:
+        """Where JupyterLab shows a notebook, as a person would link to it."""
+        return f"{self._address}/lab/tree/{name}?token={self._token}"
+
+    def end(self) -> None:
+        """Leave the page; the kernels of the notebooks that were open end."""
+        self.page.goto("about:blank")  # Voilà ends its own
+        if self.app == "voila":
+            return
+        for session in self._ask("sessions"):
+            if session["path"] in self._names:
+                self._ask(f"sessions/{session['id']}", "DELETE")
+
+    def _ask(self, what: str, method: str = "GET") -> Any:
+        """Ask the server itself."""
+        request = urllib.request.Request(
+            f"{self._address}/api/{what}", method=method, headers={"Authorization": f"token {self._token}"}
+        )
+        with urllib.request.urlopen(request, timeout=LIMIT) as reply:
+            return json.loads(reply.read() or b"null")
 
     def run(self, code: str | None = None) -> None:
         """Run all cells, the first one with new code if some is given; raises what the code raises."""
@@ -211,12 +241,45 @@ class Notebook:
 
     def expect_python(self, expression: str, value: Any) -> None:
         """Wait until an expression in the kernel has a value: what was typed last may still be on its way."""
-        for _ in range(50):
+
+        def check() -> None:
             found = self.python(expression)
-            if found == value:
-                return
-            self.page.wait_for_timeout(100)
-        raise AssertionError(f"{expression} is {found!r}, expected {value!r}")
+            assert found == value, f"{expression} is {found!r}, expected {value!r}"
+
+        eventually(self.page, check)
+
+    def shown(self) -> None:
+        """Wait until every widget that the cells display stands on the page, and has settled."""
+        self.page.wait_for_function(
+            f"""() => {{
+                const views = [...{_PANEL}.content.model.cells].filter(cell => cell.type === "code")
+                    .flatMap(cell => cell.outputs.toJSON())
+                    .filter(output => output.data?.["application/vnd.jupyter.widget-view+json"]);
+                const made = [...document.querySelectorAll(".fnb")];
+                const waiting = [...document.querySelectorAll(".fnb-page-slot > .fnb-empty")];
+                return made.length >= views.length && made.every(own => own.childElementCount)
+                    && !waiting.some(own => own.checkVisibility());
+            }}"""
+        )
+        self.settle()
+
+    def settle(self) -> None:
+        """Wait until the kernel has answered what it was sent, and the page has drawn the answers."""
+        for _ in range(2):  # an answer may ask for more
+            self.python("None")
+            frames(self.page)
+
+    def resize(self, width: int, height: int = 1000) -> None:
+        """Give the window another size, and wait until the page is laid out in it."""
+        self.page.set_viewport_size({"width": width, "height": height})
+        self.page.wait_for_function("width => window.innerWidth === width", arg=width)
+        frames(self.page, 3)
+
+    def retype(self, label: str, text: str) -> Locator:
+        """Replace what the field of that name holds, by keys alone: all is selected, and typed over."""
+        field = self.field(label)
+        retype(field, text)
+        return field
 
     def trust(self) -> None:
         """Trust the notebook's saved outputs."""

@@ -7,10 +7,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import expect
 
-from .conftest import HOUSE
-from .jupyter import App, Notebook, serve
+from .conftest import HOUSE, Visit
+from .jupyter import App, Notebook
+from .keys import retype
 
 Show = Callable[[str], Notebook]
 
@@ -23,7 +24,7 @@ def test_parts_over_one_model_follow_each_other(show: Show) -> None:
     page = lab.page
     expect(page.locator(".fnb")).to_have_count(3)
     expect(page.locator("[data-shape]")).to_have_count(17)
-    lab.field("Pattern Bx").fill("A(BA)^k A")
+    lab.retype("Pattern Bx", "A(BA)^k A")
     expect(page.locator(".fnb-elevation [data-layer=base][data-x=A][data-y=Q]")).to_have_count(5)
     expect(page.locator(".fnb-counter[data-counter=k] .fnb-solved")).to_have_text("3")
     # One bundle for all of them, and one message for each change however many look on.
@@ -79,18 +80,28 @@ def test_keys_do_not_reach_the_notebook_in_command_mode(show: Show) -> None:
     expect(grip).to_be_focused()
 
 
-def test_a_busy_kernel_is_told_and_nothing_typed_is_lost(show: Show) -> None:
+BUSY = """
+import pathlib, time
+while not pathlib.Path({path!r}).exists():
+    time.sleep(0.02)
+"""
+
+
+def test_a_busy_kernel_is_told_and_nothing_typed_is_lost(show: Show, tmp_path: Path) -> None:
     lab = show("Studio(model)")
+    enough = tmp_path / "enough"
     lab.page.evaluate(
-        "() => { window.jupyterapp.shell.currentWidget.sessionContext.session.kernel"
-        ".requestExecute({code: 'import time; time.sleep(3)'}) }"
+        """code => { window.jupyterapp.shell.currentWidget.sessionContext.session.kernel
+            .requestExecute({code}) }""",
+        BUSY.format(path=str(enough)),
     )
     field = lab.field("Pattern Bx")
-    field.fill("A(BA)^2")
+    retype(field, "A(BA)^2")
     expect(lab.page.locator(".fnb-status-line")).to_contain_text("kernel is busy")
-    field.fill("A(BA)^1")
+    retype(field, "A(BA)^1")
+    enough.touch()
     expect(lab.page.locator(".fnb-counter[data-counter=k]")).to_have_count(0)
-    assert lab.python("model.design.patterns['Bx'].text") == "A(BA)^1"
+    lab.expect_python("model.design.patterns['Bx'].text", "A(BA)^1")
     assert field.input_value() == "A(BA)^1"
 
 
@@ -100,7 +111,7 @@ def test_a_fault_of_ours_is_shown_under_the_widget(show: Show) -> None:
         model._solver._solve = broken
         Studio(model)
     """)
-    lab.field("Canvas width in metres").fill("7")
+    lab.retype("Canvas width in metres", "7")
     expect(lab.page.locator(".fnb-trouble summary")).to_contain_text("a fault of ours")
     lab.run("from facade_nb import solve; model._solver._solve = solve; Studio(model)")
 
@@ -109,7 +120,7 @@ def test_closing_the_output_ends_the_listeners(show: Show) -> None:
     lab = show("Studio(model)")
     lab.run("0")
     expect(lab.page.locator(".fnb")).to_have_count(0)
-    assert lab.python("model.enter(('canvas', 'width'), 7.0) or model.wait(5)")
+    assert lab.python("model.enter(('canvas', 'width'), 7.0) or model.wait(60)")
     # Nobody looks: the channel has put its large traits away.
     assert (
         lab.python(
@@ -120,28 +131,27 @@ def test_closing_the_output_ends_the_listeners(show: Show) -> None:
 
 
 @pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_the_studio_works_in_other_applications(browser: Browser, tmp_path: Path, app: App) -> None:
-    with serve(tmp_path, app) as (address, token), browser.new_page() as page:
-        notebook = Notebook(page, address, token, tmp_path, app)
-        notebook.open(HOUSE + "Studio(model)")
+def test_the_studio_works_in_other_applications(visit: Visit, app: App) -> None:
+    with visit(app) as notebook:
+        page = notebook.page
+        notebook.open(HOUSE + "Studio(model)", "studio-alone.ipynb")
         if app == "notebook":
             notebook.run()
-        expect(page.locator("[data-shape]")).to_have_count(17, timeout=60_000)
-        field = notebook.field("Pattern Bx")
-        field.fill("A(BA)^")
+        expect(page.locator("[data-shape]")).to_have_count(17)
+        field = notebook.retype("Pattern Bx", "A(BA)^")
         expect(page.locator(".fnb-fault-text:visible")).to_have_count(1)
         field.press("End")
         field.press_sequentially("2")
         expect(page.locator(".fnb-elevation [data-layer=base]")).to_have_count(10)
         notebook.button("Both").click()
-        expect(page.locator(".fnb-massing canvas")).to_be_visible(timeout=20_000)
+        expect(page.locator(".fnb-massing canvas")).to_be_visible()
         assert notebook.take_problems() == []
 
 
-def test_the_studio_notebook_shows_its_saved_state_and_then_runs(browser: Browser, tmp_path: Path) -> None:
-    shutil.copy(Path(__file__).resolve().parents[2] / "notebooks" / "studio.ipynb", tmp_path)
-    with serve(tmp_path, "lab") as (address, token), browser.new_page() as page:
-        notebook = Notebook(page, address, token, tmp_path, "lab")
+def test_the_studio_notebook_shows_its_saved_state_and_then_runs(visit: Visit) -> None:
+    with visit("lab") as notebook:
+        page = notebook.page
+        shutil.copy(Path(__file__).resolve().parents[2] / "notebooks" / "studio.ipynb", notebook.root)
         notebook.visit("studio.ipynb")
         picture = page.get_by_alt_text("Elevation of Residential house")
         expect(picture).to_be_visible()  # before the notebook is trusted

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
-from .conftest import TRACED, Watch
-from .jupyter import Notebook, serve
+from .conftest import TRACED, Visit, Watch
+from .waiting import eventually, frames
 
 
 def section(page: Page, pattern: str) -> Locator:
@@ -67,10 +68,10 @@ def test_a_smaller_tolerance_is_tried_in_the_browser(watch: Watch) -> None:
     lab = watch("view = WordsView(traced('figure-7')); view")
     page = lab.page
     assert sum(row.endswith("✓ fits") for row in rows(page, "rooms")) > 5
-    lab.field("Tolerance μ in metres").fill("0.5")
+    lab.retype("Tolerance μ in metres", "0.5")
     expect(section(page, "rooms").locator(".fnb-eq")).to_have_text("9.5 ≤ |w| ≤ 10.5 m")
     assert [row for row in rows(page, "rooms") if "✓" in row] == ["1 5 AC5A 10.5 ✓ fits"]
-    lab.field("Tolerance μ in metres").fill("wide")
+    lab.retype("Tolerance μ in metres", "wide")
     expect(lab.field("Tolerance μ in metres")).to_have_attribute("aria-invalid", "true")
 
 
@@ -84,12 +85,15 @@ def test_the_player_steps_there_and_back(watch: Watch) -> None:
     for _ in range(5):
         seen.append(shown(page))
         lab.button("Step forward").click()
-        page.wait_for_timeout(40)
+        frames(page)
     expect(page.locator(".fnb-word[data-now]")).to_have_count(1)
+
+    def shows(before: str) -> None:
+        assert shown(page) == before
+
     for before in reversed(seen):
         lab.button("Step back").click()
-        page.wait_for_timeout(40)
-        assert shown(page) == before
+        eventually(page, functools.partial(shows, before))
     # By keys, on the track; the sentence follows.
     track = page.get_by_role("slider", name="Position in the trace")
     track.press("End")
@@ -103,9 +107,11 @@ def test_the_player_steps_there_and_back(watch: Watch) -> None:
 
 def test_it_plays_to_the_end_and_stops(watch: Watch) -> None:
     lab = watch("view = WordsView(traced('qualifiers-a')); view")
-    lab.field("Speed in events per second").select_option("1024")
+    speed = lab.field("Speed in events per second")
+    speed.select_option(index=0)  # slow enough to be seen
     lab.button("Play").click()
     expect(lab.button("Pause")).to_be_visible()
+    speed.select_option("1024")
     expect(lab.button("Play")).to_be_visible()
     expect(lab.page.locator(".fnb-play-caption")).to_contain_text("All done in")
 
@@ -146,7 +152,7 @@ def test_the_moment_is_kept_and_can_be_linked_to(watch: Watch) -> None:
     page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
     page.reload()
     lab.take_problems()
-    expect(page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("fDf", timeout=30_000)
+    expect(page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("fDf")
 
 
 def test_links_light_up_across_views(watch: Watch) -> None:
@@ -190,12 +196,12 @@ def test_the_reader_predicts_words(watch: Watch) -> None:
 
 def test_a_live_model_is_followed(watch: Watch) -> None:
     lab = watch("""
-        model = FacadeModel(gallery.load("residential-house"))
+        model = FacadeModel(gallery.load("residential-house"), time_limit=600.0)
         display(CanvasEditor(model), WordsView(model))
     """)
     page = lab.page
     before = section(page, "Bx").locator(".fnb-eq").inner_text()
-    lab.field("Canvas width in metres").fill("9")
+    lab.retype("Canvas width in metres", "9")
     expect(section(page, "Bx").locator(".fnb-tick").first).to_have_text("canvas 9 m")
     assert section(page, "Bx").locator(".fnb-eq").inner_text() != before
 
@@ -219,22 +225,20 @@ def test_an_address_leads_to_a_moment(watch: Watch) -> None:
     lab.page.evaluate("() => { location.hash = '#facade-nb=x/words+2&design=Residential%20house'; }")
     expect(lab.page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("fDf")
     lab.page.evaluate("() => { location.hash = '#facade-nb=x/words+3&design=Another'; }")
-    lab.page.wait_for_timeout(200)
+    frames(lab.page)
     expect(lab.page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("fDf")
     lab.page.evaluate("() => history.replaceState(null, '', location.pathname + location.search)")
 
 
-def test_a_copied_link_opens_the_page_at_its_moment(browser: Browser, tmp_path: Path) -> None:
-    with serve(tmp_path, "lab") as (address, token), browser.new_page() as page:
-        lab = Notebook(page, address, token, tmp_path, "lab")
-        lab.open(TRACED + "view = WordsView(traced('residential-house')); view")
+def test_a_copied_link_opens_the_page_at_its_moment(visit: Visit) -> None:
+    with visit("lab") as lab:
+        page = lab.page
+        lab.open(TRACED + "view = WordsView(traced('residential-house')); view", "linked.ipynb")
         lab.run()
         expect(page.locator(".fnb-play-count")).to_have_text(re.compile(r"(\d+) / \1"))
         page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
-        page.goto(
-            f"{address}/lab/tree/test.ipynb?token={token}#facade-nb=x/words+3&design=Residential%20house"
-        )
-        expect(page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("CeC", timeout=30_000)
+        page.goto(lab.address("linked.ipynb") + "#facade-nb=x/words+3&design=Residential%20house")
+        expect(page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("CeC")
 
 
 @pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
@@ -249,7 +253,7 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
         expect(lab.page.locator(".fnb-solver").first).to_have_attribute(
             "data-theme", "dark" if dark else "light"
         )
-        lab.page.wait_for_timeout(400)
+        frames(lab.page)
         lab.page.screenshot(path=out / f"solver-words-{'dark' if dark else 'light'}.png")
     finally:
         lab.theme("JupyterLab Light")

@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from .conftest import Watch
+from .waiting import eventually, frames
 
 
 def group(page: Page, name: str) -> Locator:
@@ -62,7 +63,7 @@ def test_a_boundary_can_be_dragged(watch: Watch) -> None:
     page.mouse.up()
     page.mouse.move(box["x"] - 200, box["y"])  # the drag is over
     tried = own.locator(".fnb-align-figure").first.inner_text()
-    page.wait_for_timeout(100)
+    frames(page)
     assert own.locator(".fnb-align-figure").first.inner_text() == tried
     page.get_by_role("button", name="Back to the solver's").click()
     expect(own.locator(".fnb-align-figure").first).to_have_text("Ω = 0.1 m")
@@ -119,7 +120,7 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
     lab = watch("AlignmentView(traced('apartment-house'), player=False)")
     try:
         lab.theme(theme)  # type: ignore[arg-type]
-        lab.page.wait_for_timeout(400)
+        frames(lab.page)
         view = lab.page.locator(".fnb-view").bounding_box()
         assert view
         for own in lab.page.locator(".fnb-align").all():
@@ -131,31 +132,35 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
         lab.theme("JupyterLab Light")
 
 
+def legible(page: Page) -> None:
+    """Each number is whole, or not there; none runs into the next."""
+    for line in (".fnb-align-head", ".fnb-align-values"):
+        seen = page.locator(line).evaluate_all(
+            """lines => lines.map(line => [...line.querySelectorAll(':scope > [data-link] > span:first-child')]
+            .filter(label => getComputedStyle(label).visibility !== 'hidden').map(label => {
+                const range = document.createRange();
+                range.selectNodeContents(label);
+                const box = range.getBoundingClientRect();
+                const inner = label.closest('.fnb-view').getBoundingClientRect();
+                return [Math.round(box.top), box.left, box.right, label.textContent,
+                    box.left >= inner.left && box.right <= inner.right];
+            }))"""
+        )
+        assert sum(map(len, seen)) > 50
+        for labels in seen:
+            assert all(whole for *_, whole in labels)
+            for top in {label[0] for label in labels}:
+                own = sorted(label[1:] for label in labels if label[0] == top)
+                ends = [(own[n][1], own[n + 1][0]) for n in range(len(own) - 1)]
+                assert all(right <= left + 0.5 for right, left in ends), (line, own)
+
+
 def test_labels_of_narrow_columns_are_whole(watch: Watch) -> None:
     """Each number stands on the screen as a whole, or not at all; none runs into the next."""
     lab = watch("AlignmentView(traced('apartment-house'), player=False)")
     for width in (1400, 900):
-        lab.page.set_viewport_size({"width": width, "height": 1000})
-        lab.page.wait_for_timeout(300)
-        for line in (".fnb-align-head", ".fnb-align-values"):
-            seen = lab.page.locator(line).evaluate_all(
-                """lines => lines.map(line => [...line.querySelectorAll(':scope > [data-link] > span:first-child')]
-                .filter(label => getComputedStyle(label).visibility !== 'hidden').map(label => {
-                    const range = document.createRange();
-                    range.selectNodeContents(label);
-                    const box = range.getBoundingClientRect();
-                    const inner = label.closest('.fnb-view').getBoundingClientRect();
-                    return [Math.round(box.top), box.left, box.right, label.textContent,
-                        box.left >= inner.left && box.right <= inner.right];
-                }))"""
-            )
-            assert sum(map(len, seen)) > 50
-            for labels in seen:
-                assert all(whole for *_, whole in labels)
-                for top in {label[0] for label in labels}:
-                    own = sorted(label[1:] for label in labels if label[0] == top)
-                    ends = [(own[n][1], own[n + 1][0]) for n in range(len(own) - 1)]
-                    assert all(right <= left + 0.5 for right, left in ends), (width, line, own)
+        lab.resize(width)
+        eventually(lab.page, lambda: legible(lab.page))
     errors = lab.page.locator(".fnb-align-errors > [data-error]")
     assert set(errors.all_inner_texts()) == {"0.017"}
 

@@ -9,6 +9,7 @@ from playwright.sync_api import Page, expect
 
 from .conftest import Watch
 from .jupyter import Notebook
+from .waiting import eventually, frames, until
 
 
 @pytest.fixture
@@ -18,7 +19,7 @@ def watch(watch: Watch) -> Watch:
     def run(code: str) -> Notebook:
         lab = watch(code)
         expect(lab.page.locator(".fnb-plane-canvas")).to_be_visible()
-        lab.page.wait_for_timeout(300)
+        until(lab.page, lambda: colour_at(lab.page, 4, 4)[3])
         return lab
 
     return run
@@ -53,13 +54,19 @@ def count(page: Page, colour: str) -> int:
     )
 
 
+def papered(page: Page, light: bool) -> None:
+    """The canvas has the colour of the theme."""
+    paper = sum(colour_at(page, 4, 4)[:3])
+    assert paper > 600 if light else paper < 200
+
+
 def test_figure_8_is_on_the_screen(watch: Watch) -> None:
     page = watch("NetworkView(traced('figure-8'))").page
     status = page.locator(".fnb-net-status")
     expect(status).to_contain_text("4 × 6 nodes and 6 within cut letters")
     expect(status).to_contain_text("The path has 5 columns, Ω = 0 m.")
-    assert count(page, "--fnb-net-path") > 300
-    assert count(page, "--fnb-net-step") > 500
+    until(page, lambda: count(page, "--fnb-net-path") > 300)
+    until(page, lambda: count(page, "--fnb-net-step") > 500)
     page.get_by_role("checkbox", name="cut letters").uncheck()
     expect(status).to_contain_text("4 × 6 nodes, μ")
     expect(status).to_contain_text("The path has 3 columns, Ω = 0 m.")
@@ -84,6 +91,7 @@ def test_a_node_that_is_clicked_shows_its_region_and_its_edges(watch: Watch) -> 
     expect(page.locator(".fnb-net-leaving h4 code")).to_have_text("CeC / ABABA")
     for dx in range(0, 160, 10):  # in the third row, right of the middle, there is a node
         canvas.click(position={"x": box["width"] / 2 + dx, "y": box["height"] / 2 + 40})
+        frames(page)
         if page.locator(".fnb-net-leaving h4 code").inner_text() != "CeC / ABABA":
             break
     text = page.locator(".fnb-net-leaving h4 code").inner_text()
@@ -96,18 +104,23 @@ def test_the_network_follows_the_player(watch: Watch) -> None:
     expect(page.locator(".fnb-net-status")).to_contain_text("taken up")
     expect(page.locator(".fnb-net-status")).not_to_contain_text("The path has")
     before = page.locator(".fnb-network").inner_html()
-    assert count(page, "--fnb-net-path") < 20
+
+    def differs(before: str) -> None:
+        assert page.locator(".fnb-network").inner_html() != before
+
+    def equals(before: str) -> None:
+        assert page.locator(".fnb-network").inner_html() == before
+
+    until(page, lambda: count(page, "--fnb-net-path") < 20)
     for _ in range(8):
         lab.button("Step forward").click()
-    page.wait_for_timeout(100)
-    assert page.locator(".fnb-network").inner_html() != before
+    eventually(page, lambda: differs(before))
     for _ in range(8):
         lab.button("Step back").click()
-    page.wait_for_timeout(100)
-    assert page.locator(".fnb-network").inner_html() == before
+    eventually(page, lambda: equals(before))
     page.get_by_role("slider", name="Position in the trace").press("End")
     expect(page.locator(".fnb-net-status")).to_contain_text("The path has 7 columns")
-    assert count(page, "--fnb-net-path") > 200
+    until(page, lambda: count(page, "--fnb-net-path") > 200)
     expect(page.locator(".fnb-warp-node")).to_have_count(8)
     lab.button("Step back").click()
 
@@ -142,9 +155,7 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
     lab = watch("NetworkView(traced('apartment-house'), player=False)")
     try:
         lab.theme(theme)  # type: ignore[arg-type]
-        lab.page.wait_for_timeout(600)
-        paper = sum(colour_at(lab.page, 4, 4)[:3])
-        assert paper > 600 if theme.endswith("Light") else paper < 200
+        eventually(lab.page, lambda: papered(lab.page, theme.endswith("Light")))
         lab.page.screenshot(path=out / f"solver-network-{theme[11:].lower()}.png")
     finally:
         lab.theme("JupyterLab Light")

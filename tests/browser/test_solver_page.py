@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import re
 import shutil
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
-from .conftest import TRACED, Watch
-from .jupyter import App, Notebook, serve
+from .conftest import TRACED, Visit, Watch
+from .jupyter import App, Notebook
 from .test_solver import section
+from .waiting import eventually, frames, until
 
 PAIR = """
 def pair(over, under, counters={}):
@@ -79,7 +81,7 @@ def test_candidates_sort_filter_and_are_chosen(watch: Watch) -> None:
     page.locator(".fnb-sort", has_text="k").first.click()
     expect(first).to_contain_text("· bound")
     assert texts(page, ".fnb-candidate[data-fate] .fnb-candidate-word:last-child")[0] == "(AB)5A"
-    lab.field("Filter candidates: text, or comparisons such as k=3 or J<1").fill("k=4")
+    lab.retype("Filter candidates: text, or comparisons such as k=3 or J<1", "k=4")
     expect(page.locator(".fnb-candidate[data-fate]")).to_have_count(1)
     expect(page.locator(".fnb-candidate-count")).to_have_text("1 of 5 candidates")
     page.locator(".fnb-candidate[data-fate]").click()
@@ -131,9 +133,8 @@ def test_a_candidate_longer_than_the_canvas_is_all_in_sight(watch: Watch, out: P
     number = lab.python(f"max({judged}, key=lambda e: sum(map(len, e.words.values()))).number")
     lab.python(f"setattr(view.model, 'picked', ['candidate:x:{number}'])")
     expect(page.locator(".fnb-traced-note")).to_contain_text("beyond the canvas.")
-    for width in (1400, 800):
-        page.set_viewport_size({"width": width, "height": 1000})
-        page.wait_for_timeout(400)
+
+    def whole() -> None:
         sheet, line = (
             page.locator(selector).bounding_box()
             for selector in (".fnb-traced-sheet", ".fnb-traced-beyond line")
@@ -150,6 +151,10 @@ def test_a_candidate_longer_than_the_canvas_is_all_in_sight(watch: Watch, out: P
         box = text.bounding_box()
         assert box
         assert 8 < box["height"] < 24
+
+    for width in (1400, 800):
+        lab.resize(width)
+        eventually(page, whole)
     page.screenshot(path=out / "facade-longer.png")
 
 
@@ -158,10 +163,8 @@ def test_figures_of_candidates_stay_in_sight(watch: Watch) -> None:
     lab = watch("CandidatesView(traced('concert-hall'), player=False)")
     page = lab.page
     row = page.locator(".fnb-candidate[data-fate=best]")
-    for width, stacked in ((1900, False), (980, True), (800, True)):
-        page.set_viewport_size({"width": width, "height": 1000})
-        expect(page.locator(".fnb-candidates[data-stacked]")).to_have_count(int(stacked))
-        page.wait_for_timeout(200)
+
+    def whole(stacked: bool) -> None:
         view = page.locator(".fnb-view").bounding_box()
         scrolled = page.locator(".fnb-candidate-scroll").evaluate("e => e.scrollWidth - e.clientWidth")
         cells = [each.bounding_box() for each in row.locator("[role=cell]").all()]
@@ -171,6 +174,11 @@ def test_figures_of_candidates_stay_in_sight(watch: Watch) -> None:
         assert all(box and box["x"] + box["width"] <= view["x"] + view["width"] for box in cells)
         tops = [box["y"] for box in cells if box]
         assert (max(tops) - min(tops) > 15) == stacked
+
+    for width, stacked in ((1900, False), (980, True), (800, True)):
+        lab.resize(width)
+        expect(page.locator(".fnb-candidates[data-stacked]")).to_have_count(int(stacked))
+        eventually(page, functools.partial(whole, stacked))
     long = row.locator(".fnb-candidate-word").nth(1)
     assert long.evaluate("e => e.scrollWidth > e.clientWidth")
     expect(long).to_have_attribute("title", re.compile(r"^E V I U I U"))
@@ -204,8 +212,8 @@ def test_what_can_be_chosen_begins_at_the_top(watch: Watch) -> None:
     assert rows.evaluate("e => e.scrollTop") > 500
     lab.button("Predict").click()
     expect(page.locator(".fnb-candidate-count")).to_have_text("504 candidates")
-    page.wait_for_timeout(300)
-    assert rows.evaluate("e => e.scrollTop") == 0
+    frames(page)
+    until(page, lambda: rows.evaluate("e => e.scrollTop") == 0)
 
 
 def test_the_equation_of_a_pair_is_predicted(watch: Watch, out: Path) -> None:
@@ -290,7 +298,7 @@ def test_every_stage_has_its_name_on_the_track(watch: Watch) -> None:
     lab = watch("PlayerView(traced('apartment-house'))")
     page = lab.page
     for width in (1400, 1000, 850):
-        page.set_viewport_size({"width": width, "height": 1000})
+        lab.resize(width)
         for stage in ("x: Candidates", "Merging"):  # the one that is played is bold
             lab.button(stage).click()
             cut = page.locator(".fnb-play-stage").evaluate_all(
@@ -361,7 +369,7 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
             lab.button(stage).click()
             for _ in range(3):
                 lab.button("Step forward").click()
-            page.wait_for_timeout(300)
+            lab.settle()
             wide = page.evaluate(
                 """() => { const root = document.querySelector('.fnb-page').getBoundingClientRect();
                     return [...document.querySelectorAll('.fnb-view, .fnb-playbar')].filter(e => e.checkVisibility())
@@ -374,11 +382,11 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
 
 
 def test_the_notebook_shows_its_saved_state_and_can_be_played_without_a_kernel(
-    browser: Browser, tmp_path: Path
+    visit: Visit,
 ) -> None:
-    shutil.copy(Path(__file__).resolve().parents[2] / "notebooks" / "solver.ipynb", tmp_path)
-    with serve(tmp_path, "lab") as (address, token), browser.new_page() as page:
-        lab = Notebook(page, address, token, tmp_path, "lab")
+    with visit("lab") as lab:
+        page = lab.page
+        shutil.copy(Path(__file__).resolve().parents[2] / "notebooks" / "solver.ipynb", lab.root)
         lab.visit("solver.ipynb")
         expect(page.get_by_alt_text("Elevation of Residential house")).to_be_visible()  # before it is trusted
         expect(page.locator("caption", has_text="Stages of Residential house").first).to_be_visible()
@@ -406,13 +414,13 @@ def test_the_notebook_shows_its_saved_state_and_can_be_played_without_a_kernel(
 
 
 @pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_the_views_work_in_other_applications(browser: Browser, tmp_path: Path, app: App) -> None:
-    with serve(tmp_path, app) as (address, token), browser.new_page() as page:
-        notebook = Notebook(page, address, token, tmp_path, app)
-        notebook.open(TRACED + "SolverView(traced('residential-house'))")
+def test_the_views_work_in_other_applications(visit: Visit, app: App) -> None:
+    with visit(app) as notebook:
+        page = notebook.page
+        notebook.open(TRACED + "SolverView(traced('residential-house'))", "solver-alone.ipynb")
         if app == "notebook":
             notebook.run()
-        expect(page.locator(".fnb-traced-note")).to_have_text("17 of 17 shapes", timeout=60_000)
+        expect(page.locator(".fnb-traced-note")).to_have_text("17 of 17 shapes")
         notebook.button("x: Words").click()
         for _ in range(3):
             notebook.button("Step forward").click()

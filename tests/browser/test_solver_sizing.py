@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import expect
 
 from .conftest import Watch
+from .waiting import eventually, frames
 
 
 def test_the_equations_of_figure_7_are_on_the_screen(watch: Watch) -> None:
@@ -78,9 +79,8 @@ def test_the_table_stays_in_its_view(watch: Watch) -> None:
     lab = watch("SizingView(traced('apartment-house'), player=False)")
     page = lab.page
     lab.button("Show the horizontal axis").click()
-    for width in (1400, 900, 640):
-        page.set_viewport_size({"width": width, "height": 1000})
-        page.wait_for_timeout(400)
+
+    def whole() -> None:
         right = page.locator(".fnb-view").evaluate("e => e.getBoundingClientRect().right")
         cells = page.locator(".fnb-rows .fnb-size-row").evaluate_all(
             "rows => rows.map(row => row.lastElementChild.getBoundingClientRect().right)"
@@ -88,6 +88,10 @@ def test_the_table_stays_in_its_view(watch: Watch) -> None:
         assert len(cells) > 10
         assert max(cells) <= right
         assert max(cells) - min(cells) < 1
+
+    for width in (1400, 900, 640):
+        lab.resize(width)
+        eventually(page, whole)
 
 
 @pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
@@ -97,7 +101,7 @@ def test_looks(watch: Watch, out: Path, theme: str) -> None:
     try:
         lab.theme(theme)  # type: ignore[arg-type]
         lab.button("Show the horizontal axis").click()
-        lab.page.wait_for_timeout(400)
+        frames(lab.page)
         box = lab.page.locator(".fnb-forces").bounding_box()
         view = lab.page.locator(".fnb-view").bounding_box()
         assert box

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 import shutil
 from collections.abc import Iterator
@@ -9,9 +10,11 @@ from pathlib import Path
 from typing import Literal
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
-from .jupyter import Notebook, serve
+from .conftest import Visit
+from .jupyter import Notebook
+from .waiting import eventually
 
 NAME = "how-the-solver-thinks.ipynb"
 SET = """([id, from, to]) => {
@@ -25,14 +28,12 @@ SET = """([id, from, to]) => {
 
 
 @pytest.fixture(scope="module")
-def opened(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Notebook]:
-    root = tmp_path_factory.mktemp("tutorials")
-    shutil.copy(Path(__file__).resolve().parents[2] / "tutorials" / NAME, root)
-    with serve(root, "lab") as (address, token), browser.new_page() as page:
-        page.set_viewport_size({"width": 1250, "height": 1000})
-        lab = Notebook(page, address, token, root, "lab")
+def opened(visit: Visit) -> Iterator[Notebook]:
+    with visit("lab") as lab:
+        shutil.copy(Path(__file__).resolve().parents[2] / "tutorials" / NAME, lab.root)
+        lab.resize(1250)
         lab.visit(NAME)
-        page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
+        lab.page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
         yield lab
 
 
@@ -129,16 +130,20 @@ def test_looks(run: Notebook, out: Path, theme: Literal["JupyterLab Light", "Jup
     try:
         run.theme(theme)
         for width in (1250, 900):
-            page.set_viewport_size({"width": width, "height": 1000})
+            run.resize(width)
             for name in ("Words", "Analysis", "Candidates", "Network", "Alignment", "Sizing"):
                 own = cell(page, f"{name}View(")
-                view = own.locator(".fnb-view").first
-                expect(view).to_be_visible()
-                inner, outer = view.bounding_box(), own.locator(".jp-OutputArea").bounding_box()
-                assert inner
-                assert outer
-                assert inner["x"] + inner["width"] <= outer["x"] + outer["width"] + 1
+                expect(own.locator(".fnb-view").first).to_be_visible()
+                eventually(page, functools.partial(fits, own))
                 page.screenshot(path=out / f"tutorial-{name.lower()}-{width}-{theme[11:].lower()}.png")
     finally:
         run.theme("JupyterLab Light")
-        page.set_viewport_size({"width": 1250, "height": 1000})
+        run.resize(1250)
+
+
+def fits(own: Locator) -> None:
+    """The view of a cell is not wider than it."""
+    inner, outer = (own.locator(name).first.bounding_box() for name in (".fnb-view", ".jp-OutputArea"))
+    assert inner
+    assert outer
+    assert inner["x"] + inner["width"] <= outer["x"] + outer["width"] + 1

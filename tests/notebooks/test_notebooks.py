@@ -53,7 +53,7 @@ def test_all_that_are_saved_with_widgets_are_made_by_one_command() -> None:
 def test_runs_from_a_fresh_kernel(path: Path) -> None:
     notebook = nbformat.read(path, as_version=4)
     client = NotebookClient(
-        notebook, timeout=120, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
+        notebook, timeout=None, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
     )
     client.execute()  # raises at the first cell that fails
     assert outputs(notebook)

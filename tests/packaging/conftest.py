@@ -8,10 +8,15 @@ import subprocess
 import sys
 import tarfile
 import zipfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from build import ProjectBuilder
+from build.env import DefaultIsolatedEnv
+
+Build = Callable[[str, Path, Path], Path]
 
 
 @dataclass(frozen=True)
@@ -50,12 +55,29 @@ def export(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return target
 
 
-def build(kind: str, source: Path, out: Path, environment: dict[str, str]) -> Path:
-    command = [sys.executable, "-m", "build", f"--{kind}", "--outdir", str(out), str(source)]
-    done = subprocess.run(command, env=environment, cwd=out, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-    (built,) = out.glob("*.whl" if kind == "wheel" else "*.tar.gz")
-    return built
+@pytest.fixture(scope="session")
+def build(bare_environment: dict[str, str]) -> Iterator[Build]:
+    """Build with what `pyproject.toml` asks for, in an environment of its own, which all builds here share."""
+    with DefaultIsolatedEnv() as isolated:
+
+        def run(kind: str, source: Path, out: Path) -> Path:
+            builder = ProjectBuilder.from_isolated_env(isolated, source, runner=quiet)
+            if kind not in prepared:
+                isolated.install(builder.build_system_requires)
+                isolated.install(builder.get_requires_for_build(kind))
+                prepared.add(kind)
+            return Path(builder.build(kind, out))
+
+        def quiet(
+            command: Sequence[str], cwd: str | None = None, more: Mapping[str, str] | None = None
+        ) -> None:
+            environment = bare_environment | dict(more or {})
+            environment["PATH"] = bare_environment["PATH"]  # no Node here either
+            done = subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
+            assert done.returncode == 0, done.stdout + done.stderr
+
+        prepared: set[str] = set()
+        yield run
 
 
 def read_wheel(path: Path) -> Archive:
@@ -64,35 +86,29 @@ def read_wheel(path: Path) -> Archive:
 
 
 @pytest.fixture(scope="session")
-def wheel(
-    export: Path, bare_environment: dict[str, str], tmp_path_factory: pytest.TempPathFactory
-) -> Archive:
+def wheel(export: Path, build: Build, tmp_path_factory: pytest.TempPathFactory) -> Archive:
     """Return the wheel built from the clean checkout."""
-    return read_wheel(build("wheel", export, tmp_path_factory.mktemp("wheel"), bare_environment))
+    return read_wheel(build("wheel", export, tmp_path_factory.mktemp("wheel")))
 
 
 @pytest.fixture(scope="session")
-def sdist(
-    export: Path, bare_environment: dict[str, str], tmp_path_factory: pytest.TempPathFactory
-) -> Archive:
+def sdist(export: Path, build: Build, tmp_path_factory: pytest.TempPathFactory) -> Archive:
     """Return the sdist built from the clean checkout; names without the leading folder."""
-    path = build("sdist", export, tmp_path_factory.mktemp("sdist"), bare_environment)
+    path = build("sdist", export, tmp_path_factory.mktemp("sdist"))
     with tarfile.open(path) as archive:
         names = frozenset(name.partition("/")[2] for name in archive.getnames())
     return Archive(path, names)
 
 
 @pytest.fixture(scope="session")
-def wheel_of_sdist(
-    sdist: Archive, bare_environment: dict[str, str], tmp_path_factory: pytest.TempPathFactory
-) -> Archive:
+def wheel_of_sdist(sdist: Archive, build: Build, tmp_path_factory: pytest.TempPathFactory) -> Archive:
     """Return the wheel built from the unpacked sdist."""
     source = tmp_path_factory.mktemp("unpacked")
     with tarfile.open(sdist.path) as archive:
         archive.extractall(source, filter="data")
     (folder,) = source.iterdir()
     out = tmp_path_factory.mktemp("wheel-of-sdist")
-    return read_wheel(build("wheel", folder, out, bare_environment))
+    return read_wheel(build("wheel", folder, out))
 
 
 @pytest.fixture(scope="session")
@@ -106,7 +122,8 @@ def installed(
     folder = tmp_path_factory.mktemp("venv")
     subprocess.run([sys.executable, "-m", "venv", folder], check=True, env=bare_environment)
     python = folder / "bin" / "python"
-    pip = [python, "-m", "pip", "--disable-pip-version-check", "install", "-q"]
+    # What is not imported need not be compiled.
+    pip = [python, "-m", "pip", "--disable-pip-version-check", "install", "-q", "--no-compile"]
     options = ["-c", root / "constraints.txt", wheel_of_sdist.path]
     done = subprocess.run([*pip, *options], env=bare_environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
