@@ -80,7 +80,7 @@ def test_a_wider_canvas_has_more_bays(studio: Notebook) -> None:
 
 
 PATIENT = """
-from facade_nb.solver import solving
+from facade_nb.solver import solution as solving
 hurried = solving._REMEDIES, solving._REMEDY
 solving._REMEDIES, solving._REMEDY = 600.0, 600.0
 Studio(model)

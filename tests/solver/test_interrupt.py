@@ -74,7 +74,7 @@ def test_the_stop_button(
 SIGNALS = """
 import os, signal, threading
 from facade_nb import NoLayout, solve
-from facade_nb.solver import solving
+from facade_nb.solver import solution as solving
 from tests.bench.designs import harder
 
 design = harder()["terraced-house (harder)"]  # seconds in compiled code
