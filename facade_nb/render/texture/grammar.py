@@ -16,13 +16,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...design.errors import DesignError, Fault, GrammarError, nearest
-from ...design.text import fault_at
+from ...design.errors import DesignError, Fault, GrammarError, nearest, quoted
+from ...design.names import nfc
 from .atlas import Atlas, Tiles, pack
 from .checks import Finding, check_rules, check_tiles, recurs, stack_heights
 from .compiling import Places, compile_text
 from .encoding import Encoding, Record, encode, read_records
 from .evaluating import Question, Surface, evaluate
+from .lines import Lines
 from .noise import Seed
 from .program import Rule
 
@@ -80,8 +81,9 @@ class Grammar:
         if compiled.tiles:
             found += check_tiles(compiled.tiles, (tiles if tiles is not None else _shipped()).names)
         faults = {(offset, fault.message): fault for offset, fault in compiled.faults}
+        lines = Lines(text)
         for offset, message in found:
-            faults.setdefault((offset, message), fault_at(text, offset, message))
+            faults.setdefault((offset, message), lines.fault(offset, message))
         if faults:
             raise GrammarError(faults[key] for key in sorted(faults))
         return cls(compiled.rules, compiled.places, compiled.tiles, text, tiles)
@@ -109,9 +111,9 @@ class Grammar:
         if name is None:
             return self.start
         names = [rule.name for rule in self.rules]
-        if name not in names:
-            raise DesignError(Fault("start", f"there is no rule {name!r}{nearest(name, names)}"))
-        return names.index(name)
+        if nfc(name) not in names:
+            raise DesignError(Fault("start", f"there is no rule {quoted(name)}{nearest(name, names)}"))
+        return names.index(nfc(name))
 
     def evaluate(
         self,
@@ -207,7 +209,8 @@ class Grammar:
             return self._atlas
         found = check_tiles(self.named, tiles.names)
         if found:
-            raise GrammarError(fault_at(self.text, offset, message) for offset, message in found)
+            lines = Lines(self.text)
+            raise GrammarError(lines.fault(offset, message) for offset, message in found)
         return pack(tiles, self.encoding.tiles)
 
     @cached_property

@@ -35,7 +35,7 @@ MAX_EXACT = 2048
 MAX_HALF = 65504.0
 """The largest number that a 16-bit float holds."""
 
-MAX_PARTS = 4096
+MAX_PARTS = 8000
 """Parts of one rule: a texture's row holds them in any browser."""
 
 MAX_LEVEL = 2**24
