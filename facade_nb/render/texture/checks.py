@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...design.errors import cut, nearest, quoted
+from .atlas import Tiles
 from .limits import MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS
 from .operators import Kind
 from .program import Rule, Source, children
@@ -37,14 +38,18 @@ def check_rules(rules: Sequence[Rule]) -> list[Finding]:
     return found + _structure(tuple(rules))
 
 
-def check_tiles(named: Sequence[tuple[int, str]], tiles: Iterable[str]) -> list[tuple[int, str]]:
-    """Offset and fault of every tile that a text names and the tile set does not have."""
-    names = set(tiles)
-    missing = [(offset, name) for offset, name in named if name not in names]
-    return [
-        (offset, f"there is no tile {quoted(name)}{nearest(name, sorted(names)) if k < _MANY else ''}")
-        for k, (offset, name) in enumerate(missing)
-    ]
+def check_tiles(named: Sequence[tuple[int, str]], tiles: Tiles) -> list[tuple[int, str]]:
+    """Offset and fault of every tile that a text names and the tile set does not have, or cannot read."""
+    names = set(tiles.names)
+    unusable: Mapping[str, str] = getattr(tiles, "unusable", {})
+    found = []
+    for offset, name in named:
+        if name in unusable:
+            found.append((offset, f"the tile {quoted(name)} cannot be used: {unusable[name]}"))
+        elif name not in names:
+            hint = nearest(name, sorted(names)) if len(found) < _MANY else ""
+            found.append((offset, f"there is no tile {quoted(name)}{hint}"))
+    return found
 
 
 def recurs(rules: Sequence[Rule]) -> bool:
