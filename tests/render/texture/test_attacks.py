@@ -17,6 +17,7 @@ from facade_nb.design.errors import DesignError, GrammarError
 from facade_nb.render import Grammar
 from facade_nb.render.texture import checks, compiling, syntax
 from facade_nb.render.texture.picture import rules_seen
+from facade_nb.render.texture.view import Sight
 
 from .figure_12 import FIGURE_12
 
@@ -277,6 +278,24 @@ class TestArguments:
         assert self.GRAMMAR.evaluate(np.zeros((0, 2)), (2, 1)).rule.shape == (0,)
         assert self.GRAMMAR.evaluate([(0.0005, 0.0005)], (0.001, 0.001)).rule.tolist() == [1]
         assert self.GRAMMAR.evaluate([(-1e9, 1e9)], (99999, 1), rays=[(1e9, -1e9, 1e-9)]).rule.tolist() == [1]
+
+    @pytest.mark.parametrize(
+        ("eye", "target", "angle", "named"),
+        [
+            ((np.nan, 1, 3), (1, 1), 50, "eye"),
+            ((1, 1, np.inf), (1, 1), 50, "eye"),
+            ((1, 1, 1e-300), (1, 1), 50, "eye"),
+            ((1, 1, 3), (np.nan, 1), 50, "eye, target"),
+            ((1, 1, 3), (1e300, 1), 50, "eye, target"),
+            ((1, 1, 3), (1, 1), np.nan, "angle"),
+            ((1, 1, 3), (1, 1), 180, "angle"),
+        ],
+    )
+    def test_eyes(
+        self, eye: tuple[float, float, float], target: tuple[float, float], angle: float, named: str
+    ) -> None:
+        with pytest.raises(ValueError, match=f"^{named}"):
+            Sight.from_eye(eye, target, (2, 1), (8, 4), angle)
 
     def test_pixels(self) -> None:
         for pixels in ((1, 1 << 26), (1 << 17, 1), (0, 1)):
