@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import io
 import os
+import re
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,7 +13,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .design.errors import DesignError, Fault, GrammarError
+from .design.errors import DesignError, Fault, GrammarError, quoted
 from .design.files import write_together
 
 if TYPE_CHECKING:
@@ -22,9 +23,12 @@ if TYPE_CHECKING:
 
 __all__ = ["add_render", "joined", "render_command"]
 
+_FAR, _NEAR = 1e6, 1e-3  # of an eye, metres
+_NOTES = 5
 _BACKENDS = ("cpu", "osmesa", "egl")
 _ANTIALIAS = ("none", "adaptive", "supersample")
-_MOST_PIXELS = 1 << 26
+_MOST_PIXELS, _LONGEST = 1 << 26, 1 << 16
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _NUMBERS = ("--size", "--pixels", "--seed", "--eye", "--target", "--angle", "--hour")
 _DIGITS = frozenset("0123456789.")
 
@@ -52,7 +56,7 @@ def add_render(commands: Any) -> None:
         "--eye", type=_triple, metavar="X,Y,Z", help="look from here, metres from the lower left corner"
     )
     parser.add_argument(
-        "--target", type=_pair, metavar="X,Y", help="to this point of the façade; default: its middle"
+        "--target", type=_target, metavar="X,Y", help="to this point of the façade; default: its middle"
     )
     parser.add_argument(
         "--angle", type=_angle, default=50.0, metavar="DEGREES", help="width of view; default: 50"
@@ -118,7 +122,12 @@ def _tiles(folder: str | None) -> Tiles | None:
         return None
     from .render.tiles import TileSet
 
-    return TileSet.from_folder(folder)
+    tiles = TileSet.from_folder(folder)
+    for fault in tiles.faults[:_NOTES]:
+        print(f"Note: {fault}", file=sys.stderr)
+    if len(tiles.faults) > _NOTES:
+        print(f"Note: … and {len(tiles.faults) - _NOTES:,} more files of that folder", file=sys.stderr)
+    return tiles
 
 
 def _grammar(path: Path, tiles: Tiles | None) -> Grammar:
@@ -140,8 +149,10 @@ def _sight(options: argparse.Namespace) -> Sight | None:
         return None
     from .render.texture.view import Sight
 
-    if options.eye[2] <= 0:
-        options.parser.error("argument --eye: expected an eye in front of the façade, its z above 0")
+    if options.eye[2] < _NEAR:
+        options.parser.error(
+            f"argument --eye: expected an eye in front of the façade, its z at least {_NEAR:g}"
+        )
     width, height = options.size
     target = options.target or (width / 2, height / 2)
     return Sight.from_eye(options.eye, target, options.size, options.pixels, options.angle)
@@ -153,20 +164,20 @@ def _sight(options: argparse.Namespace) -> Sight | None:
 def _numbers(text: str, signs: str, count: int) -> tuple[float, ...]:
     for sign in signs[1:]:
         text = text.replace(sign, signs[0])
-    words = text.split(signs[0])
-    try:
-        values = tuple(float(word) for word in words)
-    except ValueError:
+    words = [word.strip() for word in text.split(signs[0])]
+    if len(words) != count or not all(map(_NUMBER.fullmatch, words)):
         return ()
-    return values if len(values) == count and all(map(isfinite, values)) else ()
+    values = tuple(map(float, words))
+    return values if all(map(isfinite, values)) else ()
 
 
 def _size(text: str) -> tuple[float, float]:
     """A façade's width and height."""
     values = _numbers(text, "xX×", 2)
-    if not values or min(values) <= 0 or max(values) >= 1e5:
+    if not values or min(values) < 1e-3 or max(values) >= 1e5:
         raise argparse.ArgumentTypeError(
-            f"expected a width and a height in metres, such as 12x9; found {text!r}"
+            "expected a width and a height in metres, such as 12x9, from 0.001 to below 100000; "
+            f"found {quoted(text)}"
         )
     return values[0], values[1]
 
@@ -178,10 +189,12 @@ def _pixels(text: str) -> tuple[int, int]:
         not values
         or min(values) < 1
         or any(value % 1 for value in values)
+        or max(values) > _LONGEST
         or values[0] * values[1] > _MOST_PIXELS
     ):
         raise argparse.ArgumentTypeError(
-            f"expected a width and a height in pixels, such as 800x600, at most {_MOST_PIXELS} in all; found {text!r}"
+            f"expected a width and a height in pixels, such as 800x600, each at most {_LONGEST}, and at most "
+            f"{_MOST_PIXELS} in all; found {quoted(text)}"
         )
     return int(values[0]), int(values[1])
 
@@ -190,15 +203,27 @@ def _pair(text: str) -> tuple[float, float]:
     """Two numbers."""
     values = _numbers(text, ",", 2)
     if not values or max(map(abs, values)) >= 2**53:
-        raise argparse.ArgumentTypeError(f"expected two numbers, such as 1,2; found {text!r}")
+        raise argparse.ArgumentTypeError(f"expected two numbers, such as 1,2; found {quoted(text)}")
+    return values[0], values[1]
+
+
+def _target(text: str) -> tuple[float, float]:
+    """A point of the façade's plane."""
+    values = _numbers(text, ",", 2)
+    if not values or max(map(abs, values)) > _FAR:
+        raise argparse.ArgumentTypeError(
+            f"expected two numbers within ±{_FAR:.0f} m, such as 6,4; found {quoted(text)}"
+        )
     return values[0], values[1]
 
 
 def _triple(text: str) -> tuple[float, float, float]:
     """Three numbers."""
     values = _numbers(text, ",", 3)
-    if not values:
-        raise argparse.ArgumentTypeError(f"expected three numbers, such as 6,1.7,10; found {text!r}")
+    if not values or max(map(abs, values)) > _FAR:
+        raise argparse.ArgumentTypeError(
+            f"expected three numbers within ±{_FAR:.0f} m, such as 6,1.7,10; found {quoted(text)}"
+        )
     return values[0], values[1], values[2]
 
 
@@ -206,7 +231,7 @@ def _hour(text: str) -> float:
     """An hour of the day."""
     values = _numbers(text, ",", 1)
     if not values or not 0 <= values[0] <= 24:
-        raise argparse.ArgumentTypeError(f"expected an hour from 0 to 24, such as 9.5; found {text!r}")
+        raise argparse.ArgumentTypeError(f"expected an hour from 0 to 24, such as 9.5; found {quoted(text)}")
     return values[0]
 
 
@@ -214,5 +239,5 @@ def _angle(text: str) -> float:
     """Degrees."""
     values = _numbers(text, ",", 1)
     if not values or not 1 <= values[0] <= 170:
-        raise argparse.ArgumentTypeError(f"expected degrees from 1 to 170; found {text!r}")
+        raise argparse.ArgumentTypeError(f"expected degrees from 1 to 170; found {quoted(text)}")
     return values[0]

@@ -15,7 +15,12 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Atlas", "Tiles", "pack"]
+from ...design.errors import DesignError, Fault
+
+__all__ = ["MAX_TEXELS", "Atlas", "Tiles", "pack"]
+
+MAX_TEXELS = 1 << 26
+"""The largest atlas: 256 MiB, and what a graphics card holds in one image."""
 
 Floats = NDArray[np.float32]
 
@@ -96,8 +101,24 @@ def _neighbours(
 
 
 def pack(tiles: Tiles | None, names: Sequence[str]) -> Atlas:
-    """Pack tiles, each with all its levels side by side, on shelves."""
-    images = [[_stored(level) for level in tiles.mips(name)] for name in names] if tiles is not None else []
+    """Pack tiles, each with all its levels side by side, on shelves.
+
+    Raises
+    ------
+    DesignError
+        For more tiles than fit one image, and for one that cannot be read.
+    """
+    images: list[list[NDArray[np.uint8]]] = []
+    texels = 0
+    for name in names if tiles is not None else ():
+        images.append([_stored(level) for level in tiles.mips(name)])  # type: ignore[union-attr]
+        texels += 4 * images[-1][0].shape[0] * images[-1][0].shape[1] // 3
+        if texels > MAX_TEXELS:
+            message = (
+                f"the {len(names)} tiles that are named take more than {MAX_TEXELS} pixels with their smaller "
+                "versions: expected fewer, or smaller ones, such as those of TileSet.from_folder(…, size=256)"
+            )
+            raise DesignError(Fault("tiles", message))
     if not images:
         return Atlas(np.zeros((1, 1, 4), np.uint8), np.array([[[0, 0, 1, 1]]], np.int32), np.ones(1, bool))
     sizes = [

@@ -35,6 +35,8 @@ class Batch:
         Three of (n,) or (1,): direction of the viewing ray; x and y along the scope, z out of it.
     footprint
         (n,) or (1,) metres that a pixel covers there, across the ray; 0 where nobody asks.
+    slack
+        For x and for y, (n,) or (1,): how far the scope's extent may be from what was meant, metres (`dividing`).
     seeds
         The seed stack: corners in whole steps of the noise texture, the last one on top.
     shift
@@ -54,6 +56,7 @@ class Batch:
     top: Floats
     ray: tuple[Floats, Floats, Floats]
     footprint: Floats
+    slack: tuple[Floats, Floats]
     seeds: tuple[tuple[Steps, Steps], ...] = ()
     shift: int = 1
     faces: tuple[int, ...] = ()
@@ -83,6 +86,7 @@ class Batch:
             of(self.top),
             (of(self.ray[0]), of(self.ray[1]), of(self.ray[2])),
             of(self.footprint),
+            (of(self.slack[0]), of(self.slack[1])),
             tuple((of(x), of(y)) for x, y in self.seeds),
             self.shift,
             self.faces,
@@ -93,11 +97,11 @@ class Batch:
         """Place of the points, lower and upper end of the scope along an axis (0: x, 1: y)."""
         return (self.x, self.left, self.right) if axis == 0 else (self.y, self.bottom, self.top)
 
-    def within(self, axis: int, low: Floats, high: Floats) -> Batch:
+    def within(self, axis: int, low: Floats, high: Floats, slack: Floats) -> Batch:
         """The same points in a part of their scope."""
         if axis == 0:
-            return replace(self, left=low, right=high)
-        return replace(self, bottom=low, top=high)
+            return replace(self, left=low, right=high, slack=(slack, self.slack[1]))
+        return replace(self, bottom=low, top=high, slack=(self.slack[0], slack))
 
 
 def joined(batches: Sequence[Batch]) -> Batch:
@@ -117,6 +121,7 @@ def joined(batches: Sequence[Batch]) -> Batch:
         of(lambda batch: batch.top),
         (of(lambda batch: batch.ray[0]), of(lambda batch: batch.ray[1]), of(lambda batch: batch.ray[2])),
         of(lambda batch: batch.footprint),
+        (of(lambda batch: batch.slack[0]), of(lambda batch: batch.slack[1])),
         tuple((of(partial(_seed, k, 0)), of(partial(_seed, k, 1))) for k in range(len(first.seeds))),
         first.shift,
         first.faces,

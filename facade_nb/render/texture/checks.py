@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from ...design.errors import nearest
+from ...design.errors import cut, nearest, quoted
+from .atlas import Tiles
 from .limits import MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS
 from .operators import Kind
 from .program import Rule, Source, children
 
 __all__ = ["Finding", "check_rules", "check_tiles", "recurs", "stack_heights"]
+
+_MANY = 50
+"""Faults that say what may have been meant; nobody reads more."""
+
+_WAY = 12
+"""Rules that are named on a way back."""
 
 _SLACK = 1e-3
 """By how much probabilities may miss 1: so 0.333 three times is fine."""
@@ -31,14 +38,18 @@ def check_rules(rules: Sequence[Rule]) -> list[Finding]:
     return found + _structure(tuple(rules))
 
 
-def check_tiles(named: Sequence[tuple[int, str]], tiles: Iterable[str]) -> list[tuple[int, str]]:
-    """Offset and fault of every tile that a text names and the tile set does not have."""
-    names = list(tiles)
-    return [
-        (offset, f"there is no tile {name!r}{nearest(name, names)}")
-        for offset, name in named
-        if name not in names
-    ]
+def check_tiles(named: Sequence[tuple[int, str]], tiles: Tiles) -> list[tuple[int, str]]:
+    """Offset and fault of every tile that a text names and the tile set does not have, or cannot read."""
+    names = set(tiles.names)
+    unusable: Mapping[str, str] = getattr(tiles, "unusable", {})
+    found = []
+    for offset, name in named:
+        if name in unusable:
+            found.append((offset, f"the tile {quoted(name)} cannot be used: {unusable[name]}"))
+        elif name not in names:
+            hint = nearest(name, sorted(names)) if len(found) < _MANY else ""
+            found.append((offset, f"there is no tile {quoted(name)}{hint}"))
+    return found
 
 
 def recurs(rules: Sequence[Rule]) -> bool:
@@ -58,7 +69,7 @@ def _heights(
     rules: Sequence[Rule],
     below: Sequence[Sequence[int]],
     groups: Sequence[Sequence[int]],
-    pushes: Callable[[Rule, int], int],
+    pushes: Callable[[Rule], frozenset[int]],
 ) -> list[int]:
     """How high a stack can be where each rule begins."""
     height = [0] * len(rules)
@@ -66,8 +77,9 @@ def _heights(
         top = max(height[i] for i in group)
         for i in group:
             height[i] = top
+            pushed = pushes(rules[i])
             for to in below[i]:
-                height[to] = max(height[to], top + pushes(rules[i], to))
+                height[to] = max(height[to], top + (to in pushed))
     return height
 
 
@@ -115,7 +127,8 @@ def _structure(rules: tuple[Rule, ...]) -> list[Finding]:
     below = [
         [to for to in onward if to >= 0] for onward in children(rules)
     ]  # -1: one that has a fault of its own
-    stuck = [[to for to in below[i] if not _shrinks(rules[i], to)] for i in range(len(rules))]
+    smaller = [_smaller(rule) for rule in rules]
+    stuck = [[to for to in onward if to not in smaller[i]] for i, onward in enumerate(below)]
     circles = _circles(stuck)
     if circles:
         return [_endless(rules, stuck, group) for group in circles]
@@ -126,30 +139,35 @@ def _structure(rules: tuple[Rule, ...]) -> list[Finding]:
     return found or _too_long(rules, below, groups)
 
 
-def _shrinks(rule: Rule, to: int) -> bool:
-    """Whether every way from a rule to another one makes its scope smaller, by some least part of it.
+def _smaller(rule: Rule) -> set[int]:
+    """The rules that it goes on with in a smaller scope always, by some least part of it.
 
     A split does: a relative part beside any other part, and an absolute one that another absolute one stands before
     (the first may be all that fits). Nothing else does: a scope that is not larger than `v` is repeated as it is.
     """
     if not rule.operator.name.startswith("Split"):
-        return False
+        return set()
     absolute = False
+    smaller: set[int] = set()
+    same: set[int] = set()
     for policy, _, target in rule.parts:
-        if target == to and not (absolute or (policy == 1 and len(rule.parts) > 1)):
-            return False
+        shrinks = absolute or (policy == 1 and len(rule.parts) > 1)
+        (smaller if shrinks else same).update([target] if isinstance(target, int) else [])
         absolute = absolute or policy == -1
-    return True
+    return smaller - same
 
 
 def _endless(rules: Sequence[Rule], edges: Sequence[Sequence[int]], group: Sequence[int]) -> Finding:
     first = min(group)
     way = _way_back(first, edges, set(group))
-    names = " → ".join(rules[i].name for i in way)
+    shown = [cut(rules[i].name) for i in way]
+    if len(shown) > _WAY:
+        shown = [*shown[: _WAY // 2], "…", *shown[-_WAY // 2 :]]
+    names = " → ".join(shown)
     return Finding(
         first,
         None,
-        f"the rule {rules[first].name!r} comes back to itself without its scope getting smaller: {names}",
+        f"the rule {quoted(rules[first].name)} comes back to itself without its scope getting smaller: {names}",
     )
 
 
@@ -171,24 +189,25 @@ def _way_back(start: int, edges: Sequence[Sequence[int]], group: set[int]) -> li
     raise AssertionError("a rule of a circle comes back to itself")
 
 
-def _layers(rule: Rule, to: int) -> int:
-    """Whether a layer stands below when the rule goes on with another: the lowest one needs no place on the stack."""
-    return int(rule.operator.name == "Layer" and to in rule.targets()[1:])
+def _layers(rule: Rule) -> frozenset[int]:
+    """Where layers stand below when the rule goes on: the lowest one needs no place on the stack."""
+    return frozenset(rule.targets()[1:]) if rule.operator.name == "Layer" else frozenset()
 
 
-def _seeds(rule: Rule, to: int) -> int:
-    return int(rule.operator.name == "RandStack")
+def _seeds(rule: Rule) -> frozenset[int]:
+    return frozenset(rule.targets()) if rule.operator.name == "RandStack" else frozenset()
 
 
-def _faces(rule: Rule, to: int) -> int:
-    return int(rule.operator.name == "Intrusion")
+def _faces(rule: Rule) -> frozenset[int]:
+    return frozenset(rule.targets()) if rule.operator.name == "Intrusion" else frozenset()
 
 
-_STACKS: tuple[tuple[str, int, Callable[[Rule, int], int]], ...] = (
+_STACKS: tuple[tuple[str, int, Callable[[Rule], frozenset[int]]], ...] = (
     ("Layer operators", MAX_FRAMES, _layers),
     ("RandStack operators", MAX_SEEDS, _seeds),
     ("Intrusion operators", MAX_FACES, _faces),
 )
+"""What a stack is of, how much it holds, and with which rules a rule goes on with one more on it."""
 
 
 def _too_high(
@@ -197,7 +216,7 @@ def _too_high(
     groups: Sequence[Sequence[int]],
     what: str,
     limit: int,
-    pushes: Callable[[Rule, int], int],
+    pushes: Callable[[Rule], frozenset[int]],
 ) -> list[Finding]:
     """The first rule at which a stack has grown higher than the shader's, and those that make it grow in a circle."""
     home = {i: g for g, group in enumerate(groups) for i in group}
@@ -205,11 +224,11 @@ def _too_high(
         Finding(
             i,
             None,
-            f"the rule {rules[i].name!r} can come back to itself, and its {what} then stand inside "
+            f"the rule {quoted(rules[i].name)} can come back to itself, and its {what} then stand inside "
             f"each other without end: expected at most {limit}",
         )
         for i in range(len(rules))
-        if any(home[to] == home[i] and pushes(rules[i], to) for to in below[i])
+        if any(home.get(to) == home[i] for to in pushes(rules[i]))
     ]
     if found:
         return found
@@ -266,10 +285,12 @@ def _components(edges: Sequence[Sequence[int]]) -> list[list[int]]:
                 if walk:
                     low[walk[-1][0]] = min(low[walk[-1][0]], low[at])
                 if low[at] == number[at]:
-                    start = open_.index(at)
-                    groups.append(open_[start:])
-                    is_open.difference_update(open_[start:])
-                    del open_[start:]
+                    group = [open_.pop()]
+                    while group[-1] != at:
+                        group.append(open_.pop())
+                    group.reverse()
+                    groups.append(group)
+                    is_open.difference_update(group)
             elif to not in number:
                 number[to] = low[to] = len(number)
                 open_.append(to)

@@ -6,13 +6,14 @@ namespace that is copied becomes a second set of rules.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from math import isfinite
 
-from ...design.errors import Fault, nearest
-from ...design.text import fault_at
-from .limits import MAX_HALF
+from ...design.errors import Fault, cut, nearest, quoted
+from .limits import MAX_HALF, MAX_LEVEL, MAX_PARTS
+from .lines import Lines
 from .operators import OPERATORS, POLICIES, USAGES, Kind, Operator, Param
 from .program import Rule, Source, Value
 from .syntax import (
@@ -34,15 +35,24 @@ __all__ = ["Compiled", "compile_text"]
 MAX_RULES = 20_000
 _SMALLEST = 6e-8
 _MAX_COPIES = 64  # of one rule inside each other
+_MAX_NESTED = 100  # values that another value needs, one inside the other
+_MAX_FAULTS = 1000  # that are looked for
+_MAX_HINTS = 50  # of them that name what may have been meant
+_MAX_NAME = 120  # characters of the name of a copy
 
 
 @dataclass(frozen=True, slots=True)
 class _Key:
-    """A rule of a namespace with the values of its parameters."""
+    """A rule of a namespace with the values of its parameters.
+
+    A compiler has one object for each. So they are told apart by identity: they may hold each other, many times over.
+    """
 
     space: str
     name: str
     given: tuple[_Bound, ...] = ()
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,12 +68,15 @@ _Bound = float | Source | _Key | _Word
 
 @dataclass(slots=True)
 class _Space:
-    """A namespace: its rules and settings, the values that a copy has changed, and those worked out so far."""
+    """A namespace: its rules and settings, the values that a copy has changed, and those worked out so far.
+
+    A setting that is at fault has None.
+    """
 
     rules: dict[str, RuleText] = field(default_factory=dict)
     settings: dict[str, Setting] = field(default_factory=dict)
     changed: dict[str, _Bound] = field(default_factory=dict)
-    known: dict[str, _Bound] = field(default_factory=dict)
+    known: dict[str, _Bound | None] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,26 +126,32 @@ def compile_text(text: str) -> Compiled:
 class _Compiler:
     def __init__(self, text: str) -> None:
         self.text = text
-        self.faults: dict[tuple[int, str], Fault] = {}
+        self.lines = Lines(text)
+        self.faults: dict[tuple[int, str], None] = {}
         self.spaces: dict[str, _Space] = {"": _Space()}
         self.order: list[tuple[str, RuleText]] = []
         self.slots: dict[tuple[str, str], int] = {}  # where a rule stands in file order
+        self.keys: dict[tuple[str, str, tuple[object, ...]], _Key] = {}
         self.index: dict[_Key, int] = {}
+        self.defaults: dict[tuple[str, int], _Bound | None] = {}
+        self.spelled: dict[_Key, str] = {}
+        self.nested = 0
+        self.working: set[tuple[str, int]] = set()
         self.rules: list[Rule | None] = []
         self.places: list[Places | None] = []
-        self.waiting: list[tuple[_Key, int]] = []
+        self.waiting: deque[tuple[_Key, int]] = deque()
         self.taken: set[int] = set()
         self.tiles: set[tuple[int, str]] = set()
         self.depth: dict[_Key, int] = {}  # how many copies of rules stand around a copy
         self.here = 0
-        self.settling: list[tuple[str, str]] = []
+        self.settling: set[tuple[str, str]] = set()
         self.unread: frozenset[str] = frozenset()
 
     def run(self) -> Compiled:
         reading = read(self.text)
         self.unread = reading.unread
-        for offset, fault in reading.faults:
-            self.faults[offset, fault.message] = fault
+        for offset, message in reading.faults:
+            self.fault(offset, message)
         copies = self._collect(reading.statements)
         for space, rule in self.order:
             self.slots[space, rule.name] = len(self.rules)
@@ -152,7 +171,12 @@ class _Compiler:
 
     def fault(self, offset: int, message: str) -> None:
         """Note a fault; the same one at the same place counts once (copies of a rule share its text)."""
-        self.faults.setdefault((offset, message), fault_at(self.text, offset, message))
+        if len(self.faults) < _MAX_FAULTS:
+            self.faults.setdefault((offset, message), None)
+
+    def hint(self, name: str, valid: Iterable[str]) -> str:
+        """The nearest valid name, as long as there are not too many faults for anyone to read."""
+        return nearest(name, valid) if len(self.faults) < _MAX_HINTS else ""
 
     def _finished(self) -> Compiled:
         """Drop rules with parameters that nobody uses, and number the others."""
@@ -164,9 +188,7 @@ class _Compiler:
             if rule is not None:
                 rules.append(_renumbered(rule, number))
         places = tuple(place for place in self.places if place is not None)
-        faults = sorted(
-            ((offset, fault) for (offset, _), fault in self.faults.items()), key=lambda item: item[0]
-        )
+        faults = [(offset, self.lines.fault(offset, message)) for offset, message in sorted(self.faults)]
         return Compiled(tuple(rules), places, tuple(sorted(self.tiles)), tuple(faults))
 
     # Definitions ------------------------------------------------------------------------------------------
@@ -181,7 +203,7 @@ class _Compiler:
                     if name in self.spaces:
                         self.fault(
                             statement.offset,
-                            f"the namespace {name!r} is there already: give this one another",
+                            f"the namespace {quoted(name)} is there already: give this one another",
                         )
                         continue
                     if isinstance(statement, Namespace):
@@ -192,9 +214,12 @@ class _Compiler:
                         known = [space for space in self.spaces if space]
                         self.fault(
                             statement.source_offset,
-                            f"expected a namespace that stands above; found {statement.source!r}"
-                            f"{nearest(statement.source, known)}",
+                            f"expected a namespace that stands above; found {quoted(statement.source)}"
+                            f"{self.hint(statement.source, known)}",
                         )
+                        self.unread |= {name}
+                    elif len(self.order) + len(source.rules) > MAX_RULES:
+                        self.fault(statement.offset, f"this copy makes more than {MAX_RULES} rules")
                         self.unread |= {name}
                     else:
                         copy = _Space(dict(source.rules), dict(source.settings))
@@ -209,23 +234,27 @@ class _Compiler:
         home = self.spaces[space]
         there = home.rules.get(item.name) or home.settings.get(item.name)
         if there is not None:
-            line = fault_at(self.text, there.offset, "").line
+            line = self.lines.line(there.offset)
             self.fault(
-                item.offset, f"{item.name!r} is defined already, on line {line}: give this one another name"
+                item.offset,
+                f"{quoted(item.name)} is defined already, on line {line}: give this one another name",
             )
+        elif len(self.order) >= MAX_RULES:
+            self.fault(item.offset, f"expected at most {MAX_RULES} rules")
         elif isinstance(item, Setting):
             home.settings[item.name] = item
         else:
             home.rules[item.name] = item
             self.order.append((space, item))
-            names = [parameter.name for parameter in item.parameters]
+            names: set[str] = set()
             for i, parameter in enumerate(item.parameters):
-                if parameter.name in names[:i]:
-                    self.fault(parameter.offset, f"the parameter {parameter.name!r} is there twice")
+                if parameter.name in names:
+                    self.fault(parameter.offset, f"the parameter {quoted(parameter.name)} is there twice")
+                names.add(parameter.name)
                 if parameter.default is None and i and item.parameters[i - 1].default is not None:
                     self.fault(
                         parameter.offset,
-                        f"expected a default for {parameter.name!r}, since one before it has one",
+                        f"expected a default for {quoted(parameter.name)}, since one before it has one",
                     )
 
     def _change(self, copies: Iterable[Copy]) -> None:
@@ -238,12 +267,12 @@ class _Compiler:
                 if argument.name not in space.settings:
                     self.fault(
                         argument.offset,
-                        f"the namespace {copy.source!r} has no setting {argument.name!r}"
-                        f"{nearest(argument.name, space.settings)}",
+                        f"the namespace {quoted(copy.source)} has no setting {quoted(argument.name)}"
+                        f"{self.hint(argument.name, space.settings)}",
                     )
                     continue
                 if argument.name in seen:
-                    self.fault(argument.offset, f"the setting {argument.name!r} is there twice")
+                    self.fault(argument.offset, f"the setting {quoted(argument.name)} is there twice")
                 seen.add(argument.name)
                 value = self._value(argument.value, _Scope(""))
                 if value is not None:
@@ -252,27 +281,71 @@ class _Compiler:
     # Values -----------------------------------------------------------------------------------------------
 
     def _setting(self, space: str, name: str, offset: int) -> _Bound | None:
-        """The value of a setting: looked up in its namespace; settings may use each other, but not in a circle."""
+        """The value of a setting: looked up in its namespace; settings may use each other, but not in a circle.
+
+        What a setting uses is worked out before it, so that no chain of them, however long, is a depth of calls.
+        """
         home = self.spaces[space]
-        for values in (home.changed, home.known):
-            if name in values:
-                return values[name]
+        if name in home.changed:
+            return home.changed[name]
+        if name in home.known:
+            return home.known[name]
         if (space, name) in self.settling:
-            self.fault(offset, f"the setting {name!r} needs itself for its own value")
+            self.fault(offset, f"the setting {quoted(name)} needs itself for its own value")
             return None
-        self.settling.append((space, name))
-        try:
-            value = self._value(home.settings[name].value, _Scope(space))
-        finally:
-            self.settling.pop()
-        if value is not None:
-            home.known[name] = value
-        return value
+        waiting = [(space, name, False)]
+        begun: set[tuple[str, str]] = set()
+        while waiting:
+            where, what, ready = waiting.pop()
+            home = self.spaces[where]
+            if what in home.changed or what in home.known or (where, what) in self.settling:
+                continue
+            value = home.settings[what].value
+            if ready:
+                self.settling.add((where, what))
+                home.known[what] = self._value(value, _Scope(where))
+                self.settling.discard((where, what))
+            elif (where, what) in begun:
+                continue  # a circle: the one that is waiting finds it
+            else:
+                begun.add((where, what))
+                waiting.append((where, what, True))
+                waiting += [(*used, False) for used in self._used(value, where)]
+        return self.spaces[space].known[name]
+
+    def _used(self, value: Expression, space: str) -> Iterator[tuple[str, str]]:
+        """The settings that an expression names."""
+        waiting = [value]
+        while waiting:
+            match waiting.pop():
+                case Binary(left=left, right=right):
+                    waiting += [left, right]
+                case Name(text=text, space="", arguments=None):
+                    home = next((s for s in (space, "") if text in self.spaces[s].settings), None)
+                    if home is not None:
+                        yield home, text
+                case Name(arguments=arguments):
+                    waiting += [argument.value for argument in arguments or ()]
 
     def _value(self, expression: Expression, scope: _Scope) -> _Bound | None:
         """What an expression stands for; None after a fault."""
+        if self.nested >= _MAX_NESTED:
+            self.fault(expression.offset, f"this value is needed by more than {_MAX_NESTED} others in a row")
+            return None
+        self.nested += 1
+        try:
+            return self._made(expression, scope)
+        finally:
+            self.nested -= 1
+
+    def _made(self, expression: Expression, scope: _Scope) -> _Bound | None:
         match expression:
-            case Number(value=value):
+            case Number(value=value, text=text):
+                if text:
+                    self.fault(
+                        expression.offset, f"expected a number that can be calculated with; found {cut(text)}"
+                    )
+                    return None
                 return value
             case Tile(mode=mode, name=name):
                 self.tiles.add((expression.offset, name))
@@ -288,28 +361,40 @@ class _Compiler:
                 return self._use(expression, scope)
 
     def _binary(self, expression: Binary, scope: _Scope) -> float | None:
-        values = []
-        for side in (expression.left, expression.right):
-            value = self._value(side, scope)
-            if value is None:
+        """A sum or a product: of however many numbers, from the left."""
+        chain = [expression]
+        while isinstance(left := chain[-1].left, Binary):
+            chain.append(left)
+        value = self._number(chain[-1].left, scope)
+        for step in reversed(chain):
+            right = None if value is None else self._number(step.right, scope)
+            if value is None or right is None:
                 return None
-            if not isinstance(value, float):
-                self.fault(side.offset, f"expected a number to calculate with; found {_told(value)}")
+            if step.sign == "/" and right == 0:
+                self.fault(step.right.offset, "expected a divisor other than 0")
                 return None
-            values.append(value)
-        left, right = values
-        if expression.sign == "/" and right == 0:
-            self.fault(expression.right.offset, "expected a divisor other than 0")
-            return None
-        match expression.sign:
-            case "+":
-                return left + right
-            case "-":
-                return left - right
-            case "*":
-                return left * right
-            case _:
-                return left / right
+            match step.sign:
+                case "+":
+                    value += right
+                case "-":
+                    value -= right
+                case "±":
+                    value = -right
+                case "*":
+                    value *= right
+                case _:
+                    value /= right
+            if not isfinite(value):
+                self.fault(step.offset, "expected a result that can be calculated with; it is too large")
+                return None
+        return value
+
+    def _number(self, expression: Expression, scope: _Scope) -> float | None:
+        value = self._value(expression, scope)
+        if value is None or isinstance(value, float):
+            return value
+        self.fault(expression.offset, f"expected a number to calculate with; found {_told(value)}")
+        return None
 
     def _is_rule(self, name: Name, scope: _Scope) -> bool:
         return name.text in self.spaces[scope.space].rules or name.text in self.spaces[""].rules
@@ -336,13 +421,15 @@ class _Compiler:
         given = self._given(name, space, rule, scope)
         if given is None:
             return None
-        key = _Key(space, rule.name, given)
+        key = self.keys.setdefault((space, rule.name, given), _Key(space, rule.name, given))
         if key not in self.index:
             below = depth if depth is not None else self.here + 1
             if len(self.rules) >= MAX_RULES or below > _MAX_COPIES:
                 self.fault(
                     name.offset,
-                    f"{str(name)!r} makes copies of itself without end",
+                    f"{quoted(name)} makes copies of itself without end"
+                    if below > _MAX_COPIES
+                    else f"{quoted(name)} makes more than {MAX_RULES} rules",
                 )
                 return None
             slot = self.slots[space, rule.name]
@@ -362,7 +449,8 @@ class _Compiler:
                 if name.space not in self.unread:
                     known = [space for space in self.spaces if space]
                     self.fault(
-                        name.offset, f"there is no namespace {name.space!r}{nearest(name.space, known)}"
+                        name.offset,
+                        f"there is no namespace {quoted(name.space)}{self.hint(name.space, known)}",
                     )
                 return None
             places: tuple[str, ...] = (name.space,)
@@ -374,38 +462,49 @@ class _Compiler:
         settings = any(name.text in self.spaces[space].settings for space in places)
         if settings and not name.space:
             if name.arguments is not None:
-                self.fault(name.offset, f"{name.text!r} is a setting: it takes no values in parentheses")
+                self.fault(
+                    name.offset, f"{quoted(name.text)} is a setting: it takes no values in parentheses"
+                )
             return None  # else its value has had a fault of its own
         if name.text not in self.unread:
-            known = [rule for space in dict.fromkeys(places) for rule in self.spaces[space].rules]
-            known += [*scope.parameters, *self.spaces[scope.space].settings] if not name.space else []
-            hint = nearest(name.text, known)
+            hint = self.hint(name.text, self._known(name, scope, places))
             if not hint and name.text in OPERATORS:
                 hint = f"; {name.text!r} is an operator: give a rule of that name, such as Skip -> Skip(0)"
-            self.fault(name.offset, f"there is no rule {str(name)!r}{hint}")
+            self.fault(name.offset, f"there is no rule {quoted(name)}{hint}")
         return None
+
+    def _known(self, name: Name, scope: _Scope, places: Iterable[str]) -> Iterator[str]:
+        """Names that could stand where one is unknown."""
+        for space in dict.fromkeys(places):
+            yield from self.spaces[space].rules
+        if not name.space:
+            yield from scope.parameters
+            yield from self.spaces[scope.space].settings
 
     def _given(self, name: Name, space: str, rule: RuleText, scope: _Scope) -> tuple[_Bound, ...] | None:
         """The values of a rule's parameters: as given, else the defaults."""
         given: dict[str, _Bound | None] = {}
-        names = [parameter.name for parameter in rule.parameters]
+        names = {parameter.name: k for k, parameter in enumerate(rule.parameters)}
+        order = tuple(names)
         place = 0
         for argument in name.arguments or ():
-            to = argument.name or (names[place] if place < len(names) else "")
+            to = argument.name or (order[place] if place < len(order) else "")
             place += not argument.name
             if argument.name and argument.name not in names:
                 self.fault(
                     argument.offset,
-                    f"the rule {rule.name!r} has no parameter {argument.name!r}{nearest(argument.name, names)}",
+                    f"the rule {quoted(rule.name)} has no parameter {quoted(argument.name)}"
+                    f"{self.hint(argument.name, names)}",
                 )
             elif not to:
                 told = f"{len(names)} parameter{'s' * (len(names) != 1)}" if names else "no parameters"
                 self.fault(
-                    argument.offset, f"the rule {rule.name!r} has {told}; found {len(name.arguments or ())}"
+                    argument.offset,
+                    f"the rule {quoted(rule.name)} has {told}; found {len(name.arguments or ())}",
                 )
                 return None
             elif to in given:
-                self.fault(argument.offset, f"the parameter {to!r} is given twice")
+                self.fault(argument.offset, f"the parameter {quoted(to)} is given twice")
             else:
                 given[to] = self._value(argument.value, scope)
         values = []
@@ -423,15 +522,28 @@ class _Compiler:
     def _default(self, name: Name, space: str, rule: RuleText, parameter: Parameter) -> _Bound | None:
         if parameter.default is None:
             self.fault(
-                name.offset, f"the rule {rule.name!r} needs a value for its parameter {parameter.name!r}"
+                name.offset,
+                f"the rule {quoted(rule.name)} needs a value for its parameter {quoted(parameter.name)}",
             )
             return None
-        return self._value(parameter.default, _Scope(space))
+        return self._worked_out(space, parameter.default)
+
+    def _worked_out(self, space: str, default: Expression) -> _Bound | None:
+        """The value of a default, which is worked out once."""
+        place = (space, default.offset)
+        if place in self.working:
+            self.fault(default.offset, "this default needs itself for its own value")
+            return None
+        if place not in self.defaults:
+            self.working.add(place)
+            self.defaults[place] = self._value(default, _Scope(space))
+            self.working.discard(place)
+        return self.defaults[place]
 
     def _work(self) -> None:
         """Make every copy that is asked for, and those that they ask for."""
         while self.waiting:
-            key, slot = self.waiting.pop(0)
+            key, slot = self.waiting.popleft()
             self.here = self.depth[key]
             rule = self.spaces[key.space].rules[key.name]
             names = (parameter.name for parameter in rule.parameters)
@@ -441,23 +553,27 @@ class _Compiler:
 
     def _spelled(self, key: _Key) -> str:
         """A copy's name: arguments are named where they are not the defaults."""
+        if key in self.spelled:
+            return self.spelled[key]
         said = []
         for parameter, value in zip(
             self.spaces[key.space].rules[key.name].parameters, key.given, strict=True
         ):
-            if parameter.default is None or value != self._value(parameter.default, _Scope(key.space)):
+            if parameter.default is None or value != self._worked_out(key.space, parameter.default):
                 text = self._spelled(value) if isinstance(value, _Key) else _plain(value)
                 said.append(f"{parameter.name}={text}")
         name = f"{key.space}.{key.name}" if key.space else key.name
-        return f"{name}({', '.join(said)})" if said else name
+        self.spelled[key] = f"{name}({cut(', '.join(said), _MAX_NAME)})" if said else name
+        return self.spelled[key]
 
     def _rule(self, name: str, rule: RuleText, scope: _Scope) -> tuple[Rule | None, Places | None]:
         operator = OPERATORS.get(rule.operator)
         if operator is None:
-            hint = nearest(rule.operator, OPERATORS)
-            if rule.operator in {**self.spaces[scope.space].rules, **self.spaces[""].rules}:
-                hint = f"; {rule.operator!r} is a rule: write Layer({rule.operator}) to go on with it alone"
-            self.fault(rule.operator_offset, f"there is no operator {rule.operator!r}{hint}")
+            hint = self.hint(rule.operator, OPERATORS)
+            if any(rule.operator in self.spaces[space].rules for space in (scope.space, "")):
+                told = cut(rule.operator)
+                hint = f"; {told!r} is a rule: write Layer({told}) to go on with it alone"
+            self.fault(rule.operator_offset, f"there is no operator {quoted(rule.operator)}{hint}")
             for argument in rule.arguments:  # so that faults in it are found as well
                 if isinstance(argument, Name) and argument.text not in (*POLICIES, *USAGES):
                     self._value(argument, scope)
@@ -483,6 +599,9 @@ class _Compiler:
         """What each argument is for; None, after a fault, if there are too few or too many."""
         count, fixed, size = len(rule.arguments), len(operator.fixed), len(operator.part)
         further = count - fixed
+        if size and further // size > MAX_PARTS:
+            self.fault(rule.operator_offset, f"expected at most {MAX_PARTS} parts; found {further // size}")
+            return None
         if (not size and not further) or (size and further >= size and further % size == 0):
             return [*operator.fixed, *(operator.part * (further // size if size else 0))]
         if not size:
@@ -510,7 +629,7 @@ class _Compiler:
             if argument.text not in words or argument.space or argument.arguments is not None:
                 self.fault(
                     argument.offset,
-                    f"expected {param.kind.value}; found {str(argument)!r}{nearest(argument.text, words)}",
+                    f"expected {param.kind.value}; found {quoted(argument)}{self.hint(argument.text, words)}",
                 )
                 return None
             return words[argument.text]
@@ -539,8 +658,10 @@ def _checked(param: Param, value: _Bound, index: Mapping[_Key, int]) -> tuple[Va
             return Source(), ""
         case Kind.MASK, Source(mode="Fit"):
             return value, ""
-        case Kind.LEVEL, float() if value >= 0 and value == int(value) and value < 2**24:
+        case Kind.LEVEL, float() if 0 <= value < MAX_LEVEL and value == int(value):
             return int(value), ""
+        case Kind.LEVEL, float() if value >= MAX_LEVEL:
+            return None, f"{wanted}, below {MAX_LEVEL}"
         case ((Kind.SIZE | Kind.WEIGHT | Kind.NUMBER), float()) if (
             not isfinite(value) or abs(value) > MAX_HALF
         ):
@@ -562,11 +683,11 @@ def _told(value: _Bound) -> str:
         case float():
             return f"{value:g}"
         case Source():
-            return repr(str(value))
+            return quoted(value)
         case _Word(text=text):
             return repr(text)
         case _Key(name=name):
-            return f"the rule {name!r}"
+            return f"the rule {quoted(name)}"
 
 
 def _plain(value: _Bound) -> str:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from .atlas import Atlas
 from .batch import Batch, Floats, joined
+from .dividing import half_step, repeated, split
 from .encoding import Record
 from .limits import MAX_STEPS
 from .noise import Seed, look_up, steps_of
@@ -139,7 +140,7 @@ def evaluate(
         x, y = np.ascontiguousarray(points[index].T)
         ray = ahead if rays is None else _ray(*np.ascontiguousarray(rays[index].T))
         pixel = zero if footprint is None else footprint[index]
-        run.run(question.start, Batch(index, x, y, zero, zero, width, height, ray, pixel))
+        run.run(question.start, Batch(index, x, y, zero, zero, width, height, ray, pixel, (zero, zero)))
     return surface
 
 
@@ -164,6 +165,7 @@ class _Run:
         self.color_only = color_only
         self.question, self.surface, self.steps, self.margin = question, surface, steps, margin
         self.sized, self.spread = sized, np.float32(spread)
+        self.bits = question.texture.dtype.itemsize * 8
         self.passing = np.zeros(len(surface.rule), np.int32)  # layers that a point still has to pass over
         self.taken = np.zeros(len(surface.rule), np.int32)  # operators on the way of each point
         self.sums = (surface.color, surface.normal, surface.specular)
@@ -232,27 +234,16 @@ class _Run:
         The last part ends with the scope: it has what is left over, and what the rounding of sums leaves.
         """
         place, low, high = batch.span(axis)
-        size = high - low
-        at = np.clip(place - low, 0, size * BELOW_ONE)
-        relative = np.float32(record.head["Σrel"])
-        left = np.maximum(size - np.float32(record.head["Σabs"]), 0)
-        unit = left / relative if relative > 0 else np.zeros_like(left)
-        ends = [np.zeros_like(size)]
-        for sized in record.parts["sv"][:-1]:
-            width = -sized if sized < 0 else unit * sized
-            ends.append(np.minimum(ends[-1] + width, size))
-        ends.append(size)
-        part = np.zeros(len(batch), np.intp)
-        for end in ends[1:-1]:
-            part += at >= end
+        at = np.clip(place - low, 0, (high - low) * BELOW_ONE)
+        found = split(record, at, low, high, batch.slack[axis], self.bits)
         onward = []
         for k, target in enumerate(record.targets):
-            for chosen, some in _those(part, k, batch):
+            for chosen, some in _those(found.part, k, batch):
+                start, end, slack = found.of(k, chosen)
                 if record.count > 1:
-                    self._near(
-                        some, at[chosen] - _pick(ends[k], chosen), _pick(ends[k + 1] - ends[k], chosen)
-                    )
-                ours = some.within(axis, _pick(low + ends[k], chosen), _pick(low + ends[k + 1], chosen))
+                    self._near(some, at[chosen] - start, end - start)
+                lowest = _pick(low, chosen)
+                ours = some.within(axis, lowest + start, lowest + end, slack)
                 onward.append((target, ours))
                 if self.steps is not None:
                     bounds = tuple(float(v[0]) for v in ours.span(axis)[1:])
@@ -264,10 +255,11 @@ class _Run:
         return onward
 
     def _repeat(self, rule: int, record: Record, batch: Batch, axis: int) -> list[tuple[int, Batch]]:
-        """Repeat: equal parts of about the size v; the slack is there because v is a 16-bit float."""
+        """Repeat: equal parts of about the size v."""
         place, low, high = batch.span(axis)
         size = high - low
-        count = np.maximum(np.ceil(size / np.float32(record.head["v"]) - np.float32(0.001)), 1)
+        slack = batch.slack[axis]
+        count = repeated(low, high, slack, record.head["v"], self.bits)
         width = size / count
         at = np.clip(place - low, 0, size * BELOW_ONE)
         part = np.minimum(np.floor(at / width), count - 1)
@@ -277,7 +269,7 @@ class _Run:
         ):
             some = (at - part * width)[several]
             self._near(batch.take(several), some, np.broadcast_to(width, len(batch))[several])
-        onward = batch.within(axis, low + part * width, low + (part + 1) * width)
+        onward = batch.within(axis, low + part * width, low + (part + 1) * width, slack / count)
         if self.steps is not None:
             bounds = tuple(float(v[0]) for v in onward.span(axis)[1:])
             here = self._here(rule, batch, record.head_places)
@@ -397,6 +389,7 @@ class _Run:
         x, y = np.clip(x + dx * far, 0, width), np.clip(y + dy * far, 0, height)
         z = np.clip(into * far, 0, depth)
         onward = []
+        own = half_step(np.full(1, depth, np.float32), self.bits)
         for k, target in enumerate(record.targets):
             for chosen, some in _those(face, k, batch):
                 hx, hy, hz, ax, ay, az, w, h = (
@@ -413,6 +406,7 @@ class _Run:
                     top=some.bottom + tall,
                     ray=ray,
                     footprint=some.footprint + self.spread * _pick(far, chosen),
+                    slack=(own if k in (0, 2) else some.slack[0], own if k in (3, 4) else some.slack[1]),
                     shift=batch.shift + k + 1,
                     faces=(*batch.faces, k + 1),
                 )

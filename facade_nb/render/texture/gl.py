@@ -51,7 +51,7 @@ class GlPainter:
         self.name, self._missing, self._make, self._install = name, missing, make, install
         self._lock = threading.RLock()
         self._atlases: dict[int, tuple[Atlas, dict[str, Any]]] = {}
-        self._programs: dict[tuple[str, int, int, tuple[str, ...]], Any] = {}
+        self._programs: dict[tuple[str, int, int, int, tuple[str, ...]], Any] = {}
 
     @property
     def available(self) -> bool:
@@ -178,9 +178,10 @@ class GlPainter:
 
     def _program(self, name: str, question: Question, defines: tuple[str, ...]) -> Any:
         frames, seeds = map(room, question.stacks)
-        key = (name, frames, seeds, defines)
+        bits = question.texture.dtype.itemsize * 8
+        key = (name, frames, seeds, bits, defines)
         if key not in self._programs:
-            fragment = shader(name, frames=frames, seeds=seeds, defines=defines)
+            fragment = shader(name, frames=frames, seeds=seeds, bits=bits, defines=defines)
             self._programs[key] = self._context.program(
                 vertex_shader=shader("whole.vert"), fragment_shader=fragment
             )

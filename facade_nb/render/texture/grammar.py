@@ -16,13 +16,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...design.errors import DesignError, Fault, GrammarError, nearest
-from ...design.text import fault_at
+from ...design.errors import DesignError, Fault, GrammarError, cut, nearest, quoted
+from ...design.names import nfc
 from .atlas import Atlas, Tiles, pack
 from .checks import Finding, check_rules, check_tiles, recurs, stack_heights
 from .compiling import Places, compile_text
 from .encoding import Encoding, Record, encode, read_records
 from .evaluating import Question, Surface, evaluate
+from .lines import Lines
 from .noise import Seed
 from .program import Rule
 
@@ -78,10 +79,11 @@ class Grammar:
             (_offset(finding, compiled.places), finding.message) for finding in check_rules(compiled.rules)
         ]
         if compiled.tiles:
-            found += check_tiles(compiled.tiles, (tiles if tiles is not None else _shipped()).names)
+            found += check_tiles(compiled.tiles, tiles if tiles is not None else _shipped())
         faults = {(offset, fault.message): fault for offset, fault in compiled.faults}
+        lines = Lines(text)
         for offset, message in found:
-            faults.setdefault((offset, message), fault_at(text, offset, message))
+            faults.setdefault((offset, message), lines.fault(offset, message))
         if faults:
             raise GrammarError(faults[key] for key in sorted(faults))
         return cls(compiled.rules, compiled.places, compiled.tiles, text, tiles)
@@ -109,9 +111,10 @@ class Grammar:
         if name is None:
             return self.start
         names = [rule.name for rule in self.rules]
-        if name not in names:
-            raise DesignError(Fault("start", f"there is no rule {name!r}{nearest(name, names)}"))
-        return names.index(name)
+        wanted = nfc(str(name))
+        if wanted not in names:
+            raise DesignError(Fault("start", f"there is no rule {quoted(name)}{nearest(wanted, names)}"))
+        return names.index(wanted)
 
     def evaluate(
         self,
@@ -183,11 +186,14 @@ class Grammar:
         tiles: Tiles | None = None,
     ) -> Question:
         """Everything that an evaluator needs but the points. Raises as `evaluate` does."""
-        width, height = (float(value) for value in size)
-        if not (0 < width < 1e5 and 0 < height < 1e5):
-            raise ValueError(f"size: expected a width and a height in metres, above 0; found {size}")
-        if not all(abs(float(value)) < 2**53 for value in seed):
-            raise ValueError(f"seed: expected two numbers; found {seed}")
+        width, height = _two(size, "size", "a width and a height in metres, from 0.001 to below 100000")
+        if not (1e-3 <= width < 1e5 and 1e-3 <= height < 1e5):
+            raise ValueError(
+                f"size: expected a width and a height in metres, from 0.001 to below 100000; found {size}"
+            )
+        place = _two(seed, "seed", "two numbers")
+        if not max(map(abs, place)) < 2**53:
+            raise ValueError(f"seed: expected two numbers below 2⁵³; found {seed}")
         names = tuple(rule.name for rule in self.rules)
         return Question(
             self.texture(),
@@ -195,7 +201,7 @@ class Grammar:
             names,
             self.index(start),
             (width, height),
-            Seed.of(seed),
+            Seed.of(place),
             self.atlas(tiles),
             self._recurs,
             self._stacks,
@@ -205,9 +211,10 @@ class Grammar:
         """The tiles that the grammar names, packed. Raises `GrammarError` for one that is not in `tiles`."""
         if tiles is None or tiles is self.tiles:
             return self._atlas
-        found = check_tiles(self.named, tiles.names)
+        found = check_tiles(self.named, tiles)
         if found:
-            raise GrammarError(fault_at(self.text, offset, message) for offset, message in found)
+            lines = Lines(self.text)
+            raise GrammarError(lines.fault(offset, message) for offset, message in found)
         return pack(tiles, self.encoding.tiles)
 
     @cached_property
@@ -239,10 +246,29 @@ def _offset(finding: Finding, places: Sequence[Places]) -> int:
     return place.operator if finding.value is None else place.values[finding.value]
 
 
+_FAR = 1e9
+"""Points are within so many metres, and rays not longer: 32-bit floats hold them and their squares."""
+
+
 def _array(values: ArrayLike, columns: int, what: str) -> NDArray[np.float32]:
-    array = np.asarray(values, np.float64)
+    try:
+        array = np.asarray(values, np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{what}: expected an array of numbers of shape (n, {columns}); {error}") from None
     if array.ndim != 2 or array.shape[1] != columns:
         raise ValueError(f"{what}: expected an array of shape (n, {columns}); found {array.shape}")
     if not np.isfinite(array).all():
         raise ValueError(f"{what}: expected finite numbers")
+    if (np.abs(array) > _FAR).any():
+        raise ValueError(f"{what}: expected numbers within ±{_FAR:g}; found {np.abs(array).max():g}")
+    if columns == 3 and (np.abs(array).max(axis=1, initial=0) < 1 / _FAR).any():
+        raise ValueError(f"{what}: expected directions, at least {1 / _FAR:g} long")
     return array.astype(np.float32)
+
+
+def _two(values: Any, what: str, wanted: str) -> tuple[float, float]:
+    try:
+        first, second = (float(value) for value in values)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{what}: expected {wanted}; found {cut(repr(values))}") from None
+    return first, second

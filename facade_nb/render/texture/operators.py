@@ -115,7 +115,8 @@ def _repeat(axis: str, code: int) -> Operator:
         (),
         ("code", "v", "R.x", "R.y"),
         (),
-        f"Divides the scope along {axis.lower()} into ⌈size / v − 0.001⌉ equal parts, at least one, with R in each.",
+        f"Divides the scope along {axis.lower()} into ⌈size / v⌉ equal parts, at least one, with R in each. What fits "
+        "by the decimals that were written fits.",
     )
 
 

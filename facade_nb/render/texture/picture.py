@@ -20,10 +20,13 @@ from .painters import choose_painter
 from .shot import Painter
 from .view import Sight
 
-__all__ = ["MAX_PIXELS", "png", "render_texture", "rules_seen", "texture_pixels"]
+__all__ = ["MAX_PIXELS", "MAX_SIDE", "png", "render_texture", "rules_seen", "texture_pixels"]
 
 MAX_PIXELS = 1 << 26
 """The largest picture, in pixels."""
+
+MAX_SIDE = 1 << 16
+"""The largest width or height of a picture, in pixels: a longer one would be a thread of small parts."""
 
 _PART_PIXELS, _PART_SIDE = 1 << 20, 8192
 
@@ -156,9 +159,10 @@ def png(image: NDArray[np.uint8]) -> bytes:
 
 def _sight(size: tuple[float, float], pixels: tuple[int, int], camera: Camera | Sight | None) -> Sight:
     width, height = pixels
-    if width < 1 or height < 1 or width * height > MAX_PIXELS:
+    if min(pixels) < 1 or max(pixels) > MAX_SIDE or width * height > MAX_PIXELS:
         raise ValueError(
-            f"pixels: expected a width and a height, at most {MAX_PIXELS} pixels; found {pixels}"
+            f"pixels: expected a width and a height, each at most {MAX_SIDE}, and at most {MAX_PIXELS} pixels; "
+            f"found {pixels}"
         )
     if isinstance(camera, Sight):
         return camera

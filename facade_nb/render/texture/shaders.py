@@ -12,7 +12,7 @@ from functools import lru_cache
 from importlib.resources import files
 
 from .evaluating import BELOW_ONE, OPAQUE
-from .limits import MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS
+from .limits import GRAIN, MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS, half_step_of
 from .operators import OPERATORS, USAGES, Operator
 
 __all__ = ["PROFILES", "constants", "room", "shader"]
@@ -35,6 +35,7 @@ def shader(
     *,
     frames: int = MAX_FRAMES,
     seeds: int = MAX_SEEDS,
+    bits: int = 16,
     defines: tuple[str, ...] = (),
 ) -> str:
     """The source of a shader: ``sight.frag``, ``points.frag``, ``smooth.frag``, ``whole.vert``.
@@ -45,6 +46,8 @@ def shader(
         A key of `PROFILES`.
     frames, seeds
         Room on the stacks; less is faster (see `room`).
+    bits
+        Of the floats of the grammar's texture, 16 or 32: how far a size may be from what was written.
     defines
         Names to be defined: ``MIPS`` (tiles in the size that fits a pixel), ``EDGES`` (how near a boundary is),
         ``COLOR_ONLY`` (normals and specular values are passed over),
@@ -53,7 +56,9 @@ def shader(
     head = PROFILES[profile]
     if name.endswith(".frag"):
         head += "".join(f"#define {define}\n" for define in defines)
-        head += f"const int MAX_FRAMES = {frames};\nconst int MAX_SEEDS = {seeds};\n{constants()}"
+        head += (
+            f"const int MAX_FRAMES = {frames};\nconst int MAX_SEEDS = {seeds};\n{_floats(bits)}{constants()}"
+        )
     return head + "".join(_included(name, set()))
 
 
@@ -74,6 +79,13 @@ def _included(name: str, seen: set[str]) -> Iterator[str]:
 def room(height: int) -> int:
     """Room for a stack of that height: one of a few sizes, so that few shaders serve all grammars."""
     return next(size for size in _ROOMS if size >= height)
+
+
+def _floats(bits: int) -> str:
+    """What is lost by floats of the texture, and by those that evaluators compute with."""
+    relative, least = half_step_of(bits)
+    values = {"GRAIN": GRAIN, "HALF_STEP": relative, "LEAST_STEP": least}
+    return "".join(f"const float {name} = {float(value):#.9g};\n" for name, value in values.items())
 
 
 def constants() -> str:

@@ -16,16 +16,19 @@ A statement that cannot be read is reported and left out, so that the faults of 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from math import isfinite
 from typing import Any
 
 from lark import Lark, Token, Transformer
 from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
-from ...design.errors import Fault
+from ...design.errors import cut, quoted
 from ...design.grammar import show
-from ...design.text import fault_at
+from ...design.letters import letters_in
+from ...design.names import nfc
 
 __all__ = [
     "Argument",
@@ -65,9 +68,9 @@ given: "(" [(argument | expression) ("," (argument | expression))* ","?] ")"
 reference: NAME ["." NAME] [given]
 
 NAMESPACE.2: /namespace(?=\s+[^\W\d])/
-TILE.3: /(?:Fit|Rep)[^\S\r\n]*[:>][^\S\r\n]*\w(?:[\w.\-]*\w)?/
+TILE.3: /(?:Fit|Rep)[^\S\r\n]*[:>][^\S\r\n]*\w(?:[@.\-]*[@])?/
 NUMBER: /(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?/
-NAME: /[^\W\d]\w*/
+NAME: /[^\W\d][@]*/
 ARROW.2: "->" | "→"
 PLUS: "+"
 MINUS: "-" | "−"
@@ -77,20 +80,22 @@ OVER: "/"
 %ignore /(?:#|\/\/)[^\r\n]*/
 """
 
-_STATEMENT = re.compile(
-    r"^[^\S\r\n]*(?:namespace\s+)?([^\W\d]\w*)[^\S\r\n]*(?:\([^()\r\n]*\)[^\S\r\n]*)?(?:->|→|=|\{)",
-    re.MULTILINE,
-)
+_STATEMENT = r"^[^\S\r\n]*(?:namespace\s+)?([^\W\d][@]*)[^\S\r\n]*(?:\([^()\r\n]*\)[^\S\r\n]*)?(?:->|→|=|\{)"
+_COMMENT = r"(?:#|//)[^\r\n]*"
+_BRACKET = re.compile(rf"{_COMMENT}|[()]")
 _LONG = 400_000  # characters
 _MANY = 40  # statements that cannot be read: then this is some other text
+_DEEP = 50  # parentheses inside each other
+_AGAIN = 6  # so often, at most, a text is read because of statements that cannot be
 
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number as written."""
+    """A number; as it was written where no float is as large."""
 
     value: float
     offset: int
+    text: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +122,7 @@ class Name:
 
 @dataclass(frozen=True, slots=True)
 class Binary:
-    """``left + right`` and the like; a minus sign alone is ``0 - right``."""
+    """``left + right`` and the like; a minus sign alone is ``0 ± right``."""
 
     sign: str
     left: Expression
@@ -187,6 +192,9 @@ class Copy:
     offset: int
 
 
+Statement = RuleText | Setting | Namespace | Copy
+
+
 @dataclass(frozen=True, slots=True)
 class Reading:
     """What was read.
@@ -196,75 +204,108 @@ class Reading:
     statements
         Those that could be read, in file order.
     faults
-        One for each that could not, with its offset in the text.
+        Offset and message of one for each that could not.
     unread
         Names that the others may have defined: that they are missing is no further fault.
     """
 
-    statements: tuple[RuleText | Setting | Namespace | Copy, ...]
-    faults: tuple[tuple[int, Fault], ...]
+    statements: tuple[Statement, ...]
+    faults: tuple[tuple[int, str], ...]
     unread: frozenset[str]
 
 
 @lru_cache(maxsize=1)
 def _parser() -> Lark:
-    return Lark(_GRAMMAR, parser="lalr", lexer="basic", maybe_placeholders=True)
+    """The parser; it makes statements as it goes, so that no depth of a text is a depth of calls."""
+    return Lark(
+        letters_in(_GRAMMAR), parser="lalr", lexer="basic", maybe_placeholders=True, transformer=_Build()
+    )
+
+
+@lru_cache(maxsize=1)
+def _head() -> re.Pattern[str]:
+    return re.compile(letters_in(_STATEMENT), re.MULTILINE)
+
+
+def _parsed(text: str) -> list[Statement]:
+    found: list[Statement] = _parser().parse(text)  # type: ignore[assignment]  # by the transformer
+    return found
 
 
 def read(text: str) -> Reading:
     """Read a grammar's text, statement by statement."""
     if len(text) > _LONG:
-        fault = fault_at(text, 0, f"expected at most {_LONG} characters; found {len(text)}")
-        return Reading((), ((0, fault),), frozenset())
-    faults: list[tuple[int, Fault]] = []
+        return Reading((), ((0, f"expected at most {_LONG} characters; found {len(text)}"),), frozenset())
+    if (deep := _deep(text)) is not None:
+        message = f"more than {_DEEP} parentheses stand inside each other here"
+        return Reading((), ((deep, message),), frozenset())
+    faults: list[tuple[int, str]] = []
     unread: set[str] = set()
-    left = text
+    statements: list[Statement] = []
+    left = f" {text[1:]}" if text.startswith("\ufeff") else text  # a byte-order mark
+    heads: list[re.Match[str]] | None = None
+    at = 0  # what stands before has been read
+    passed = 0  # characters read so far
     while True:
         try:
-            tree = _parser().parse(left)
-            break
+            return Reading((*statements, *_parsed(_from(left, at))), tuple(faults), frozenset(unread))
         except UnexpectedInput as error:
-            fault, offset = _explain(left, error)
-            faults.append((offset, fault))
-            start, end, names = _statement(left, offset)
+            found = _head().finditer(left) if heads is None else heads
+            heads = [head for head in found if not left[head.start() : head.end()].isspace()]
+            message, offset, blamed = _explain(left, error, heads)
+            faults.append((offset, message))
+            start, end, outer, names = _statement(left, blamed, heads)
             unread |= names
-            if end <= start or len(faults) >= _MANY:
+            passed += max(end, blamed) - at
+            if end <= start or len(faults) >= _MANY or passed > _AGAIN * _LONG:
                 return Reading((), tuple(faults), frozenset(unread))
             left = left[:start] + re.sub(r"[^\r\n]", " ", left[start:end]) + left[end:]
-    try:
-        statements = tuple(_Build().transform(tree))
-    except RecursionError:
-        faults.append((0, fault_at(text, 0, "a value in this grammar is nested too deeply to be read")))
-        statements = ()
-    return Reading(statements, tuple(faults), frozenset(unread))
+        if outer > at:  # what is whole above need not be read once more
+            try:
+                statements += _parsed(_from(left[:outer], at))
+                at = outer
+            except UnexpectedInput:
+                pass
 
 
-def _statement(text: str, offset: int) -> tuple[int, int, set[str]]:
-    """The stretch of text, around a place, that is left out, and the names that it may define."""
-    heads = list(_STATEMENT.finditer(text))
+def _from(text: str, at: int) -> str:
+    """The text without what has been read, every place where it was."""
+    return " " * at + text[at:]
+
+
+def _deep(text: str) -> int | None:
+    """Where more parentheses are open than can be read, if there are so many."""
+    depth = 0
+    for found in _BRACKET.finditer(text):
+        depth += {"(": 1, ")": -1}.get(found[0], 0)
+        if depth > _DEEP:
+            return found.start()
+        depth = max(depth, 0)
+    return None
+
+
+def _statement(text: str, offset: int, heads: Sequence[re.Match[str]]) -> tuple[int, int, int, set[str]]:
+    """The stretch of text, around a place, that is left out; where what it stands in begins; what it may define."""
     before = [head for head in heads if head.start() <= offset]
     start = before[-1].start() if before else 0
-    after = [head for head in heads if head.start() > max(offset, start)]
-    end = after[0].start() if after else len(text)
+    after = next((head.start() for head in heads if head.start() > max(offset, start)), None)
+    end = len(text) if after is None else after
     piece = text[start:end]
     brace = piece.find("}", max(0, offset - start))
-    if (
-        brace >= 0
-        and (before and "{" not in piece[:brace])
-        and text[:start].count("{") > text[:start].count("}")
-    ):
+    inside = text.count("{", 0, start) > text.count("}", 0, start)
+    if brace >= 0 and before and "{" not in piece[:brace] and inside:
         end = start + brace  # the end of the namespace that the statement stands in is kept
         if end <= offset:
             end = max(end, offset + 1)
-    return (
-        start,
-        end,
-        {head[1] for head in before[-1:]} | {head[1] for head in heads if start < head.start() < end},
-    )
+    outer = start
+    if inside:
+        outer = next((head.start() for head in reversed(before[:-1]) if head[0].endswith("{")), 0)
+    names = {head[1] for head in before[-1:]} | {head[1] for head in heads if start < head.start() < end}
+    return start, end, outer, set(map(nfc, names))
 
 
-def _explain(text: str, error: UnexpectedInput) -> tuple[Fault, int]:
-    """What stands where something else was expected, and a place in the statement that is to blame."""
+def _explain(text: str, error: UnexpectedInput, heads: Sequence[re.Match[str]]) -> tuple[str, int, int]:
+    """What stands where something else was expected, where, and a place in the statement that is to blame."""
     accepted: set[str] = set(getattr(error, "accepts", None) or ())
     if isinstance(error, UnexpectedCharacters):
         offset = error.pos_in_stream or 0
@@ -273,34 +314,29 @@ def _explain(text: str, error: UnexpectedInput) -> tuple[Fault, int]:
         offset, found = error.token.start_pos or 0, str(error.token)
     else:
         offset, found = len(text.rstrip()), ""
-    unclosed = _unclosed(text, offset)
+    unclosed = _unclosed(text, offset, heads)
     if unclosed is not None:
-        return fault_at(text, unclosed, "this '(' is not closed: expected ')' before the next rule"), unclosed
+        return "this '(' is not closed: expected ')' before the next rule", unclosed, unclosed
     if text.startswith("...", offset) or found == "…":
-        message = "'...' stands for what has been left out: write it out, or leave it away"
-        return fault_at(text, offset, message), offset
-    what = show(found) if found else "the end of the text"
-    if any(head.start(1) == offset for head in _STATEMENT.finditer(text)) and text[:offset].strip():
-        what = f"the next rule, {found!r}"
+        return "'...' stands for what has been left out: write it out, or leave it away", offset, offset
+    what = show(cut(found)) if found else "the end of the text"
+    if any(head.start(1) == offset for head in heads) and text[:offset].strip():
+        what = f"the next rule, {quoted(found)}"
         offset = len(text[:offset].rstrip())
     hint = _HINTS.get(found, "")
-    return fault_at(text, offset, f"expected {_expected(accepted, error)}; found {what}{hint}"), max(
-        offset - 1, 0
-    )
+    return f"expected {_expected(accepted, error)}; found {what}{hint}", offset, max(offset - 1, 0)
 
 
-def _unclosed(text: str, offset: int) -> int | None:
+def _unclosed(text: str, offset: int, heads: Sequence[re.Match[str]]) -> int | None:
     """The parenthesis that the statement before the one at `offset` has left open, if it has."""
-    heads = [head for head in _STATEMENT.finditer(text) if head.start() <= offset]
+    heads = [head for head in heads if head.start() <= offset]
     if len(heads) < 2 or offset > heads[-1].end():
         return None
-    start, end = heads[-2].start(), heads[-1].start()
-    piece = re.sub(r"(?:#|//)[^\r\n]*", lambda comment: " " * len(comment[0]), text[start:end])
     opened: list[int] = []
-    for place, character in enumerate(piece, start):
-        if character == "(":
-            opened.append(place)
-        elif character == ")" and opened:
+    for bracket in _BRACKET.finditer(text, heads[-2].start(), heads[-1].start()):
+        if bracket[0] == "(":
+            opened.append(bracket.start())
+        elif bracket[0] == ")" and opened:
             opened.pop()
     return opened[-1] if opened else None
 
@@ -343,6 +379,10 @@ def _expected(accepted: set[str], error: UnexpectedInput) -> str:
     return " or ".join(words) or "a rule"
 
 
+def _name(token: str) -> str:
+    return nfc(str(token))
+
+
 class _Build(Transformer[Token, Any]):
     """From lark's tree to statements."""
 
@@ -352,24 +392,24 @@ class _Build(Transformer[Token, Any]):
     def rule(self, items: list[Any]) -> RuleText:
         name, parameters, _, operator, arguments = items
         return RuleText(
-            str(name), parameters, str(operator), operator.start_pos or 0, arguments, name.start_pos or 0
+            _name(name), parameters, _name(operator), operator.start_pos or 0, arguments, name.start_pos or 0
         )
 
     def setting(self, items: list[Any]) -> Setting:
-        return Setting(str(items[0]), items[1], items[0].start_pos or 0)
+        return Setting(_name(items[0]), items[1], items[0].start_pos or 0)
 
     def namespace(self, items: list[Any]) -> Namespace:
-        return Namespace(str(items[1]), tuple(items[2:]), items[1].start_pos or 0)
+        return Namespace(_name(items[1]), tuple(items[2:]), items[1].start_pos or 0)
 
     def copy(self, items: list[Any]) -> Copy:
         _, name, source, arguments = items
-        return Copy(str(name), str(source), source.start_pos or 0, arguments or (), name.start_pos or 0)
+        return Copy(_name(name), _name(source), source.start_pos or 0, arguments or (), name.start_pos or 0)
 
     def parameters(self, items: list[Any]) -> tuple[Parameter, ...]:
         return tuple(item for item in items if item is not None)
 
     def parameter(self, items: list[Any]) -> Parameter:
-        return Parameter(str(items[0]), items[1], items[0].start_pos or 0)
+        return Parameter(_name(items[0]), items[1], items[0].start_pos or 0)
 
     def arguments(self, items: list[Any]) -> tuple[Expression, ...]:
         return tuple(item for item in items if item is not None)
@@ -378,7 +418,7 @@ class _Build(Transformer[Token, Any]):
         return tuple(item for item in items if item is not None)
 
     def argument(self, items: list[Any]) -> Argument:
-        return Argument(str(items[0]), items[1], items[0].start_pos or 0)
+        return Argument(_name(items[0]), items[1], items[0].start_pos or 0)
 
     def given(self, items: list[Any]) -> tuple[Argument, ...]:
         values = (item for item in items if item is not None)
@@ -391,8 +431,10 @@ class _Build(Transformer[Token, Any]):
     def negative(self, items: list[Any]) -> Expression:
         sign, value = items
         if isinstance(value, Number):
-            return Number(-value.value, sign.start_pos or 0)
-        return Binary("-", Number(0.0, sign.start_pos or 0), value, sign.start_pos or 0)
+            return Number(-value.value, sign.start_pos or 0, value.text and f"-{value.text}")
+        if isinstance(value, Binary) and value.sign == "±":
+            return value.right  # of two signs nothing is left, however many there are
+        return Binary("±", Number(0.0, sign.start_pos or 0), value, sign.start_pos or 0)
 
     def positive(self, items: list[Any]) -> Expression:
         value: Expression = items[1]
@@ -403,14 +445,16 @@ class _Build(Transformer[Token, Any]):
         return value
 
     def number(self, items: list[Any]) -> Number:
-        return Number(float(items[0]), items[0].start_pos or 0)
+        return Number(
+            float(items[0]), items[0].start_pos or 0, "" if isfinite(float(items[0])) else str(items[0])
+        )
 
     def tile(self, items: list[Any]) -> Tile:
         mode, name = re.split(r"\s*[:>]\s*", str(items[0]), maxsplit=1)
-        return Tile(mode, name, items[0].start_pos or 0)
+        return Tile(mode, nfc(name), items[0].start_pos or 0)
 
     def reference(self, items: list[Any]) -> Name:
         first, second, given = items
         if second is None:
-            return Name(str(first), first.start_pos or 0, "", given)
-        return Name(str(second), first.start_pos or 0, str(first), given)
+            return Name(_name(first), first.start_pos or 0, "", given)
+        return Name(_name(second), first.start_pos or 0, _name(first), given)

@@ -13,6 +13,9 @@ __all__ = ["Looks", "Sight"]
 
 Floats = NDArray[np.float32]
 
+_FAR, _NEAR = 1e6, 1e-3
+"""How far from the façade's corner an eye may be, and how near to its plane, metres."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Looks:
@@ -101,10 +104,16 @@ class Sight:
         Raises
         ------
         ValueError
-            If the eye is not in front of the façade.
+            If the eye is not in front of the façade, or too far away, or for an angle that is none.
         """
-        if eye[2] <= 0:
-            raise ValueError(f"eye: expected one in front of the façade, its z above 0; found {eye[2]:g}")
+        if not all(abs(value) <= _FAR for value in (*eye, *target)):
+            raise ValueError(f"eye, target: expected numbers within ±{_FAR:g}; found {eye}, {target}")
+        if eye[2] < _NEAR:
+            raise ValueError(
+                f"eye: expected one in front of the façade, its z at least {_NEAR:g}; found {eye[2]:g}"
+            )
+        if not 0 < angle < 180:
+            raise ValueError(f"angle: expected degrees between 0 and 180; found {angle:g}")
         x, z = target[0] - eye[0], -eye[2]
         reach = float(np.hypot(x, z))
         ahead = (x / reach, 0.0, z / reach)

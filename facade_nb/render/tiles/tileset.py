@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...design.errors import Fault, nearest
+from ...design.errors import Fault, nearest, quoted
+from ...design.names import nfc
 from .canvas import Floats
 from .catalogue import CATALOGUE, MAPS
 from .drawing import draw
-from .folder import TileError, read_folder
+from .folder import Folder, TileError, read_folder
 from .images import bled, mipmaps, rounded
 
 __all__ = ["DEFAULT_SIZE", "TileSet"]
@@ -22,10 +23,12 @@ DEFAULT_SIZE = 256
 """Pixels of a tile, across and up."""
 
 _MAX_SIZE = 2048
+_KEPT = 1 << 27
+"""Bytes of tiles that a set keeps at least for a while; beyond, those that were asked for first are made anew."""
 
 
 class TileSet:
-    """Tiles of one size, each drawn or decoded when it is first asked for, and then kept.
+    """Tiles of one size, each drawn or decoded when it is first asked for; the last ones asked for are kept.
 
     Colours are sRGB as stored, and composited as stored, without going through linear light: what the paper's 8-bit
     textures do. Values are multiples of 1/255, so a texture of 8 bits holds them exactly. A tile ``brick`` may have
@@ -36,7 +39,7 @@ class TileSet:
     Parameters
     ----------
     pictures
-        Tiles read from files, by name: (size, size, 4).
+        Tiles read from files, by name: (size, size, 4). A `Folder` reads each when it is asked for.
     size
         Pixels of a tile, across and up; a power of two.
     builtin
@@ -44,7 +47,7 @@ class TileSet:
     """
 
     def __init__(self, pictures: Mapping[str, Floats], size: int, builtin: Sequence[str] = ()) -> None:
-        self._pictures = dict(pictures)
+        self._pictures = pictures
         self._names = (*(name for name in builtin if name not in self._pictures), *self._pictures)
         self._size = size
         self._ready: dict[str, Floats] = {}
@@ -79,29 +82,42 @@ class TileSet:
         Raises
         ------
         TileError
-            With all faults: a missing folder, no image in it, files that cannot be read, names that a grammar cannot
-            spell, two files of one name.
+            For a missing folder, and for one of which no image can be used, with all faults. A file that cannot be
+            read, a name that a grammar cannot spell, or two files of one name keep no other tile out: they are in
+            `faults`.
         """
         if size is not None:
             _checked(size)
         pictures = read_folder(path, size)
-        found = next(iter(pictures.values())).shape[0]
-        if size is None and builtin and found < DEFAULT_SIZE:
-            pictures, found = read_folder(path, DEFAULT_SIZE), DEFAULT_SIZE
+        if size is None and builtin and pictures.size < DEFAULT_SIZE:
+            pictures = pictures.of(DEFAULT_SIZE)
         if not builtin:
-            return cls(pictures, found)
+            return cls(pictures, pictures.size)
         replaced = {name for name in pictures if name in CATALOGUE}
         kept = tuple(
             name
             for name in _builtin_names()
-            if name not in pictures and name.partition(".")[0] not in replaced
+            if name not in pictures
+            and name not in pictures.unusable
+            and name.partition(".")[0] not in replaced
         )
-        return cls(pictures, found, kept)
+        return cls(pictures, pictures.size, kept)
 
     @property
     def names(self) -> tuple[str, ...]:
         """Every name. Its place here, counted from 1, is the tile's number in a grammar texture."""
         return self._names
+
+    @property
+    def faults(self) -> tuple[Fault, ...]:
+        """The files of the folder that are no tile, each with what is wrong with it."""
+        return self._pictures.faults if isinstance(self._pictures, Folder) else ()
+
+    @property
+    def unusable(self) -> Mapping[str, str]:
+        """For names that files have and that stand for no tile, why."""
+        found = self._pictures.unusable if isinstance(self._pictures, Folder) else {}
+        return {name: why for name, why in found.items() if name not in self._names}
 
     @property
     def size(self) -> int:
@@ -138,6 +154,7 @@ class TileSet:
         TileError
             For an unknown name, with the nearest valid one.
         """
+        name = nfc(name)
         ready = self._ready.get(name)
         if ready is None:
             self._known(name)
@@ -149,6 +166,7 @@ class TileSet:
             ready = rounded(bled(picture))
             ready.setflags(write=False)
             self._ready[name] = ready
+            self._forget()
         return ready
 
     def mips(self, name: str) -> tuple[Floats, ...]:
@@ -157,12 +175,14 @@ class TileSet:
         Colours weigh as much as they are opaque; normals stay of length 1; a mask keeps its coverage, that is, the
         share of it that is at least a half.
         """
+        name = nfc(name)
         levels = self._levels.get(name)
         if levels is None:
             companion = name.rpartition(".")[2] if "." in name else ""
             kind = "mask" if self.is_mask(name) else "normal" if companion == MAPS[0] else "color"
             levels = mipmaps(self.color(name), kind)
             self._levels[name] = levels
+            self._forget()
         return levels
 
     def sample(self, name: str, u: Floats, v: Floats, *, clamp: bool = False) -> Floats:
@@ -218,13 +238,22 @@ class TileSet:
             for level in range(count)
         ]
 
+    def _forget(self) -> None:
+        """Let go of the tiles that were made first, where all take too much memory together."""
+        most = max(2, _KEPT // (16 * self._size * self._size))
+        for kept in (self._ready, self._levels):
+            while len(kept) > most:
+                del kept[next(iter(kept))]
+
     def _known(self, name: str) -> int:
         try:
-            return self._names.index(name)
+            return self._names.index(nfc(name))
         except ValueError:
-            raise TileError(
-                Fault("tiles", f"there is no tile {name!r}{nearest(name, self._names)}")
-            ) from None
+            if name in self.unusable:
+                message = f"the tile {quoted(name)} cannot be used: {self.unusable[name]}"
+            else:
+                message = f"there is no tile {quoted(name)}{nearest(name, self._names)}"
+            raise TileError(Fault("tiles", message)) from None
 
 
 def _checked(size: int) -> int:

@@ -28,6 +28,7 @@ def scene_piece(grammar: Grammar) -> bytes:
     question = grammar.question((1.0, 1.0))
     frames, seeds = map(room, question.stacks)
     texture = grammar.texture()
+    needs = {"frames": frames, "seeds": seeds, "bits": grammar.encoding.bits}
     return pack(
         {
             "width": texture.shape[1],
@@ -35,8 +36,8 @@ def scene_piece(grammar: Grammar) -> bytes:
             "bits": grammar.encoding.bits,
             "texture": np.frombuffer(texture.tobytes(), np.uint8),
             "start": list(question.records[question.start].place),
-            "fragment": shader("sight.frag", "es", frames=frames, seeds=seeds, defines=("MIPS",)),
-            "smooth": shader("smooth.frag", "es", frames=frames, seeds=seeds, defines=("MIPS", "EDGES")),
+            "fragment": shader("sight.frag", "es", **needs, defines=("MIPS",)),
+            "smooth": shader("smooth.frag", "es", **needs, defines=("MIPS", "EDGES")),
             "report": grammar.report(),
             "table": grammar_table(grammar),
         }

@@ -11,7 +11,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass, field, replace
-from math import ceil, floor, inf
+from math import ceil, floor, frexp, inf
 from typing import NamedTuple
 
 from facade_nb.render.texture import Grammar, Rule, Source
@@ -31,6 +31,11 @@ def half(value: float) -> float:
     return found
 
 
+def step(value: float) -> float:
+    """Half of what a 16-bit float is apart from the next one."""
+    return max(2.0 ** (frexp(value)[1] - 12), 2.0**-25)
+
+
 @dataclass
 class Answer:
     """Colour, normal, specular (each with alpha), the rule, and the distances to what is uncertain."""
@@ -46,6 +51,7 @@ class Answer:
 @dataclass(frozen=True)
 class Here:
     scope: Rect
+    loose: tuple[float, float]  # how far its extents may be from what was meant
     at: tuple[float, float]
     ray: tuple[float, float, float]
     stack: tuple[tuple[float, float], ...] = ()
@@ -69,7 +75,7 @@ def answer(
     ray: tuple[float, float, float] = (0.0, 0.0, -1.0),
 ) -> Answer:
     found = Answer()
-    here = Here((0.0, 0.0, *size), point, (ray[0], ray[1], -abs(ray[2])))
+    here = Here((0.0, 0.0, *size), (0.0, 0.0), point, (ray[0], ray[1], -abs(ray[2])))
     walk = _Walk(grammar.rules, tiles, seed, found).walk(grammar.index(start), here)
     for paint in walk:
         total = found.totals[" cns"[paint.usage]]
@@ -102,19 +108,20 @@ class _Walk:
             return 0
         name, fixed = rule.operator.name, rule.fixed
         if name in ("SplitX", "SplitY"):
-            target, lower, upper = self.split(rule, here, name == "SplitY")
-            return (yield from self.walk(target, _cut(here, name == "SplitY", lower, upper)))
+            target, lower, upper, loose = self.split(rule, here, name == "SplitY")
+            return (yield from self.walk(target, _cut(here, name == "SplitY", lower, upper, loose)))
         if name in ("RepeatX", "RepeatY"):
             axis = name == "RepeatY"
             start, extent = (bottom, top - bottom) if axis else (left, right - left)
-            ratio = extent / half(fixed[0]) - 0.001
+            largest = half(fixed[0]) + step(half(fixed[0]))
+            ratio = (extent - here.loose[axis] - _lost(here.scope, axis)) / largest
             self.found.near((ratio - round(ratio)) * 10)
-            each = extent / max(1, ceil(ratio))
-            k = min(max(floor((here.at[axis] - start) / each), 0), max(1, ceil(ratio)) - 1)
+            count = max(1, ceil(ratio))
+            each = extent / count
+            k = min(max(floor((here.at[axis] - start) / each), 0), count - 1)
             self.boundary(here.at[axis] - start - k * each, each)
-            return (
-                yield from self.walk(fixed[1], _cut(here, axis, start + k * each, start + (k + 1) * each))
-            )
+            low, high = start + k * each, start + (k + 1) * each
+            return (yield from self.walk(fixed[1], _cut(here, axis, low, high, here.loose[axis] / count)))
         if name in ("Rand", "RandUni"):
             return (yield from self.walk(self.chance(rule, here), here))
         if name == "RandStack":
@@ -152,24 +159,52 @@ class _Walk:
         self.found.near(inside)
         self.found.near(extent - inside)
 
-    def split(self, rule: Rule, here: Here, axis: bool) -> tuple[int, float, float]:
-        """Eq. 1, then parts are clamped from the end, and the last one has what is left."""
+    def split(self, rule: Rule, here: Here, axis: bool) -> tuple[int, float, float, float]:
+        """Eq. 1, then parts are clamped from the end, and the last one has what is left.
+
+        Absolute parts that may have been meant to fill the scope do; those that may have been meant to end with it do.
+        """
         start, extent = here.scope[axis], here.scope[axis + 2] - here.scope[axis]
         sizes = [(s, half(v), target) for s, v, target in rule.parts]
         share = half(sum(v for s, v, _ in sizes if s == 1))
         taken = half(sum(v for s, v, _ in sizes if s == -1))
         if share:
             self.found.near(extent - taken)
-        widths = [v if s == -1 else max(0.0, extent - taken) / share * v for s, v, _ in sizes]
-        edges = [0.0]
-        for width in widths[:-1]:
-            edges.append(min(edges[-1] + width, extent))
-        edges.append(extent)
+        lost, loose = _lost(here.scope, axis), here.loose[axis]
+        fixed = [v for s, v, _ in sizes if s == -1]
+        missing = abs(extent - sum(fixed)) - loose - lost - sum(map(step, fixed))
+        fills = bool(fixed) and missing <= 0
+        stretch = extent / sum(fixed) if fills else 1.0
+        unit = 0.0 if fills or not share else max(0.0, extent - taken) / share
+        if fixed:
+            self.found.near(missing)
+        about = (loose + (taken / 2048 + step(taken) if fixed else 0)) / (share or 1)
+        many = about + unit * (1 / 2048 + step(share) / share) if share else 0.0
+        edges, slacks = [0.0], []
+        for k, (s, v, _) in enumerate(sizes):
+            width = v * stretch if s == -1 else unit * v
+            own = step(v) + abs(width - v) if s == -1 else v * about
+            if s == 1 and v != share:
+                own = v * many + unit * step(v)
+            end = min(edges[-1] + width, extent)
+            before = loose + sum(slacks)
+            if fills and sum(f for t, f, _ in sizes[: k + 1] if t == -1) >= sum(fixed):
+                end = extent
+            if not fills and taken > extent:
+                gap = extent - end - before - own - lost
+                self.found.near(gap)
+                end = extent if gap <= 0 else end
+            if k == len(sizes) - 1:
+                end = extent
+            if end == extent:
+                own = min(own + abs(end - edges[-1] - width), before)
+            edges.append(end)
+            slacks.append(own)
         at = min(max(here.at[axis] - start, 0.0), extent)
         for k, (_, _, target) in enumerate(sizes):
             if edges[k + 1] > edges[k] and (at < edges[k + 1] or edges[k + 1] == extent):
                 self.boundary(at - edges[k], edges[k + 1] - edges[k])
-                return target, start + edges[k], start + edges[k + 1]
+                return target, start + edges[k], start + edges[k + 1], slacks[k]
         raise AssertionError("a part is hit")
 
     def chance(self, rule: Rule, here: Here) -> int:
@@ -244,7 +279,9 @@ class _Walk:
             tuple(sum(axis[k] * here.turn[k][j] for k in range(3)) for j in range(3)) for axis in axes
         )
         scope = (left, bottom, left + wide, bottom + tall)
-        inside = Here(scope, (left + u, bottom + v), ray, here.stack, here.times + face + 1, turn)
+        far = step(depth)
+        loose = (far if face in (0, 2) else here.loose[0], far if face in (3, 4) else here.loose[1])
+        inside = Here(scope, loose, (left + u, bottom + v), ray, here.stack, here.times + face + 1, turn)
         return rule.fixed[face + 1], inside
 
     def value(self, source: Source, numbers: Sequence[float], here: Here) -> Four:
@@ -279,9 +316,19 @@ class _Walk:
         return total[0], total[1], total[2], total[3]
 
 
-def _cut(here: Here, axis: bool, lower: float, upper: float) -> Here:
+def _cut(here: Here, axis: bool, lower: float, upper: float, loose: float) -> Here:
     left, bottom, right, top = here.scope
-    return replace(here, scope=(left, lower, right, upper) if axis else (lower, bottom, upper, top))
+    other = here.loose[not axis]
+    return replace(
+        here,
+        scope=(left, lower, right, upper) if axis else (lower, bottom, upper, top),
+        loose=(other, loose) if axis else (loose, other),
+    )
+
+
+def _lost(scope: Rect, axis: bool) -> float:
+    """What 32 bits may have lost of a scope's extent."""
+    return max(abs(scope[axis]), abs(scope[axis + 2])) / 2**21
 
 
 def _mix(value: int) -> int:

@@ -91,7 +91,7 @@ class TestSplit:
 class TestRepeat:
     @pytest.mark.parametrize(
         ("size", "count"),
-        [(2.0, 3), (2.5, 3), (1.9, 4), (7.0, 1), (6.0, 1), (5.995, 1), (5.98, 2), (0.5, 12)],
+        [(2.0, 3), (2.5, 3), (1.9, 4), (7.0, 1), (6.0, 1), (5.999, 1), (5.995, 2), (0.5, 12)],
     )
     def test_as_many_parts_as_it_says(self, size: float, count: int) -> None:
         text = f"S -> RepeatX({size}, T)\nT -> SplitX(Rel, 1, R, Rel, 1, G)"

@@ -27,6 +27,7 @@ Surface evaluate(Question question) {
   State now;
   now.rule = question.start;
   now.scope = vec4(0.0, 0.0, question.size);
+  now.slack = vec2(0.0);
   now.at = question.at;
   now.ray = vec3(question.ray.xy, -abs(question.ray.z));
   now.footprint = question.footprint;

@@ -1,5 +1,6 @@
 // Intrusion: the face of the box behind the scope that the ray hits becomes the scope, seen from inside. Its lower left
 // corner is that of the scope that it lies behind.
+#include "half_step.glsl"
 #include "record.glsl"
 #include "near.glsl"
 
@@ -24,6 +25,7 @@ void intrusion(inout State now, vec4 head) {
     records = vec4(0.0, 0.0, head.Intrusion_left);
     at = vec2(deep, hit.y);
     extent.x = depth;
+    now.slack.x = half_step(depth);
     now.ray = vec3(ray.z, ray.y, ray.x);
   } else if (face <= 2) {
     records = record(now.rule, 1);
@@ -34,11 +36,13 @@ void intrusion(inout State now, vec4 head) {
     } else {
       at = vec2(depth - deep, hit.y);
       extent.x = depth;
+      now.slack.x = half_step(depth);
       now.ray = vec3(-ray.z, ray.y, -ray.x);
     }
   } else {
     records = record(now.rule, 2);
     extent.y = depth;
+    now.slack.y = half_step(depth);
     if (face == 3) {
       records.zw = records.Intrusion_floor;
       at = vec2(hit.x, deep);

@@ -3,6 +3,7 @@
 struct State {
   ivec2 rule;   // column and row of the rule's first record
   vec4 scope;   // left, bottom, right, top, metres
+  vec2 slack;   // how far the scope's extents may be from what was meant, metres
   vec2 at;      // where the pixel is, metres
   vec3 ray;     // direction of the viewing ray: x and y along the scope, z out of it
   float footprint;  // metres that the pixel covers there, across the ray
