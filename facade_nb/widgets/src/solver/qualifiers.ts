@@ -6,8 +6,10 @@ import { parseDrawing } from "../drawing.ts";
 import { formatNumber } from "../fields.ts";
 import { type IconName, icon } from "../icons.ts";
 import { announce } from "../presence.ts";
+import { stepByKeys } from "../stepping.ts";
 import { themeOf } from "../theme.ts";
 import type { WidgetModel } from "../types.ts";
+import { isFocused } from "../writing.ts";
 import { hueOf } from "./letters.ts";
 import { Links, linked, target } from "./links.ts";
 import { type Bytes, byteLength, unpack } from "./packing.ts";
@@ -130,6 +132,7 @@ class Card {
       class: "fnb-number fnb-mu",
       "aria-label": `Canvas width of case ${letterOf(number)}`,
     });
+    stepByKeys(this.width, { step: 0.1, min: 0.1 });
     this.width.addEventListener("change", () =>
       ask({ op: "set", case: number, path: ["canvas", "width"], value: this.width.value }),
     );
@@ -152,7 +155,7 @@ class Card {
     mark(this.told, "data-failed", one.message !== "");
     setText(this.cost, one.cost === null ? "" : `J = ${formatNumber(one.cost)} m`);
     this.reset.hidden = !one.changed;
-    if (document.activeElement !== this.width) this.width.value = formatNumber(one.canvas.x);
+    if (!isFocused(this.width)) this.width.value = formatNumber(one.canvas.x);
     this.patterns.replaceChildren(
       ...one.patterns.map(({ layer, text }) => h("code", { title: `Layer ${layer}` }, text)),
     );
