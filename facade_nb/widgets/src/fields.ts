@@ -116,12 +116,8 @@ export function nameField(options: { label: string; value: () => string; commit:
   input.addEventListener("blur", commit);
   input.addEventListener("keydown", (event) => {
     if (event.key === "Enter") input.blur();
-    if (event.key === "Escape" && input.value !== options.value()) {
-      event.preventDefault(); // nothing else is given up
-      input.value = options.value();
-    }
   });
-  undoOwn(input, options.value);
+  holdBack(input, options.value);
   return {
     el: input,
     update() {
@@ -131,10 +127,14 @@ export function nameField(options: { label: string; value: () => string; commit:
   };
 }
 
-/** What is typed and not yet committed is no part of any history but the field's own. */
-export function undoOwn(input: HTMLInputElement, committed: () => string): void {
+/** What is typed and not yet committed is part of no history but the field's own, and is given up by Escape. */
+export function holdBack(input: HTMLInputElement, committed: () => string): void {
   input.addEventListener("keydown", (event) => {
-    if (historyKey(event) && input.value !== committed()) event.stopPropagation();
+    if (input.value === committed()) return;
+    if (historyKey(event)) event.stopPropagation();
+    if (event.key !== "Escape") return;
+    event.preventDefault(); // nothing else is given up
+    input.value = committed();
   });
 }
 

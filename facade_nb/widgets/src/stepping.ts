@@ -8,7 +8,8 @@ export interface Range {
   whole?: boolean;
 }
 
-const MOST = 12; // decimals; what lies behind them is the noise of sums
+const MOST = 12; // decimals
+const DIGITS = 14; // in all; what lies behind them is the noise of sums
 const FAR = 10; // steps at a time, with Shift or by page
 
 function decimals(value: number): number {
@@ -19,7 +20,7 @@ function decimals(value: number): number {
 /** So many steps from a value. It goes no further than the bounds, and never the other way, wherever the value is. */
 export function stepped(value: number, steps: number, { step, min = -Infinity, max = Infinity, whole }: Range): number {
   const digits = Math.min(MOST, Math.max(decimals(value), decimals(step)));
-  let next = Number((value + steps * step).toFixed(digits));
+  let next = Number(Number((value + steps * step).toFixed(digits)).toPrecision(DIGITS));
   if (whole) next = steps > 0 ? Math.floor(next) : Math.ceil(next);
   next = Math.min(max, Math.max(min, next));
   return steps > 0 ? Math.max(value, next) : Math.min(value, next);

@@ -1,5 +1,5 @@
 import { beforeEach, describe, expect, it } from "vitest";
-import { nameField, undoOwn } from "../src/fields.ts";
+import { holdBack, nameField } from "../src/fields.ts";
 import { historyKey, isHosts, keepKeys, letterOf } from "../src/keys.ts";
 import { stepByKeys, stepped } from "../src/stepping.ts";
 import { difference, write } from "../src/writing.ts";
@@ -174,7 +174,7 @@ describe("a part", () => {
   it("does not undo the history for what is typed and not committed", () => {
     const input = document.createElement("input");
     field.replaceWith(input);
-    undoOwn(input, () => "Bx");
+    holdBack(input, () => "Bx");
     input.value = "Bxy";
     expect(input.dispatchEvent(ctrl("z", "KeyZ"))).toBe(true);
     expect(asked).toEqual([]);
@@ -215,6 +215,8 @@ describe("a step", () => {
     [23.9, 1, { step: 0.25, max: 24 }, 24],
     [50, 1, { step: 0.1, max: 40 }, 50], // never downwards
     [50, -1, { step: 0.1, max: 40 }, 40],
+    [12345.300000000001, 1, { step: 0.1 }, 12345.4],
+    [0.1, -1, { step: 0.1 }, 0],
     [1.5, 1, { step: 1, whole: true }, 2],
     [1.5, -1, { step: 1, whole: true }, 1],
     [3, 10, { step: 1, whole: true, min: -99 }, 13],

@@ -15,7 +15,7 @@ from ...design import DesignError
 from ...render import Grammar
 from ...render.texture.atlas import Tiles
 from ...render.texture.steps import Step
-from ..history import History
+from ..history import History, Undoable
 from .places import Plane, planes
 
 __all__ = ["TextureModel"]
@@ -37,7 +37,7 @@ class _Snapshot:
     lit: bool
 
 
-class TextureModel(HasTraits):
+class TextureModel(Undoable[_Snapshot], HasTraits):
     """A grammar that is being edited, the façade it is shown on, and the pixel that is looked into.
 
     Parameters
@@ -122,26 +122,6 @@ class TextureModel(HasTraits):
         moved = tuple(map(ne, now, value)) if both else ()  # width and height are two sliders
         with self._editing(None if name == "lit" else (name, moved)):
             setattr(self, name, value)
-
-    def undo(self) -> None:
-        """Go back one step; does nothing where there is none."""
-        if self._history.can_undo:
-            self._restore(self._history.undo())
-
-    def redo(self) -> None:
-        """Go forward again one step; does nothing where there is none."""
-        if self._history.can_redo:
-            self._restore(self._history.redo())
-
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is a step to undo."""
-        return self._history.can_undo
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether there is an undone step to redo."""
-        return self._history.can_redo
 
     @contextmanager
     def _editing(self, key: Hashable | None) -> Iterator[None]:

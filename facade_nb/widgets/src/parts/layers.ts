@@ -1,5 +1,5 @@
 import { h, keyed, mark, type Row } from "../dom.ts";
-import { button, choiceField, type Field, faultBox, nameField, undoOwn } from "../fields.ts";
+import { button, choiceField, type Field, faultBox, holdBack, nameField } from "../fields.ts";
 import { icon, setIcon } from "../icons.ts";
 import { keyOf } from "../store.ts";
 import { AXES, type Axis, type LayerState } from "../types.ts";
@@ -132,7 +132,7 @@ function layerSide({ store }: Context, axis: Axis, layer: () => LayerState): Fie
     if (group.value !== side().group) store.set(groupPath, group.value);
   };
   group.addEventListener("change", commitGroup);
-  undoOwn(group, () => side().group);
+  holdBack(group, () => side().group);
   group.addEventListener("keydown", (event) => {
     // With a list of suggestions Enter closes the list, and no change is announced.
     if (event.key === "Enter") commitGroup();

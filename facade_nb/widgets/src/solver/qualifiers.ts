@@ -3,7 +3,7 @@
 
 import { h, mark, setText, svg } from "../dom.ts";
 import { parseDrawing } from "../drawing.ts";
-import { formatNumber } from "../fields.ts";
+import { formatNumber, holdBack } from "../fields.ts";
 import { type IconName, icon } from "../icons.ts";
 import { announce } from "../presence.ts";
 import { stepByKeys } from "../stepping.ts";
@@ -114,6 +114,7 @@ class Card {
   private readonly switches = h("table", { class: "fnb-case-switches" });
   private readonly reset: HTMLButtonElement;
   private readonly width: HTMLInputElement;
+  private committed = "";
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
   private readonly buttons = new Map<string, HTMLButtonElement>();
   private drawn = "";
@@ -132,6 +133,7 @@ class Card {
       class: "fnb-number fnb-mu",
       "aria-label": `Canvas width of case ${letterOf(number)}`,
     });
+    holdBack(this.width, () => this.committed);
     stepByKeys(this.width, { step: 0.1, min: 0.1 });
     this.width.addEventListener("change", () =>
       ask({ op: "set", case: number, path: ["canvas", "width"], value: this.width.value }),
@@ -155,7 +157,8 @@ class Card {
     mark(this.told, "data-failed", one.message !== "");
     setText(this.cost, one.cost === null ? "" : `J = ${formatNumber(one.cost)} m`);
     this.reset.hidden = !one.changed;
-    if (!isFocused(this.width)) this.width.value = formatNumber(one.canvas.x);
+    this.committed = formatNumber(one.canvas.x);
+    if (!isFocused(this.width)) this.width.value = this.committed;
     this.patterns.replaceChildren(
       ...one.patterns.map(({ layer, text }) => h("code", { title: `Layer ${layer}` }, text)),
     );
