@@ -16,6 +16,8 @@ WALL = "S -> Mat(Color, 0, 1, 0, 0, 1)"
 SHOWN = f"""
 from IPython.display import display
 texture = TextureModel({WALL!r}, size=(12.34, 9.0), hour=9.1)
+for each in (model, texture):
+    each._history._pause = 1e9  # what is typed is one step, however busy the machine is
 """
 PANEL = "window.jupyterapp.shell.currentWidget"
 SLEEP = f"""seconds => {{ {PANEL}.sessionContext.session.kernel
