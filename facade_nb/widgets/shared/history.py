@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import Generic, TypeVar
 
-__all__ = ["History"]
+__all__ = ["History", "Undoable"]
 
 T = TypeVar("T")
 
@@ -80,3 +80,33 @@ class History(Generic[T]):
         self._past.append(self._present)
         self._present, self._key = state, None
         return state
+
+
+class Undoable(Generic[T]):
+    """What a model has that keeps its states in `_history` and can `_restore` one."""
+
+    _history: History[T]
+
+    def _restore(self, state: T) -> None:
+        """Make a state of the history the model's."""
+        raise NotImplementedError
+
+    def undo(self) -> None:
+        """Go back one step; does nothing where there is none."""
+        if self._history.can_undo:
+            self._restore(self._history.undo())
+
+    def redo(self) -> None:
+        """Go forward again one step; does nothing where there is none."""
+        if self._history.can_redo:
+            self._restore(self._history.redo())
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a step to undo."""
+        return self._history.can_undo
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is an undone step to redo."""
+        return self._history.can_redo

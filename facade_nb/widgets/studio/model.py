@@ -16,7 +16,7 @@ from traitlets import Bool, Float, HasTraits, Instance, Int, Unicode
 
 from ...design import Design, DesignError, FacadeError, Fault, NoLayout
 from ...solver import Layout, Trace, solve
-from ..shared.history import History
+from ..shared.history import History, Undoable
 from .background import LatestSolver, Outcome, Solve
 from .fields import Path, apply
 
@@ -52,7 +52,7 @@ class _Snapshot:
     drafts: Mapping[Path, Draft] = field(default_factory=dict)
 
 
-class FacadeModel(HasTraits):
+class FacadeModel(Undoable[_Snapshot], HasTraits):
     """A design, its last good layout, and what is to be said about them.
 
     Parameters
@@ -147,26 +147,6 @@ class FacadeModel(HasTraits):
     def discard(self, path: Path) -> None:
         """Forget the draft of a field."""
         self._take(_Snapshot(self.design, {p: d for p, d in self.drafts.items() if p != path}), key=None)
-
-    def undo(self) -> None:
-        """Go back one step; does nothing where there is none."""
-        if self._history.can_undo:
-            self._restore(self._history.undo())
-
-    def redo(self) -> None:
-        """Go forward again one step; does nothing where there is none."""
-        if self._history.can_redo:
-            self._restore(self._history.redo())
-
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is a step to undo."""
-        return self._history.can_undo
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether there is an undone step to redo."""
-        return self._history.can_redo
 
     def load(self, source: Design | str | FilePath) -> None:
         """Replace the design, as one step that can be undone.

@@ -30,6 +30,8 @@ def _same_all(model: TextureModel) -> dict[str, Any]:
         "point": list(model.point or ()),
         "ray": list(model.ray or ()),
         "steps": derivation(model.derivation, model.places),
+        "can_undo": model.can_undo,
+        "can_redo": model.can_redo,
     }
 
 
@@ -52,6 +54,8 @@ class TextureChannel(ModelWire):
     point = List(Float()).tag(sync=True)
     ray = List(Float()).tag(sync=True)
     steps = List(Dict()).tag(sync=True)
+    can_undo = Bool().tag(sync=True)
+    can_redo = Bool().tag(sync=True)
 
     def __init__(self, model: TextureModel) -> None:
         self._tiles: tuple[str, ...] | None = None
@@ -102,10 +106,10 @@ class TextureChannel(ModelWire):
         try:
             with self.hold_sync():
                 op = message.get("op")
-                if op == "set":
+                if op in ("set", "undo", "redo"):
                     self.trouble = ""
                     try:
-                        self._set(message["name"], message["value"])
+                        self._edit(op, message)
                     finally:  # what was refused is answered, too: the page shows what the model has
                         self.ack = {"client": message["client"], "seq": message["seq"]}
                 elif op == "pick":
@@ -118,8 +122,13 @@ class TextureChannel(ModelWire):
         except Exception:  # as above
             self.trouble = traceback.format_exc()
 
-    def _set(self, name: str, value: Any) -> None:
-        if name == "text":
-            self.model.enter(str(value))
-        elif name in _PLAIN:
-            setattr(self.model, name, tuple(value) if isinstance(value, list) else value)
+    def _edit(self, op: str, message: Message) -> None:
+        if op == "undo":
+            self.model.undo()
+        elif op == "redo":
+            self.model.redo()
+        elif message["name"] == "text":
+            self.model.enter(str(message["value"]))
+        elif message["name"] in _PLAIN:
+            value = message["value"]
+            self.model.adjust(message["name"], tuple(value) if isinstance(value, list) else value)

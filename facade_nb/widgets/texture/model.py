@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import time
+from collections.abc import Hashable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from operator import ne
 from typing import Any
 
 from traitlets import Bool, Float, HasTraits, Instance, TraitError, Tuple, Unicode, validate
@@ -11,14 +15,29 @@ from ...design import DesignError
 from ...render import Grammar
 from ...render.texture.atlas import Tiles
 from ...render.texture.steps import Step
+from ..shared.history import History, Undoable
 from .places import Plane, planes
 
 __all__ = ["TextureModel"]
 
 _WIDEST = 1000.0
+_EDITED = ("text", "size", "seed", "hour", "lit")
 
 
-class TextureModel(HasTraits):
+@dataclass(frozen=True, slots=True)
+class _Snapshot:
+    """What undo brings back."""
+
+    text: str
+    read: str | None
+    """The text of the grammar that is shown: `text`, or, if that has faults, one before it."""
+    size: tuple[float, float]
+    seed: tuple[float, float]
+    hour: float
+    lit: bool
+
+
+class TextureModel(Undoable[_Snapshot], HasTraits):
     """A grammar that is being edited, the façade it is shown on, and the pixel that is looked into.
 
     Parameters
@@ -50,6 +69,10 @@ class TextureModel(HasTraits):
         How it came about, step by step.
     places
         For each step, the plane its scope stands on: the façade, or a face of a room.
+
+    Notes
+    -----
+    Every change of `text`, `size`, `seed`, `hour` and `lit` can be undone, whoever makes it.
     """
 
     text = Unicode()
@@ -69,12 +92,68 @@ class TextureModel(HasTraits):
         if isinstance(grammar, Grammar):
             self.tiles = tiles if tiles is not None else grammar.tiles
             grammar = grammar.text
+        self._key: Hashable | None = None
         self.enter(grammar)
+        self._history = History(self._snapshot())
+        self.observe(self._record, list(_EDITED))
         self.observe(self._derive, ["grammar", "size", "seed", "point", "ray"])
         self._derive()
 
     def enter(self, text: str) -> None:
-        """Take a text as it was typed. With faults, the grammar stays what it last was; nothing is raised."""
+        """Take a text as it was typed. With faults, the grammar stays what it last was; nothing is raised.
+
+        Texts in quick succession are one step of undo.
+        """
+        with self._editing("text"):
+            self._read(text)
+
+    def adjust(self, name: str, value: Any) -> None:
+        """Set `size`, `seed` or `hour` as a slider does, step by step, or `lit`.
+
+        Values in quick succession are one step of undo, as those of an assignment are not.
+
+        Raises
+        ------
+        TraitError
+            If the value cannot be. Nothing has changed then.
+        """
+        now = getattr(self, name)
+        both = isinstance(now, tuple) and isinstance(value, tuple)
+        moved = tuple(map(ne, now, value)) if both else ()  # width and height are two sliders
+        with self._editing(None if name == "lit" else (name, moved)):
+            setattr(self, name, value)
+
+    @contextmanager
+    def _editing(self, key: Hashable | None) -> Iterator[None]:
+        """Say what is edited: what has one key, in quick succession, is one step."""
+        self._key = key
+        try:
+            yield
+        finally:
+            self._key = None
+
+    @property
+    def _shown(self) -> str | None:
+        return None if self.grammar is None else self.grammar.text
+
+    def _snapshot(self) -> _Snapshot:
+        return _Snapshot(self.text, self._shown, self.size, self.seed, self.hour, self.lit)
+
+    def _record(self, _: Any) -> None:
+        self._history.record(self._snapshot(), key=self._key, now=time.monotonic())
+
+    def _restore(self, state: _Snapshot) -> None:
+        with self.hold_trait_notifications():
+            if state.read is None:
+                self.grammar = None
+            elif self._shown != state.read:
+                self._read(state.read)
+            if self.text != state.text:
+                self._read(state.text)
+            for name in _EDITED[1:]:
+                setattr(self, name, getattr(state, name))
+
+    def _read(self, text: str) -> None:
         with self.hold_trait_notifications():
             self.text = text
             try:

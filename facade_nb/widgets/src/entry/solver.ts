@@ -13,7 +13,8 @@ import "../styles/player.css";
 import "../styles/qualifiers.css";
 import "../styles/sizing.css";
 import "../styles/solver-views.css";
-import { h, mark } from "../shared/dom.ts";
+import { h } from "../shared/dom.ts";
+import { keepKeys } from "../shared/keys.ts";
 import { adoptStyle, watchTheme } from "../shared/theme.ts";
 import type { Mount } from "../shared/types.ts";
 import { alone, apology } from "../solver/frame.ts";
@@ -29,8 +30,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   const kind = VIEWS[part];
   if (!kind && part !== "solver" && part !== "qualifiers") throw new Error(`facade_nb: no view named ${part}`);
   const root = h("div", { class: `fnb fnb-solver fnb-part-${part}` });
-  // The keys of a widget are its own: in command mode JupyterLab would read them as commands on cells.
-  mark(root, "data-lm-suppress-shortcuts", true);
+  keepKeys(root, end.signal);
   watchTheme(root, end.signal, () => {});
   el.append(root);
   const leave = () => {

@@ -6,6 +6,7 @@ import "../styles/fields.css";
 import "../styles/editors.css";
 import "../styles/views.css";
 import { h, mark } from "../shared/dom.ts";
+import { keepKeys } from "../shared/keys.ts";
 import { Store } from "../shared/store.ts";
 import { adoptStyle, watchTheme } from "../shared/theme.ts";
 import type { Mount, WidgetModel } from "../shared/types.ts";
@@ -54,11 +55,12 @@ export function mount({ el, model, channel, css }: Mount): () => void {
 
   const { el: noticeArea, notify } = notices(store, signal);
   const root = h("div", { class: `fnb fnb-part-${part}` });
-  // The keys of a widget are its own: in command mode JupyterLab would read them as commands on cells.
-  mark(root, "data-lm-suppress-shortcuts", true);
   root.append(make({ store, signal, notify }, model), noticeArea);
   mark(root, "inert", !store.live);
-  root.addEventListener("keydown", (event) => keys(event, store));
+  keepKeys(root, signal, (op) => store.ask({ op }));
+  root.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !event.defaultPrevented) store.ask({ op: "select" });
+  });
   watchTheme(root, signal, (theme) => {
     if (store.get("theme") !== theme) store.ask({ op: "theme", theme });
   });
@@ -67,16 +69,4 @@ export function mount({ el, model, channel, css }: Mount): () => void {
     end.abort();
     root.remove();
   };
-}
-
-function keys(event: KeyboardEvent, store: Store): void {
-  const key = event.key.toLowerCase();
-  if ((event.ctrlKey || event.metaKey) && !event.altKey && (key === "z" || key === "y")) {
-    // The field's own undo would know only this field; the design's knows all of them.
-    event.preventDefault();
-    event.stopPropagation();
-    store.ask({ op: key === "y" || event.shiftKey ? "redo" : "undo" });
-  } else if (event.key === "Escape") {
-    store.ask({ op: "select" });
-  }
 }

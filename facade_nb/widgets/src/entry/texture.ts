@@ -3,7 +3,8 @@
 import "../styles/base.css";
 import "../styles/fields.css";
 import "../styles/texture.css";
-import { h, mark } from "../shared/dom.ts";
+import { h } from "../shared/dom.ts";
+import { keepKeys } from "../shared/keys.ts";
 import { adoptStyle, watchTheme } from "../shared/theme.ts";
 import type { Mount } from "../shared/types.ts";
 import { editor } from "../texture/editor.ts";
@@ -33,7 +34,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   const make = parts[part];
   if (!make) throw new Error(`facade_nb: no view of a texture named ${part}`);
   const root = h("div", { class: `fnb fnb-texture fnb-texture-${part}` });
-  mark(root, "data-lm-suppress-shortcuts", true);
+  keepKeys(root, end.signal, (op) => session.ask(op));
   watchTheme(root, end.signal, () => {});
   el.append(root);
   const trouble = h("pre", { class: "fnb-tex-trouble", role: "alert", hidden: true });

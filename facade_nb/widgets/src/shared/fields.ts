@@ -3,8 +3,11 @@
 
 import { h, mark, setText } from "./dom.ts";
 import { type IconName, icon } from "./icons.ts";
+import { historyKey } from "./keys.ts";
+import { type Range, stepByKeys } from "./stepping.ts";
 import { keyOf, type Store } from "./store.ts";
 import type { DraftState, Fault, Path } from "./types.ts";
+import { isFocused, write } from "./writing.ts";
 
 export interface Field {
   el: HTMLElement;
@@ -39,20 +42,12 @@ function showText(store: Store, input: HTMLInputElement | HTMLTextAreaElement, o
   if (input.value === text) return;
   // "6." and "6,0" mean what the design says: leave them be while they are being typed.
   const same = Number(input.value.replace(",", ".")) === Number(text) && input.value.trim() !== "" && text !== "";
-  if (input.type === "text" && input.inputMode === "decimal" && same && document.activeElement === input) return;
-  const caret = input.selectionStart;
-  input.value = text;
-  if (document.activeElement === input && caret !== null) {
-    const at = Math.min(caret, text.length);
-    input.setSelectionRange(at, at);
-  }
+  if (input.type === "text" && input.inputMode === "decimal" && same && isFocused(input)) return;
+  write(input, text, store.undoing && isFocused(input));
 }
 
 /** A number of metres, or a whole number; arrow keys step it. */
-export function numberField(
-  store: Store,
-  options: TextOptions & { step: number; min: number; whole?: boolean; start?: () => number },
-): Field {
+export function numberField(store: Store, options: TextOptions & Range & { min: number; start?: () => number }): Field {
   const input = h("input", {
     type: "text",
     inputmode: "decimal",
@@ -65,16 +60,7 @@ export function numberField(
   const field = { el: input, update: () => showText(store, input, options) };
   input.addEventListener("input", () => store.set(options.path, input.value));
   input.addEventListener("blur", field.update);
-  input.addEventListener("keydown", (event) => {
-    if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
-    event.preventDefault();
-    const by = (event.key === "ArrowUp" ? 1 : -1) * options.step * (event.shiftKey ? 10 : 1);
-    const typed = Number(input.value.replace(",", "."));
-    const from = input.value.trim() === "" || !Number.isFinite(typed) ? (options.start?.() ?? options.min) - by : typed;
-    const stepped = Math.max(options.min, Math.round((from + by) / options.step) * options.step);
-    input.value = formatNumber(options.whole ? Math.round(stepped) : stepped);
-    store.set(options.path, input.value);
-  });
+  stepByKeys(input, options, () => Number(formatNumber(options.start?.() ?? options.min)));
   return field;
 }
 
@@ -130,19 +116,26 @@ export function nameField(options: { label: string; value: () => string; commit:
   input.addEventListener("blur", commit);
   input.addEventListener("keydown", (event) => {
     if (event.key === "Enter") input.blur();
-    if (event.key === "Escape") {
-      event.stopPropagation();
-      input.value = options.value();
-      input.blur();
-    }
   });
+  holdBack(input, options.value);
   return {
     el: input,
     update() {
-      if (document.activeElement !== input) input.value = options.value();
+      if (!isFocused(input)) input.value = options.value();
       input.size = Math.max(2, options.value().length);
     },
   };
+}
+
+/** What is typed and not yet committed is part of no history but the field's own, and is given up by Escape. */
+export function holdBack(input: HTMLInputElement, committed: () => string): void {
+  input.addEventListener("keydown", (event) => {
+    if (input.value === committed()) return;
+    if (historyKey(event)) event.stopPropagation();
+    if (event.key !== "Escape") return;
+    event.preventDefault(); // nothing else is given up
+    input.value = committed();
+  });
 }
 
 /** A choice among names. */

@@ -21,6 +21,8 @@ export class Store {
   private queue: Queued[] = [];
   private flying: (Queued & { seq: number; since: number }) | null = null;
   private seq = 0;
+  /** The operation that was sent last. */
+  private last = "";
   private readonly waiters = new Set<() => void>();
 
   constructor(
@@ -77,7 +79,9 @@ export class Store {
   set(path: Path, value: unknown): void {
     const key = keyOf(path);
     const message = { op: "set", path, value };
-    const waiting = this.queue.find((queued) => queued.key === key);
+    // What was asked for in between, such as undo, is about the value before it.
+    const since = this.queue.findLastIndex((queued) => queued.key === "");
+    const waiting = this.queue.find((queued, i) => i > since && queued.key === key);
     if (waiting) waiting.message = message;
     else this.queue.push({ message, key });
     this.flush();
@@ -95,6 +99,11 @@ export class Store {
     return this.flying?.key === key || this.queue.some((queued) => queued.key === key);
   }
 
+  /** Whether what changes now does so because it is undone or redone. */
+  get undoing(): boolean {
+    return this.last === "undo" || this.last === "redo";
+  }
+
   /** Milliseconds that the message under way has been waited for. */
   get waiting(): number {
     return this.flying ? performance.now() - this.flying.since : 0;
@@ -104,6 +113,7 @@ export class Store {
     if (this.flying || !this.live) return;
     const next = this.queue.shift();
     if (!next) return;
+    this.last = next.message.op;
     this.flying = { ...next, seq: ++this.seq, since: performance.now() };
     this.channel.send({ ...next.message, client: this.client, seq: this.seq });
     for (const waiter of this.waiters) waiter();

@@ -3,11 +3,13 @@
 
 import { h, mark, setText, svg } from "../shared/dom.ts";
 import { parseDrawing } from "../shared/drawing.ts";
-import { formatNumber } from "../shared/fields.ts";
+import { formatNumber, holdBack } from "../shared/fields.ts";
 import { type IconName, icon } from "../shared/icons.ts";
 import { announce } from "../shared/presence.ts";
+import { stepByKeys } from "../shared/stepping.ts";
 import { themeOf } from "../shared/theme.ts";
 import type { WidgetModel } from "../shared/types.ts";
+import { isFocused } from "../shared/writing.ts";
 import { hueOf } from "./letters.ts";
 import { Links, linked, target } from "./links.ts";
 import { type Bytes, byteLength, unpack } from "./packing.ts";
@@ -112,6 +114,7 @@ class Card {
   private readonly switches = h("table", { class: "fnb-case-switches" });
   private readonly reset: HTMLButtonElement;
   private readonly width: HTMLInputElement;
+  private committed = "";
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
   private readonly buttons = new Map<string, HTMLButtonElement>();
   private drawn = "";
@@ -130,6 +133,8 @@ class Card {
       class: "fnb-number fnb-mu",
       "aria-label": `Canvas width of case ${letterOf(number)}`,
     });
+    holdBack(this.width, () => this.committed);
+    stepByKeys(this.width, { step: 0.1, min: 0.1 });
     this.width.addEventListener("change", () =>
       ask({ op: "set", case: number, path: ["canvas", "width"], value: this.width.value }),
     );
@@ -152,7 +157,8 @@ class Card {
     mark(this.told, "data-failed", one.message !== "");
     setText(this.cost, one.cost === null ? "" : `J = ${formatNumber(one.cost)} m`);
     this.reset.hidden = !one.changed;
-    if (document.activeElement !== this.width) this.width.value = formatNumber(one.canvas.x);
+    this.committed = formatNumber(one.canvas.x);
+    if (!isFocused(this.width)) this.width.value = this.committed;
     this.patterns.replaceChildren(
       ...one.patterns.map(({ layer, text }) => h("code", { title: `Layer ${layer}` }, text)),
     );

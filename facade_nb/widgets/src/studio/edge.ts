@@ -1,6 +1,7 @@
 import { h, mark, setText } from "../shared/dom.ts";
 import type { Drawing } from "../shared/drawing.ts";
 import { formatNumber } from "../shared/fields.ts";
+import { stepped } from "../shared/stepping.ts";
 import type { Context } from "./common.ts";
 
 const STEP = 0.05;
@@ -36,9 +37,9 @@ export function edge(
   let asked: number | null = null;
   const size = () => (store.pending(path) && asked !== null ? asked : store.get("design").canvas[side]);
   const ask = (value: number) => {
-    asked = Math.max(LEAST, Math.round(value / STEP) * STEP);
+    asked = Math.max(LEAST, Number(value.toFixed(9)));
     tell(asked);
-    store.set(path, Number(asked.toFixed(3)));
+    store.set(path, asked);
   };
   const tell = (value: number) => {
     mark(el, "aria-valuenow", formatNumber(value));
@@ -61,7 +62,7 @@ export function edge(
       mark(el, "data-dragged", true);
       const move = (event: PointerEvent) => {
         const pixels = side === "width" ? event.clientX - down.clientX : down.clientY - event.clientY;
-        ask(from + pixels / metre);
+        ask(Math.round((from + pixels / metre) / STEP) * STEP);
       };
       el.addEventListener("pointermove", move, { signal });
       el.addEventListener(
@@ -83,7 +84,7 @@ export function edge(
       if (event.key !== more && event.key !== less) return;
       event.preventDefault();
       event.stopPropagation();
-      ask(size() + (event.key === more ? 1 : -1) * (event.shiftKey ? 1 : 0.1));
+      ask(stepped(size(), (event.key === more ? 1 : -1) * (event.shiftKey ? 10 : 1), { step: 0.1, min: LEAST }));
     },
     { signal },
   );

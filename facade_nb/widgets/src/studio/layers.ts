@@ -1,8 +1,9 @@
 import { h, keyed, mark, type Row } from "../shared/dom.ts";
-import { button, choiceField, type Field, faultBox, nameField } from "../shared/fields.ts";
+import { button, choiceField, type Field, faultBox, holdBack, nameField } from "../shared/fields.ts";
 import { icon, setIcon } from "../shared/icons.ts";
 import { keyOf } from "../shared/store.ts";
 import { AXES, type Axis, type LayerState } from "../shared/types.ts";
+import { isFocused } from "../shared/writing.ts";
 import { type Context, emptyNote, type MakePart, markPicked } from "./common.ts";
 
 /** The stack, topmost layer first. */
@@ -131,6 +132,7 @@ function layerSide({ store }: Context, axis: Axis, layer: () => LayerState): Fie
     if (group.value !== side().group) store.set(groupPath, group.value);
   };
   group.addEventListener("change", commitGroup);
+  holdBack(group, () => side().group);
   group.addEventListener("keydown", (event) => {
     // With a list of suggestions Enter closes the list, and no change is announced.
     if (event.key === "Enter") commitGroup();
@@ -182,8 +184,7 @@ function layerSide({ store }: Context, axis: Axis, layer: () => LayerState): Fie
       )
         options.replaceChildren(...groups.map((other) => h("option", { value: other })));
       const draft = store.get("drafts").find((other) => keyOf(other.path) === keyOf(groupPath));
-      if (document.activeElement !== group && !store.pending(groupPath))
-        group.value = String(draft?.value ?? side().group);
+      if (!isFocused(group) && !store.pending(groupPath)) group.value = String(draft?.value ?? side().group);
       mark(group, "data-default", side().group === "default");
       if (!store.pending(maskPath)) mask = side().mask;
       showChips(side().letters);

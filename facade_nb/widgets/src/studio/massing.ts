@@ -1,4 +1,4 @@
-import { h, mark } from "../shared/dom.ts";
+import { h } from "../shared/dom.ts";
 import type { WidgetModel, WidgetView } from "../shared/types.ts";
 import type { Context } from "./common.ts";
 
@@ -69,7 +69,6 @@ export function massing({ store }: Context, model: WidgetModel, signal: AbortSig
       return;
     }
     view = made;
-    mark(made.el, "data-lm-suppress-shortcuts", "true");
     el.replaceChildren(made.el, tag);
     made.trigger("displayed");
     resize();

@@ -1,6 +1,7 @@
 // The buttons and sliders under the picture.
 
 import { h, mark, setText } from "../shared/dom.ts";
+import { stepped, stepsOf } from "../shared/stepping.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import type { Session } from "./session.ts";
 import type { Steering } from "./steering.ts";
@@ -86,6 +87,13 @@ function slider({ label, range, get, set, show }: Slider, session: Session, sign
   const input = h("input", { type: "range", min, max, step, "aria-label": label });
   const value = h("output", {});
   input.addEventListener("input", () => set(Number(input.value)));
+  // By itself a slider steps along its own marks, wherever the value is.
+  input.addEventListener("keydown", (event) => {
+    const steps = stepsOf(event, true);
+    if (!steps) return;
+    event.preventDefault();
+    set(stepped(get(), steps, { step, min, max }));
+  });
   session.hold(() => {
     if (Number(input.value) !== get()) input.value = String(get());
     setText(value, show(get()));

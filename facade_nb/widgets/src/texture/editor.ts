@@ -2,6 +2,8 @@
 // the place.
 
 import { h, mark, setText } from "../shared/dom.ts";
+import { button } from "../shared/fields.ts";
+import { write } from "../shared/writing.ts";
 import type { Session } from "./session.ts";
 
 /** The offset of a line and column, both from 1. */
@@ -25,8 +27,9 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
     placeholder: "S -> Mat(Color, Rep:brick, 0, 0, 0.5, 0.5)",
     wrap: "off",
     "aria-label": "Grammar",
-    "data-lm-suppress-shortcuts": "true",
   });
+  const undo = button("Undo (Ctrl+Z)", "undo", () => session.ask("undo"));
+  const redo = button("Redo (Ctrl+Shift+Z)", "redo", () => session.ask("redo"));
   const gutter = h("div", { class: "fnb-tex-gutter", "aria-hidden": "true" });
   const marks = h("div", {});
   const list = h("div", { class: "fnb-tex-faults", role: "status" });
@@ -65,8 +68,10 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
     marks.style.transform = `translate(${-area.scrollLeft}px, ${-area.scrollTop}px)`;
   });
   session.hold(() => {
-    if (!session.typing && area.value !== session.text) area.value = session.text;
+    if (!session.typing) write(area, session.text, session.undoing);
     area.readOnly = !session.live;
+    undo.disabled = !session.live || !session.canUndo;
+    redo.disabled = !session.live || !session.canRedo;
     mark(area, "aria-invalid", session.faults.length ? "true" : null);
     number();
     underline();
@@ -98,6 +103,7 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
   return h(
     "section",
     { class: "fnb-tex-editor", "aria-label": "Grammar editor" },
+    h("div", { class: "fnb-tex-tools", role: "toolbar", "aria-label": "History" }, undo, redo),
     h(
       "div",
       { class: "fnb-tex-code" },

@@ -50,7 +50,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
               .join(" ")})`;
           const go = h(
             "button",
-            { type: "button", "data-lm-suppress-shortcuts": "true" },
+            { type: "button" },
             h("b", {}, step.rule),
             " ",
             h("code", {}, step.operator),

@@ -6,10 +6,29 @@ import { type Bytes, byteLength, unpack } from "../solver/packing.ts";
 import { renderer } from "./renderer.ts";
 import type { Common, Pair, Scene, Step, Tiles, Triple } from "./types.ts";
 
-const PLAIN = ["text", "faults", "size", "seed", "hour", "lit", "point", "ray", "still", "trouble"] as const;
+const PLAIN = [
+  "text",
+  "faults",
+  "size",
+  "seed",
+  "hour",
+  "lit",
+  "point",
+  "ray",
+  "still",
+  "trouble",
+  "can_undo",
+  "can_redo",
+] as const;
 const PACKED = ["scene", "tiles", "light"] as const;
 
 type Entered = "text" | "size" | "seed" | "hour" | "lit";
+
+interface Queued {
+  message: { op: string; value?: unknown; [argument: string]: unknown };
+  /** What it sets; "": nothing, it asks for something. */
+  name: Entered | "";
+}
 
 export class Session extends Shared {
   static readonly of = oneFor((channel) => new Session(channel));
@@ -20,10 +39,11 @@ export class Session extends Shared {
   /** The step of the derivation that is looked at. */
   step = 0;
   private seq = 0;
-  private acknowledged = 0;
   /** What was entered and is not yet sent; what is sent and not yet answered. Views show these. */
-  private readonly waiting = new Map<Entered, unknown>();
-  private readonly sent = new Map<Entered, unknown>();
+  private queue: Queued[] = [];
+  private flying: Queued | null = null;
+  /** The operation that was sent last. */
+  private last = "";
   private unpacking = 0;
 
   get size(): Pair {
@@ -59,9 +79,19 @@ export class Session extends Shared {
       ? new Uint8Array(bytes)
       : new Uint8Array(bytes.buffer as ArrayBuffer, bytes.byteOffset, bytes.byteLength);
   }
+  get canUndo(): boolean {
+    return this.channel.get<boolean>("can_undo") || this.queue.length > 0 || this.flying !== null;
+  }
+  get canRedo(): boolean {
+    return this.channel.get<boolean>("can_redo");
+  }
   /** Whether a text is on its way: the field must not be written to. */
   get typing(): boolean {
-    return this.waiting.has("text") || this.sent.has("text");
+    return this.own("text") !== undefined;
+  }
+  /** Whether what changes now does so because it is undone or redone. */
+  get undoing(): boolean {
+    return this.last === "undo" || this.last === "redo";
   }
 
   override hold(update: () => void, signal: AbortSignal): void {
@@ -72,9 +102,22 @@ export class Session extends Shared {
   /** Take a value: it is shown at once, and sent at once or when the answer to what was sent before has come. */
   set(name: Entered, value: unknown): void {
     if (this.live) {
-      this.waiting.set(name, value);
+      const message = { op: "set", name, value };
+      // What was asked for in between is about the value before it.
+      const since = this.queue.findLastIndex((queued) => queued.name === "");
+      const waiting = this.queue.find((queued, i) => i > since && queued.name === name);
+      if (waiting) waiting.message = message;
+      else this.queue.push({ message, name });
       this.flush();
     } else this.channel.set({ [name]: value });
+    this.tell();
+  }
+
+  /** Go one step back or forward; kept in order with what is entered. */
+  ask(op: "undo" | "redo"): void {
+    if (!this.live) return;
+    this.queue.push({ message: { op }, name: "" });
+    this.flush();
     this.tell();
   }
 
@@ -93,19 +136,25 @@ export class Session extends Shared {
   }
 
   private value<T>(name: Entered): T {
-    for (const own of [this.waiting, this.sent]) if (own.has(name)) return own.get(name) as T;
-    return this.channel.get<T>(name);
+    const own = this.own(name);
+    return own ? (own.message.value as T) : this.channel.get<T>(name);
   }
 
-  /** One value is on its way at a time; of several for one name only the last is sent. */
+  /** The last message on its way that sets this. */
+  private own(name: Entered): Queued | undefined {
+    const set = (queued: Queued) => queued.name === name;
+    return this.queue.findLast(set) ?? (this.flying && set(this.flying) ? this.flying : undefined);
+  }
+
+  /** One message is on its way at a time; of several for one name only the last is sent. */
   private flush(): void {
-    const [next] = this.waiting;
-    if (!next || this.acknowledged < this.seq || !this.live) return;
-    const [name, value] = next;
-    this.waiting.delete(name);
-    this.sent.set(name, value);
+    if (this.flying || !this.live) return;
+    const next = this.queue.shift();
+    if (!next) return;
+    this.flying = next;
+    this.last = next.message.op;
     this.seq += 1;
-    this.send({ op: "set", name, value, client: this.client, seq: this.seq });
+    this.send({ ...next.message, client: this.client, seq: this.seq });
   }
 
   private send(message: Record<string, unknown>): void {
@@ -119,8 +168,8 @@ export class Session extends Shared {
   private readonly onAck = (): void => {
     const ack = this.channel.get<{ client?: string; seq?: number }>("ack");
     if (ack.client !== this.client) return;
-    this.acknowledged = Math.max(this.acknowledged, ack.seq ?? 0);
-    if (this.acknowledged >= this.seq) this.sent.clear();
+    if ((ack.seq ?? 0) < this.seq) return;
+    this.flying = null;
     this.flush();
     this.tell();
   };
@@ -137,9 +186,8 @@ export class Session extends Shared {
   protected end(): void {
     for (const own of [this.scene, this.tiles]) if (own) renderer().release(own);
     this.scene = this.tiles = this.common = null;
-    this.acknowledged = this.seq;
-    this.sent.clear();
-    this.waiting.clear();
+    this.flying = null;
+    this.queue = [];
   }
 
   /** Scene and tiles belong together: they are taken over at once, when both are unpacked. */

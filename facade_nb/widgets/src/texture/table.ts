@@ -20,7 +20,6 @@ export function table(session: Session, signal: AbortSignal): HTMLElement {
       tabindex: 0,
       role: "region",
       "aria-label": "Grammar texture",
-      "data-lm-suppress-shortcuts": "true",
     },
     h("table", {}, head, body),
     empty,

@@ -36,7 +36,7 @@ describe("the queue", () => {
     store.ask({ op: "undo" });
     store.set(["canvas", "width"], "8");
     for (let i = 0; i < 3; i++) answer();
-    expect(model.asked.map((m) => m.value ?? m.op)).toEqual(["A", "8", "undo"]);
+    expect(model.asked.map((m) => m.value ?? m.op)).toEqual(["A", "7", "undo", "8"]);
   });
 
   it("knows which fields Python has not answered", () => {

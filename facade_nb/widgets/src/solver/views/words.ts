@@ -3,6 +3,8 @@
 
 import { h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
+import { stepByKeys } from "../../shared/stepping.ts";
+import { isFocused } from "../../shared/writing.ts";
 import { AxisChoice } from "../axes.ts";
 import { type Candidate, combined, type GroupNote, inOrder, type Judged, judge, type WordEvent } from "../bounds.ts";
 import { boxes, type DrawnLetter, lettersLegend, spelled } from "../letters.ts";
@@ -106,6 +108,7 @@ class WordsView implements View {
     this.sample = context.model.get<number | null>("step") ?? null;
     this.step.value = formatNumber(this.sample);
     const field = (label: string, input: HTMLInputElement, take: (value: number | null) => void) => {
+      stepByKeys(input, { step: 0.05, min: 0 });
       input.addEventListener("input", () => {
         const value = Number(input.value.replace(",", "."));
         const empty = input.value.trim() === "";
@@ -151,7 +154,7 @@ class WordsView implements View {
       return;
     }
     const mu = Math.min(this.mu ?? round.tolerance, round.tolerance);
-    if (document.activeElement !== this.tolerance) this.tolerance.value = formatNumber(mu);
+    if (!isFocused(this.tolerance)) this.tolerance.value = formatNumber(mu);
     mark(
       this.tolerance,
       "title",
