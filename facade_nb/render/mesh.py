@@ -44,13 +44,15 @@ def to_trimesh(scene: Scene) -> trimesh.Scene:
         place = np.eye(4)
         place[:3, 3] = (solid.rect[0], solid.rect[1], solid.face)
         for k, slot in enumerate(local.names):
+            chosen = local.slots == k
+            count = int(chosen.sum())
+            if not count:  # too small to be told from nothing
+                continue
             name = solid.materials[slot]
             key = (solid.parts, slot, name)
             if key not in made:
                 if name not in paints:
                     paints[name] = _paint(name)
-                chosen = local.slots == k
-                count = int(chosen.sum())
                 body = trimesh.Trimesh(
                     vertices=local.vertices[local.faces[chosen]].reshape(-1, 3),
                     faces=np.arange(3 * count).reshape(-1, 3),
