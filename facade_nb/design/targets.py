@@ -106,7 +106,7 @@ def _located(path: str | Path | int) -> Target:
         return Target(name, Path(name), found)
     file = Path(os.path.realpath(name))
     if not file.parent.is_dir():
-        raise FileNotFoundError(f"there is no folder {str(file.parent)!r}")
+        raise FileNotFoundError(f"No such file or directory: there is no folder {str(file.parent)!r}")
     return Target(name, file, found)
 
 
