@@ -1,8 +1,9 @@
 """The command line: ``python -m facade_nb solve DESIGN.json`` and ``… render GRAMMAR.txt``.
 
 Exit status 0: done; 2: the input is at fault; 3: the design has no layout, and nothing but its trace is written;
-1: a drawing that this machine cannot make. Messages go to stderr, without a traceback. Everything is computed before
-the first file is written, and files are written whole or not at all.
+1: this machine cannot draw it, or could not write it (a full disk). Messages go to stderr, without a traceback.
+Everything is computed before the first file is written, and files are written whole or not at all. No output may be
+an input or another output (see `cli_files`); signals and closed pipes end a command as `cli_ending` says.
 """
 
 from __future__ import annotations
@@ -10,21 +11,43 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-import tempfile
 from collections.abc import Sequence
 from math import inf
 from pathlib import Path
+from typing import Any
 
-from . import Design, DesignError, Layout, NoLayout, __version__, solve
-from .cli_render import add_render, joined, render_command
-from .design.files import write_together
+from . import Design, Layout, NoLayout, __version__, solve
+from .cli_ending import ended, say
+from .cli_files import STANDARD_OUTPUT, Output, Source, check, write
+from .cli_render import add_render, joined
 
-__all__ = ["main"]
+__all__ = ["command_parser", "main"]
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose help is an output like others: argparse would not tell that a disk is full."""
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        if message and file is not None and file is sys.stdout:
+            write([(STANDARD_OUTPUT, message)])
+        elif message:
+            say(message.rstrip("\n"))
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    parser = argparse.ArgumentParser(prog="facade-nb", description="Procedural façades designed in layers.")
+
+    def run() -> int:
+        options = command_parser().parse_args(joined(sys.argv[1:] if argv is None else argv))
+        check(options)
+        return int(options.run(options))
+
+    return ended(run)
+
+
+def command_parser() -> argparse.ArgumentParser:
+    """Return the parser of all commands. Its paths have the types of `cli_files`, so that `main` can check them."""
+    parser = _Parser(prog="facade-nb", description="Procedural façades designed in layers.")
     parser.add_argument("--version", action="version", version=f"facade_nb {__version__}")
     commands = parser.add_subparsers(dest="command", required=True)
     solving = commands.add_parser(
@@ -32,7 +55,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         help="solve a design",
         description="Solve a design. Without --out the layout goes to standard output.",
     )
-    solving.add_argument("design", metavar="DESIGN.json", help="the design document")
+    solving.add_argument("design", type=Source, metavar="DESIGN.json", help="the design document")
     for name, what in (
         ("out", "the layout document (JSON)"),
         ("trace", "what the solver did, as events (JSON)"),
@@ -40,21 +63,18 @@ def main(argv: Sequence[str] | None = None) -> int:
         ("png", "a lit picture (PNG, needs OSMesa or EGL)"),
         ("glb", "the mesh (binary glTF)"),
     ):
-        solving.add_argument(f"--{name}", metavar="FILE", help=f"write {what}")
+        default = STANDARD_OUTPUT if name == "out" else None
+        solving.add_argument(
+            f"--{name}",
+            type=Output,
+            default=default,
+            metavar="FILE",
+            help=f"write {what}; -: standard output",
+        )
     solving.add_argument("--time-limit", type=_seconds, default=10.0, metavar="SECONDS", help="default: 10")
+    solving.set_defaults(run=_solve)
     add_render(commands)
-    options = parser.parse_args(joined(sys.argv[1:] if argv is None else argv))
-    try:
-        return _solve(options) if options.command == "solve" else render_command(options)
-    except DesignError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except NoLayout as error:
-        print(f"No layout: {error}", file=sys.stderr)
-        return 3
-    except KeyboardInterrupt:
-        print("Stopped.", file=sys.stderr)
-        return 130
+    return parser
 
 
 def _seconds(text: str) -> float:
@@ -73,42 +93,32 @@ def _solve(options: argparse.Namespace) -> int:
     try:
         layout = solve(design, trace=options.trace is not None, time_limit=options.time_limit)
     except NoLayout as error:
-        if options.trace:  # what was tried is what there is to look at now
-            write_together([(options.trace, error.trace.to_json())])
+        if options.trace is not None:  # what was tried is what there is to look at now
+            write([(options.trace, error.trace.to_json())])
         raise
     text = json.dumps(layout.to_dict(), ensure_ascii=False, indent=2, allow_nan=False) + "\n"
-    files: list[tuple[str, str | bytes]] = []
-    if options.out:
-        files.append((options.out, text))
-    if options.trace:
+    files: list[tuple[Output, str | bytes]] = [(options.out, text)]
+    if options.trace is not None:
         files.append((options.trace, layout.trace.to_json()))
     try:
         files += _drawings(options, layout)
     except RuntimeError as error:  # no backend can draw here; the message says what would help
-        print(error, file=sys.stderr)
+        say(error)
         return 1
-    write_together(files)
-    if not options.out:
-        sys.stdout.buffer.write(text.encode())  # a document is UTF-8, whatever the terminal's encoding
-        sys.stdout.flush()
+    write(files)
     for warning in layout.warnings:
-        print(f"Note: {warning}", file=sys.stderr)
+        say(f"Note: {warning}")
     return 0
 
 
-def _drawings(options: argparse.Namespace, layout: Layout) -> list[tuple[str, str | bytes]]:
-    files: list[tuple[str, str | bytes]] = []
-    if not (options.svg or options.png or options.glb):
-        return files
+def _drawings(options: argparse.Namespace, layout: Layout) -> list[tuple[Output, str | bytes]]:
+    if options.svg is options.png is options.glb is None:
+        return []
     from . import render
 
-    if options.svg:
-        files.append((options.svg, render.elevation_svg(layout)))
-    with tempfile.TemporaryDirectory() as folder:
-        for name, write in (("png", render.render_png), ("glb", render.write_glb)):
-            target = getattr(options, name)
-            if target:
-                scratch = Path(folder, f"drawing.{name}")
-                write(layout, scratch)
-                files.append((target, scratch.read_bytes()))
-    return files
+    kinds = (
+        (options.svg, render.elevation_svg),
+        (options.png, render.render_png),
+        (options.glb, render.to_glb),
+    )
+    return [(path, draw(layout)) for path, draw in kinds if path is not None]

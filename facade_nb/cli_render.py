@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import io
-import os
 import re
 import sys
 from collections.abc import Sequence
@@ -13,8 +12,9 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .cli_ending import say
+from .cli_files import Output, Source, write
 from .design.errors import DesignError, Fault, GrammarError, quoted
-from .design.files import write_together
 
 if TYPE_CHECKING:
     from .render.texture.atlas import Tiles
@@ -33,6 +33,19 @@ _NUMBERS = ("--size", "--pixels", "--seed", "--eye", "--target", "--angle", "--h
 _DIGITS = frozenset("0123456789.")
 
 
+class _Tiles(Source):
+    """A folder of images."""
+
+    __slots__ = ()
+
+    @staticmethod
+    def suffixes() -> Sequence[str]:
+        """Of images."""
+        from .render.tiles.folder import SUFFIXES
+
+        return SUFFIXES
+
+
 def add_render(commands: Any) -> None:
     """Add the command to a parser's commands."""
     parser = commands.add_parser(
@@ -40,7 +53,7 @@ def add_render(commands: Any) -> None:
         help="render a texture grammar",
         description="Render a texture grammar, seen straight on unless an eye is given.",
     )
-    parser.add_argument("grammar", metavar="GRAMMAR.txt", help="the grammar")
+    parser.add_argument("grammar", type=Source, metavar="GRAMMAR.txt", help="the grammar")
     parser.add_argument(
         "--size", type=_size, required=True, metavar="WxH", help="of the façade, metres: 12x9"
     )
@@ -51,7 +64,9 @@ def add_render(commands: Any) -> None:
     parser.add_argument(
         "--antialias", choices=_ANTIALIAS, default="adaptive", help="of the picture; default: adaptive"
     )
-    parser.add_argument("--tiles", metavar="DIR", help="a folder of images to use beside the tiles that ship")
+    parser.add_argument(
+        "--tiles", type=_Tiles, metavar="DIR", help="a folder of images to use beside the tiles that ship"
+    )
     parser.add_argument(
         "--eye", type=_triple, metavar="X,Y,Z", help="look from here, metres from the lower left corner"
     )
@@ -62,9 +77,16 @@ def add_render(commands: Any) -> None:
         "--angle", type=_angle, default=50.0, metavar="DEGREES", help="width of view; default: 50"
     )
     parser.add_argument("--hour", type=_hour, metavar="HOUR", help="in the light of this hour, 0 to 24")
-    parser.add_argument("--out", metavar="FILE.png", help="write the picture")
-    parser.add_argument("--rules", metavar="FILE.npy", help="write which rule is seen at each pixel (int32)")
-    parser.set_defaults(parser=parser)
+    parser.add_argument(
+        "--out", type=Output, metavar="FILE.png", help="write the picture; -: standard output"
+    )
+    parser.add_argument(
+        "--rules",
+        type=Output,
+        metavar="FILE.npy",
+        help="write which rule is seen at each pixel (int32); -: standard output",
+    )
+    parser.set_defaults(parser=parser, run=render_command)
 
 
 def joined(arguments: Sequence[str]) -> list[str]:
@@ -80,10 +102,8 @@ def joined(arguments: Sequence[str]) -> list[str]:
 
 def render_command(options: argparse.Namespace) -> int:
     """Run the command; returns the exit status."""
-    if not (options.out or options.rules):
+    if options.out is None and options.rules is None:
         options.parser.error("nothing to write: give --out or --rules")
-    if options.out and options.rules and os.path.realpath(options.out) == os.path.realpath(options.rules):
-        options.parser.error("--out and --rules: expected two files; found one")
     from .render.backends import BackendError
     from .render.texture.painters import choose_painter
     from .render.texture.picture import render_texture, rules_seen
@@ -92,7 +112,7 @@ def render_command(options: argparse.Namespace) -> int:
     try:
         choose_painter(options.backend)
     except BackendError as error:
-        print(error, file=sys.stderr)
+        say(error)
         return 1
     given = {
         "size": options.size,
@@ -102,18 +122,18 @@ def render_command(options: argparse.Namespace) -> int:
         "camera": _sight(options),
         "backend": options.backend,
     }
-    files: list[tuple[str, str | bytes]] = []
-    if options.out:
+    files: list[tuple[Output, str | bytes]] = []
+    if options.out is not None:
         files.append(
             (options.out, render_texture(grammar, **given, antialias=options.antialias, hour=options.hour))
         )
-    if options.rules:
+    if options.rules is not None:
         import numpy as np
 
         stream = io.BytesIO()
         np.save(stream, rules_seen(grammar, **given))
         files.append((options.rules, stream.getvalue()))
-    write_together(files)
+    write(files)
     return 0
 
 

@@ -6,7 +6,7 @@ Nothing here needs a GL library, trimesh or Pillow until a mesh or a picture is 
 from .elevation import elevation_svg
 from .geometry import GEOMETRIES
 from .materials import MATERIALS
-from .mesh import write_glb
+from .mesh import to_glb, write_glb
 from .overlay import overlay_svg
 from .picture import render_png
 from .scene import Scene, Solid, build_scene
@@ -24,5 +24,6 @@ __all__ = [
     "grammar_of",
     "overlay_svg",
     "render_png",
+    "to_glb",
     "write_glb",
 ]

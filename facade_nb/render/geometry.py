@@ -88,7 +88,7 @@ def pilaster(w: float, h: float, d: float) -> tuple[Part, ...]:
 
 def cornice(w: float, h: float, d: float) -> tuple[Part, ...]:
     """A moulded cornice: fillet, hollow, corona and top fillet; it draws back to the wall at its foot."""
-    p = min(d, cornice_stand(w, h))
+    p = min(0.9 * d, cornice_stand(w, h))  # its foot has a thickness: a sheet without one is no body
     steps = (
         (0.0, 1.0), (0.1, 1.0), (0.1, 0.88), (0.2, 0.82), (0.28, 0.68), (0.33, 0.52), (0.33, 0.46),
         (0.37, 0.46), (0.37, 0.13), (0.7, 0.13), (0.72, 0.1), (0.82, 0.03), (0.84, 0.0), (1.0, 0.0),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,8 +19,9 @@ if TYPE_CHECKING:
     import trimesh
     from trimesh.visual.material import PBRMaterial
 
-__all__ = ["node_name", "to_trimesh", "write_glb"]
+__all__ = ["node_name", "to_glb", "to_trimesh", "write_glb"]
 
+_ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963  # what a view of the buffer is for, in glTF's numbers
 
 _NOTHING = b'{"asset":{"version":"2.0"},"scene":0,"scenes":[{}]} '
 _EMPTY = struct.pack("<4sIIII", b"glTF", 2, 20 + len(_NOTHING), len(_NOTHING), 0x4E4F534A) + _NOTHING
@@ -43,13 +44,15 @@ def to_trimesh(scene: Scene) -> trimesh.Scene:
         place = np.eye(4)
         place[:3, 3] = (solid.rect[0], solid.rect[1], solid.face)
         for k, slot in enumerate(local.names):
+            chosen = local.slots == k
+            count = int(chosen.sum())
+            if not count:  # too small to be told from nothing
+                continue
             name = solid.materials[slot]
             key = (solid.parts, slot, name)
             if key not in made:
                 if name not in paints:
                     paints[name] = _paint(name)
-                chosen = local.slots == k
-                count = int(chosen.sum())
                 body = trimesh.Trimesh(
                     vertices=local.vertices[local.faces[chosen]].reshape(-1, 3),
                     faces=np.arange(3 * count).reshape(-1, 3),
@@ -69,6 +72,20 @@ def node_name(solid: Solid, slot: str) -> str:
     return f"{shape.layer}/{solid.index} {shape.x} {shape.y}/{slot}"
 
 
+def to_glb(layout: Layout) -> bytes:
+    """Return a layout as GLB.
+
+    Raises
+    ------
+    DesignError
+        For a shape with an unknown geometry or material.
+    """
+    scene = to_trimesh(build_scene(layout))
+    if not scene.geometry:
+        return _EMPTY
+    return scene.export(file_type="glb", include_normals=True, tree_postprocessor=_finish)
+
+
 def write_glb(layout: Layout, path: str | Path) -> Path:
     """Write a layout as GLB, atomically, and return the path.
 
@@ -77,13 +94,21 @@ def write_glb(layout: Layout, path: str | Path) -> Path:
     DesignError
         For a shape with an unknown geometry or material, or a file that cannot be written.
     """
-    data = (
-        to_trimesh(build_scene(layout)).export(file_type="glb", include_normals=True)
-        if layout.shapes
-        else _EMPTY
-    )
-    write_atomically(path, data)
+    write_atomically(path, to_glb(layout))
     return Path(path)
+
+
+def _finish(tree: dict[str, Any]) -> None:
+    """Say what each view of the buffer is for, which trimesh leaves open."""
+    for mesh in tree["meshes"]:
+        for primitive in mesh["primitives"]:
+            for accessor in primitive["attributes"].values():
+                _view(tree, accessor)["target"] = _ARRAY_BUFFER
+            _view(tree, primitive["indices"])["target"] = _ELEMENT_ARRAY_BUFFER
+
+
+def _view(tree: dict[str, Any], accessor: int) -> dict[str, Any]:
+    return tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
 
 
 def _paint(name: str) -> PBRMaterial:

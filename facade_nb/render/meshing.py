@@ -11,10 +11,15 @@ from numpy.typing import NDArray
 
 from .parts import Block, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned
 
-__all__ = ["Mesh", "corner_normals", "mesh_part", "mesh_parts", "triangulate"]
+__all__ = ["Mesh", "corner_normals", "have_area", "mesh_part", "mesh_parts", "triangulate"]
 
 _SEGMENTS = 32
 """Sides of a turned body."""
+
+_EDGE = 0.5
+"""Cosine of the angle between a curved face and its neighbours' average from which on they meet at an edge."""
+
+_NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
 
 _BOX = np.array(
     [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
@@ -63,13 +68,42 @@ def mesh_parts(parts: Sequence[Part]) -> Mesh:
         count += len(points)
     if not vertices:
         return Mesh(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, int), np.zeros(0, bool), ())
-    return Mesh(
+    mesh = Mesh(
         np.concatenate(vertices),
         np.concatenate(faces),
         np.concatenate(slots),
         np.concatenate(smooth),
         tuple(names),
     )
+    sound = have_area(mesh.vertices[mesh.faces])
+    return mesh if sound.all() else _welded(mesh)
+
+
+def have_area(corners: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which triangles (m, 3, 3) have an area, their corners as exact as files and drawing libraries have them."""
+    single = corners.astype(np.float32).astype(np.float64)
+    found: NDArray[np.bool_] = (_across(single) != 0).any(axis=1)
+    return found
+
+
+def _across(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The cross product of two sides of each triangle; faster than `numpy.cross`, which asks what it was given."""
+    a, b = (corners[:, k] - corners[:, 0] for k in (1, 2))
+    return a[:, _NEXT] * b[:, _AFTER] - a[:, _AFTER] * b[:, _NEXT]
+
+
+def _welded(mesh: Mesh) -> Mesh:
+    """The mesh without triangles that have no area: corners that are one in single precision made one.
+
+    A mesh has such only where a detail is smaller than what a file can tell from nothing: a base of a column 0.1 mm
+    wide and 100 m high.
+    """
+    _, first, number = np.unique(
+        mesh.vertices.astype(np.float32), axis=0, return_index=True, return_inverse=True
+    )
+    faces = first[number.reshape(-1)][mesh.faces]
+    kept = have_area(mesh.vertices[faces])
+    return Mesh(mesh.vertices, faces[kept], mesh.slots[kept], mesh.smooth[kept], mesh.names)
 
 
 def mesh_part(part: Part) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
@@ -131,13 +165,23 @@ def _moulding(m: Moulding) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     # Seen from the right end (+x) with z to the left and y up, front and back run counter-clockwise as (-z, y).
     loop = [(-z, y) for y, z in m.profile]
     loop = [(-m.z0, loop[0][1]), *loop[::1], (-m.z0, loop[-1][1])]
-    polygon = loop[::-1]
-    points, faces = _extruded(_without_doubles(polygon), m.x0, m.x1)
+    points, faces = _extruded(_without_spikes(loop[::-1]), m.x0, m.x1)
     return np.stack([points[:, 2], points[:, 1], -points[:, 0]], 1), faces
 
 
-def _without_doubles(polygon: Sequence[Point]) -> list[Point]:
-    return [p for i, p in enumerate(polygon) if p != polygon[i - 1]]
+def _without_spikes(polygon: Sequence[Point]) -> list[Point]:
+    """The polygon without corners that are there twice, and without ways that lead somewhere and straight back."""
+    left = list(polygon)
+    k = 0
+    while k < len(left) and len(left) > 3:
+        a, b, c = left[k - 1], left[k], left[(k + 1) % len(left)]
+        ahead = (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1])
+        if b in (a, c) or (_turn(a, b, c) == 0 and ahead < 0):
+            del left[k]
+            k = max(k - 2, 0)
+        else:
+            k += 1
+    return left
 
 
 def _turned(t: Turned) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
@@ -168,6 +212,8 @@ def _turned(t: Turned) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[
 def triangulate(polygon: Sequence[Point]) -> NDArray[np.int64]:
     """Triangles (m, 3), as indices, of a simple counter-clockwise polygon, by cutting off ears.
 
+    Every simple polygon has an ear with an area, corners without an angle or not: so has every triangle here.
+
     Raises
     ------
     ValueError
@@ -175,10 +221,14 @@ def triangulate(polygon: Sequence[Point]) -> NDArray[np.int64]:
     """
     left = list(range(len(polygon)))
     triangles: list[tuple[int, int, int]] = []
+    xs, ys = [x for x, _ in polygon], [y for _, y in polygon]
+    flat = (
+        1e-13 * (max(xs) - min(xs)) * (max(ys) - min(ys))
+    )  # what a corner turns by at most that has no angle
     while len(left) > 3:
         for k in range(len(left)):
             a, b, c = left[k - 1], left[k], left[(k + 1) % len(left)]
-            if _turn(polygon[a], polygon[b], polygon[c]) <= 1e-14:
+            if _turn(polygon[a], polygon[b], polygon[c]) <= flat:
                 continue
             others = (polygon[p] for p in left if p not in (a, b, c))
             if not any(_inside(p, polygon[a], polygon[b], polygon[c]) for p in others):
@@ -186,16 +236,7 @@ def triangulate(polygon: Sequence[Point]) -> NDArray[np.int64]:
                 del left[k]
                 break
         else:
-            flat = [
-                k
-                for k in range(len(left))
-                if abs(_turn(*(polygon[left[(k + s) % len(left)]] for s in (-1, 0, 1)))) <= 1e-14
-            ]
-            if not flat:
-                raise ValueError("expected a simple counter-clockwise polygon")
-            k = flat[0]  # only corners without an angle are left: a sliver without area closes the surface
-            triangles.append((left[k - 1], left[k], left[(k + 1) % len(left)]))
-            del left[k]
+            raise ValueError("expected a simple counter-clockwise polygon")
     triangles.append((left[0], left[1], left[2]))
     return np.array(triangles)
 
@@ -209,9 +250,13 @@ def _inside(p: Point, a: Point, b: Point, c: Point) -> bool:
 
 
 def corner_normals(mesh: Mesh) -> NDArray[np.float64]:
-    """Unit normals (m, 3, 3) at the corners of each triangle: the face's own, or averaged where it is smooth."""
+    """Unit normals (m, 3, 3) at the corners of each triangle: the face's own, or averaged where it is smooth.
+
+    Where faces meet at an edge (on a column that is wider than high, say) the average would be no face's: each keeps
+    its own.
+    """
     corners = mesh.vertices[mesh.faces]
-    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    across = _across(corners)
     lengths = np.linalg.norm(across, axis=1, keepdims=True)
     flat = across / np.where(lengths > 0, lengths, 1)
     normals = np.repeat(flat[:, None, :], 3, axis=1)
@@ -221,5 +266,8 @@ def corner_normals(mesh: Mesh) -> NDArray[np.float64]:
         for k in range(3):
             np.add.at(summed, curved[:, k], across[mesh.smooth])
         sizes = np.linalg.norm(summed, axis=1, keepdims=True)
-        normals[mesh.smooth] = (summed / np.where(sizes > 0, sizes, 1))[curved]
+        average = (summed / np.where(sizes > 0, sizes, 1))[curved]
+        own = normals[mesh.smooth]
+        near = (average * own).sum(axis=2, keepdims=True) > _EDGE
+        normals[mesh.smooth] = np.where(near, average, own)
     return normals

@@ -14,6 +14,11 @@ def reveal(d: float) -> float:
     return min(0.13, 0.6 * d)
 
 
+def _fine(d: float) -> float:
+    """The factor of small steps in depth: in a thin shape they are smaller, so that none goes through its back."""
+    return min(1.0, d / 0.1)
+
+
 def window(w: float, h: float, d: float) -> tuple[Part, ...]:
     """A casement window: leaves by width, a transom where it is tall, glazing bars by size, a sill."""
     sill = min(0.07, 0.07 * h)
@@ -23,24 +28,28 @@ def window(w: float, h: float, d: float) -> tuple[Part, ...]:
 def french_window(w: float, h: float, d: float) -> tuple[Part, ...]:
     """Glazed doors from floor to head with a low railing in front."""
     head = min(0.95, 0.42 * h)
-    rail, bar = 0.04, 0.018
+    low = min(1.0, head / 0.3)  # where there is little height the rails are closer and thinner
+    rail, bar = 0.04 * low, 0.018
+    foot = 0.13 * low
     count = max(2, min(40, round(w / 0.12)))
     parts: list[Part] = [
         *_casement(0, 0.03, w, h, d, bars=False),
         Block(0, 0, w, 0.05, -d, 0.1, "sill"),
         Block(0, head - rail, w, head, 0.05, 0.09, "rail"),
-        Block(0, 0.1, w, 0.13, 0.05, 0.09, "rail"),
+        Block(0, 0.1 * low, w, foot, 0.05, 0.09, "rail"),
     ]
     for i in range(count + 1):
         x = min(max(i * w / count - bar / 2, 0.0), w - bar)
-        parts.append(Block(x, 0.13, x + bar, head - rail, 0.06, 0.078, "rail"))
+        parts.append(Block(x, foot, x + bar, head - rail, 0.06, 0.078, "rail"))
     return tuple(parts)
 
 
 def _casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: bool) -> list[Part]:
     w, h = x1 - x0, y1 - y0
+    fine = _fine(d)
     set_back = reveal(d)  # of the frame behind the face
     deep = set_back + min(0.05, (d - set_back) / 2)  # of the glass
+    leaf, bar = -set_back - 0.015 * fine, -deep + 0.02 * fine
     frame = min(0.07, max(0.03, 0.06 * min(w, h)))
     inner = (x0 + frame, y0 + frame, x1 - frame, y1 - frame)
     if inner[2] - inner[0] <= 2 * frame or inner[3] - inner[1] <= 2 * frame:  # a slit: glass and frame alone
@@ -57,13 +66,13 @@ def _casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: boo
             rows = 1 if h < 0.9 else max(2, round((top - inner[1]) / 0.5))
             for j in range(1, rows):
                 y = inner[1] + (top - inner[1]) * j / rows
-                parts.append(Block(left, y - 0.011, right, y + 0.011, -d, -deep + 0.02))
+                parts.append(Block(left, y - 0.011, right, y + 0.011, -d, bar))
         elif h > 1.2:  # a solid lower field
             y = inner[1] + 0.24 * (top - inner[1])
-            parts.append(Block(left, inner[1], right, y, -d, -deep + 0.02))
-        parts.append(Ring(left, inner[1], right, top, 0.45 * frame, -d, -set_back - 0.015))
+            parts.append(Block(left, inner[1], right, y, -d, bar))
+        parts.append(Ring(left, inner[1], right, top, 0.45 * frame, -d, leaf))
         if transom is not None:
-            parts.append(Ring(left, transom + post / 2, right, inner[3], 0.45 * frame, -d, -set_back - 0.015))
+            parts.append(Ring(left, transom + post / 2, right, inner[3], 0.45 * frame, -d, leaf))
     if transom is not None:
         parts.append(Block(inner[0], transom - post / 2, inner[2], transom + post / 2, -d, -set_back))
     return parts
@@ -71,29 +80,31 @@ def _casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: boo
 
 def shop(w: float, h: float, d: float) -> tuple[Part, ...]:
     """A shop window: stall riser, panes as large as they come, a row of fanlights, a sill."""
-    set_back, frame = reveal(d), min(0.08, 0.06 * min(w, h))
+    set_back, frame, fine = reveal(d), min(0.08, 0.06 * min(w, h)), _fine(d)
     deep = set_back + min(0.05, (d - set_back) / 2)
     riser = 0.16 * h
     fan = h - 0.2 * h
     parts: list[Part] = [
         Block(frame, riser, w - frame, h - frame, -d, -deep, "glass"),
-        Block(0, 0, w, riser, -d, -0.02),
+        Block(0, 0, w, riser, -d, -0.02 * fine),
         Ring(0, riser, w, h, frame, -d, -set_back),
         Block(frame, fan - frame / 2, w - frame, fan + frame / 2, -d, -set_back),
     ]
     panes = max(1, round(w / 1.5))
     for i in range(1, panes):
         x = w * i / panes
-        parts.append(Block(x - frame / 2, riser + frame, x + frame / 2, h - frame, -d, -set_back - 0.01))
+        parts.append(
+            Block(x - frame / 2, riser + frame, x + frame / 2, h - frame, -d, -set_back - 0.01 * fine)
+        )
     lights = 2 * panes
     for i in range(1, lights, 2):
         x = frame + (w - 2 * frame) * i / lights
-        parts.append(Block(x - 0.012, fan + frame / 2, x + 0.012, h - frame, -d, -deep + 0.02))
+        parts.append(Block(x - 0.012, fan + frame / 2, x + 0.012, h - frame, -d, -deep + 0.02 * fine))
     fields = max(1, round(w / 0.7))
-    edge = 0.18 * riser
+    edge = 0.18 * min(riser, w / fields)
     for i in range(fields):
         left, right = w * i / fields, w * (i + 1) / fields
-        parts.append(Ring(left + edge, edge, right - edge, riser - edge, 0.3 * edge, -d, -0.005))
+        parts.append(Ring(left + edge, edge, right - edge, riser - edge, 0.3 * edge, -d, -0.005 * fine))
     parts.append(Block(0, riser - 0.02, w, riser + 0.03, -d, 0.04, "sill"))
     return tuple(parts)
 
@@ -102,6 +113,7 @@ def door(w: float, h: float, d: float) -> tuple[Part, ...]:
     """A panelled door: frame, one or two leaves, a step, a fanlight where there is height for it."""
     set_back = reveal(d)
     deep = set_back + min(0.04, (d - set_back) / 2)
+    pane = min(deep + 0.02, (deep + d) / 2)
     frame = min(0.08, 0.08 * w)
     step = min(0.14, 0.07 * h)
     tall = h > 2.3 or h > 2.5 * w
@@ -113,7 +125,7 @@ def door(w: float, h: float, d: float) -> tuple[Part, ...]:
     ]
     if tall:
         parts += [
-            Block(frame, head + frame / 2, w - frame, h - frame, -d, -deep - 0.02, "glass"),
+            Block(frame, head + frame / 2, w - frame, h - frame, -d, -pane, "glass"),
             Block(frame, head - frame / 2, w - frame, head + frame / 2, -d, -set_back),
         ]
         for i in range(1, max(2, round(w / 0.4))):
@@ -134,15 +146,18 @@ def _leaf(
 ) -> list[Part]:
     parts: list[Part] = [Block(x0, y0, x1, y1, -d, -deep)]
     w, h = x1 - x0, y1 - y0
-    stile = min(0.13, 0.16 * w)
+    stile = min(0.13, 0.16 * w, 0.12 * h)
+    fine = _fine(d)
     heights = (0.2, 0.1, 0.48)  # of the three fields, bottom to top; the rest is rails
     rail = (1 - sum(heights)) * h / 4
     y = y0 + rail
     for share in heights:
         top = y + share * h
-        parts.append(Ring(x0 + stile, y, x1 - stile, top, 0.14 * stile, -d, -deep + 0.012))
+        parts.append(Ring(x0 + stile, y, x1 - stile, top, 0.14 * stile, -d, -deep + 0.012 * fine))
         inset = 0.4 * stile
-        parts.append(Block(x0 + stile + inset, y + inset, x1 - stile - inset, top - inset, -d, -deep + 0.008))
+        parts.append(
+            Block(x0 + stile + inset, y + inset, x1 - stile - inset, top - inset, -d, -deep + 0.008 * fine)
+        )
         y = top + rail
     knob = (x1 - 0.5 * stile) if handle_right else (x0 + 0.5 * stile)
     height = y0 + min(1.0, 0.48 * h)
@@ -161,6 +176,7 @@ def archway(w: float, h: float, d: float) -> tuple[Part, ...]:
     set_back = reveal(d)
     deep = set_back + min(0.05, (d - set_back) / 2)
     frame = min(0.07, 0.1 * span)
+    fine = _fine(d)
     outer = _arc(w / 2, spring, span, rise)
     inner = _arc(w / 2, spring, span - frame, rise - frame)
     left, right = w / 2 - span, w / 2 + span
@@ -177,13 +193,15 @@ def archway(w: float, h: float, d: float) -> tuple[Part, ...]:
             right - frame,
             spring + frame / 2,
             -d,
-            -set_back - 0.005,
+            -set_back - 0.005 * fine,
             "frame",
         ),
     ]
     for i in range(1, max(2, round(2 * span / 0.6))):
         x = left + 2 * span * i / max(2, round(2 * span / 0.6))
-        parts.append(Block(x - 0.02, frame, x + 0.02, spring - frame / 2, -d, -set_back - 0.01, "frame"))
+        parts.append(
+            Block(x - 0.02, frame, x + 0.02, spring - frame / 2, -d, -set_back - 0.01 * fine, "frame")
+        )
     key = 0.16 * span
     top = min(h, spring + rise + 0.09 * h)
     parts += [

@@ -23,6 +23,8 @@ __all__ = ["Scene", "Solid", "Triangles", "build_scene"]
 
 _ROOFS = frozenset({"roof", "hip", "pitched"})
 _EPS = 1e-9
+_LEAST = 1e-4
+"""Metres: what is no wider is not drawn. The solver's small positive minimum may be next to nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +118,7 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]]) -> Trian
     """The triangles of meshes, each with its shape's index and the materials of its slots."""
     import numpy as np
 
-    from .meshing import corner_normals
+    from .meshing import corner_normals, have_area
 
     names: dict[str, int] = {}
     positions, normals, materials, shapes = [], [], [], []
@@ -132,13 +134,15 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]]) -> Trian
         empty = np.zeros((0, 3, 3), np.float32)
         return Triangles(empty, empty, np.zeros((0, 3), np.uint8), np.zeros(0, int), np.zeros(0, int), ())
     palette = np.array([rgb(find_material(name).base) for name in names], np.uint8)
-    material = np.concatenate(materials)
+    corners = np.concatenate(positions)
+    kept = have_area(corners)  # far from the origin single precision tells less
+    material = np.concatenate(materials)[kept]
     return Triangles(
-        np.concatenate(positions).astype(np.float32),
-        np.concatenate(normals).astype(np.float32),
+        corners[kept].astype(np.float32),
+        np.concatenate(normals)[kept].astype(np.float32),
         palette[material],
         material,
-        np.concatenate(shapes),
+        np.concatenate(shapes)[kept],
         tuple(names),
     )
 
@@ -196,9 +200,7 @@ def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
 def _parts(
     name: str, width: float, height: float, depth: float, mirrored: tuple[bool, bool]
 ) -> tuple[Part, ...]:
-    if (
-        min(width, height) <= 1e-4
-    ):  # the solver's small positive minimum may be next to nothing: no room for parts
+    if min(width, height) <= _LEAST:  # no room for parts
         return ()
     return flip(find_geometry(name).parts(width, height, depth), width, height, mirrored)
 
@@ -245,6 +247,6 @@ def _without(rect: Rect, holes: list[Rect]) -> list[Rect]:
                 pieces.append((l, b, r, t))
                 continue
             strips = ((l, b, r, hb), (l, ht, r, t), (l, hb, hl, ht), (hr, hb, r, ht))
-            pieces += [s for s in strips if s[2] - s[0] > _EPS and s[3] - s[1] > _EPS]
+            pieces += [s for s in strips if s[2] - s[0] > _LEAST and s[3] - s[1] > _LEAST]
         rest = pieces
     return rest

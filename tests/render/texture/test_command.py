@@ -190,7 +190,6 @@ class TestInputAtFault:
             ["--size", "12", "--out", "a.png"],
             ["--size", "0x9", "--out", "a.png"],
             ["--size", "-12x9", "--out", "a.png"],
-            ["--size", "12x9", "--out", "a.png", "--rules", "./a.png"],
             ["--size", "nanx9", "--out", "a.png"],
             ["--size", "12x9", "--pixels", "8.5x6", "--out", "a.png"],
             ["--size", "12x9", "--pixels", "99999x99999", "--out", "a.png"],

@@ -1,0 +1,144 @@
+"""The files of a command: what it reads and what it writes, so that nothing is overwritten unasked.
+
+A command says which of its arguments are paths by their types, ``type=Source`` and ``type=Output``. `check` then looks
+at every pair of them before anything is read or computed, and `write` writes what was computed, together.
+"""
+
+from __future__ import annotations
+
+import sys
+from argparse import Namespace
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from itertools import combinations
+from pathlib import Path
+from stat import S_ISCHR
+
+from .design.errors import DesignError, Fault
+from .design.files import write_together
+from .design.targets import Target, locate, one_file, try_out
+
+__all__ = ["STANDARD_OUTPUT", "Output", "Source", "check", "write"]
+
+
+class Source(str):
+    """The path of a file that a command reads, or of a folder of which it reads some files."""
+
+    __slots__ = ()
+
+    def files(self) -> Iterator[Path]:
+        """The files that are read; of a folder, those whose suffix is among `suffixes`."""
+        path = Path(self)
+        if not path.is_dir():
+            yield path
+            return
+        for file in path.iterdir():
+            if file.suffix.lower() in self.suffixes():
+                yield file
+
+    @staticmethod
+    def suffixes() -> Sequence[str]:
+        """Of the files that are read in a folder."""
+        return ()
+
+
+class Output(str):
+    """The path of a file that a command writes, or ``-`` for standard output."""
+
+    __slots__ = ()
+
+    @property
+    def is_standard(self) -> bool:
+        """Whether it is standard output."""
+        return self == "-"
+
+
+STANDARD_OUTPUT = Output("-")
+
+
+def check(options: Namespace) -> None:
+    """Refuse outputs that cannot be written, and those that are the same file as an input or another output.
+
+    Files are compared, not names. Two outputs may both go to the null device, and a terminal may be read and written.
+
+    Raises
+    ------
+    DesignError
+        With the argument as its place. No file has been touched.
+    """
+    sources = [(name, value) for name, value in vars(options).items() if isinstance(value, Source)]
+    outputs = [
+        (f"--{name.replace('_', '-')}", value)
+        for name, value in vars(options).items()
+        if isinstance(value, Output)
+    ]
+    targets = [(name, value, _target(name, value)) for name, value in outputs]
+    for kind, source in sources:
+        for file, read in _read(source):
+            for name, value, target in targets:
+                if target and one_file(target, read) and not _is_device(read):
+                    what = f"the {kind}" if Path(file) == Path(source) else f"one of the {kind}"
+                    message = f"expected a file other than {what}, {str(file)!r}, which would be lost"
+                    raise DesignError(Fault(name, f"{message}; found {_told(value)}"))
+    for (a, first, one), (b, second, two) in combinations(targets, 2):
+        same = one_file(one, two) and not one.is_null if one and two else first == second
+        if same:
+            of_first = f" ({_told(first)})" if first != second else ""
+            raise DesignError(
+                Fault(b, f"expected a file other than that of {a}{of_first}; found {_told(second)}")
+            )
+    for _, _, target in targets:
+        if target:
+            try_out(target)
+
+
+def write(files: Sequence[tuple[Output, str | bytes]]) -> None:
+    """Write what was computed, together (see `write_together`)."""
+    number = _standard_number()
+    standard = [data for path, data in files if path.is_standard and number is None]
+    write_together(
+        [(path, data) for path, data in files if not path.is_standard]
+        + [(number, data) for path, data in files if path.is_standard and number is not None]
+    )
+    for data in standard:
+        raw = data.encode() if isinstance(data, str) else data
+        buffer = getattr(sys.stdout, "buffer", None)
+        if buffer is None:
+            sys.stdout.write(raw.decode(errors="replace"))
+        else:
+            buffer.write(raw)  # a document is UTF-8, whatever the terminal's encoding
+        sys.stdout.flush()
+
+
+def _standard_number() -> int | None:
+    """The descriptor of standard output; None where a notebook or a test has put something else in its place."""
+    if sys.stdout is None or sys.stdout is sys.__stdout__:
+        return 1  # closed or not: writing will tell
+    return None
+
+
+def _target(name: str, path: Output) -> Target | None:
+    """Where an output goes; None: to something that stands for standard output and has no descriptor."""
+    number = _standard_number() if path.is_standard else None
+    if path.is_standard and number is None:
+        return None
+    try:
+        return locate(str(path) if number is None else number)
+    except DesignError as error:
+        raise DesignError(Fault(name, str(error))) from error
+
+
+def _read(source: Source) -> Iterator[tuple[Path, Target]]:
+    """The files of a source that are there; reading tells what is wrong with the others."""
+    with suppress(OSError, ValueError):
+        for file in source.files():
+            with suppress(OSError, ValueError):
+                yield file, Target(str(file), file, file.stat())
+
+
+def _is_device(target: Target) -> bool:
+    return target.state is not None and S_ISCHR(target.state.st_mode)
+
+
+def _told(path: Output) -> str:
+    return "standard output" if path.is_standard else repr(str(path))
