@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import lru_cache
+from itertools import takewhile
 from unicodedata import category, decomposition
 
 from lark import Lark, Token, Tree
@@ -88,9 +90,9 @@ def read_tree(text: str) -> Tree[Token]:
     """The parse tree of a pattern text. Raises `PatternError` with line, column and caret."""
     try:
         return _parser().parse(text)
-    except UnexpectedInput:
-        pass
-    raise _explain(text)
+    except UnexpectedInput as error:
+        stopped = error
+    raise _explain(text, stopped)
 
 
 def refuse(text: str, offset: int, message: str) -> PatternError:
@@ -98,24 +100,26 @@ def refuse(text: str, offset: int, message: str) -> PatternError:
     return PatternError(fault_at(text, offset, message))
 
 
-def _explain(text: str) -> PatternError:
-    """Read a faulty text again, one token at a time, and say what stops it where."""
-    lexer = _parser().parse_interactive(text)
+def _explain(text: str, error: UnexpectedInput) -> PatternError:
+    """Read a faulty text again up to the place where it stops the parser, and say what stops it there.
+
+    The parser that stopped has reduced its stack already for the token that it then refused; this one has not seen it.
+    """
+    parser = _parser().parse_interactive(text)
     tokens: list[Token] = []
-    try:
-        for token in lexer.iter_parse():
+    offset, found = error.pos_in_stream or 0, ""
+    ended = isinstance(error, UnexpectedToken) and error.token.type == "$END"
+    lexer = parser.lexer_thread.lex(parser.parser_state)  # type: ignore[no-untyped-call]  # lark leaves it unannotated
+    with suppress(UnexpectedCharacters):
+        for token in takewhile(lambda token: ended or token.start_pos < offset, lexer):
+            parser.feed_token(token)
             tokens.append(token)
-        offset, found = max((token.end_pos or 0 for token in tokens if token.type != "_SEP"), default=0), ""
-    except UnexpectedCharacters as error:
-        offset = error.pos_in_stream or 0
+    if ended:
+        offset = max((token.end_pos or 0 for token in tokens if token.type != "_SEP"), default=0)
+    elif isinstance(error, UnexpectedToken):
+        found = str(error.token)
+    else:
         found = text[offset]
-    except UnexpectedToken as error:
-        tokens.pop()
-        offset, found = error.token.start_pos or 0, str(error.token)
-    # The parser has already reduced its stack for the token that it then refused: make one that has not seen it.
-    parser = _parser().parse_interactive("")
-    for token in tokens:
-        parser.feed_token(token)
     return refuse(text, *_message(text, offset, _found_kind(text, offset, found), parser, tokens))
 
 

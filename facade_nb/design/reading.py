@@ -8,7 +8,7 @@ from typing import TypeAlias
 from lark import Token, Tree
 
 from .errors import DesignError, listed, nearest, quoted
-from .grammar import read_tree, refuse, show
+from .grammar import read_tree, refuse
 from .lookalikes import is_foreign
 from .pattern import Pattern, Site
 from .text import clean_name, counter_fault, symbol_fault
@@ -206,7 +206,7 @@ class _Reader:
             )
         fault = counter_fault(name)
         if fault:
-            found = "" if name[0] in MODES else f"expected a number or a counter; found {show(name)}: "
+            found = "" if name[0] in MODES else f"expected a number or a counter; found {quoted(name)}: "
             raise refuse(self.text, offset, found + fault)
 
     def check_length(self, node: Node, contents: Mapping[str, int], offset: int) -> None:

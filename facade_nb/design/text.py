@@ -58,7 +58,7 @@ def symbol_fault(name: str) -> str:
         if is_unseen(sign):
             return f"a name has no characters that are not seen ({described(sign)})"
         if decomposition(sign).startswith(("<wide>", "<narrow>")) or meant(sign) in _BRACKETS:
-            return f"'{sign}' ({described(sign)}) is another form of '{meant(sign)}'"
+            return f"'{sign}' ({described(sign)}) stands in it; '{meant(sign)}' was probably meant"
     return "'*' is the wildcard of shapes" if name == "*" else ""
 
 
@@ -68,7 +68,7 @@ def counter_fault(name: str) -> str:
         return symbol_fault(name)
     for sign in name:
         if meant(sign) and is_foreign(sign):
-            return f"'{sign}' ({described(sign)}) is another form of '{meant(sign)}'; {_COUNTER}"
+            return f"'{sign}' ({described(sign)}) stands in it; '{meant(sign)}' was probably meant"
         if is_unseen(sign):
             return f"a name has no characters that are not seen ({described(sign)})"
     if name[0] in "~|.:@·∘⊙":
