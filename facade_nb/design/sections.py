@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from .errors import PatternError, listed, quoted
 from .fields import Faults, at
+from .inputs import Members
 from .limits import nearest_zero
 from .model import Canvas, Counter, Design, Layer, LayerAxis, PatternDef, Placement, Shape, Symbol
 from .names import nfc
@@ -15,7 +16,7 @@ from .pattern import Pattern, parse
 from .text import clean_name, counter_fault, fault_at, symbol_fault
 from .tree import MAX_LETTERS, too_long
 
-__all__ = ["FORMAT", "DocumentReader", "Members"]
+__all__ = ["FORMAT", "DocumentReader"]
 
 FORMAT = "facade-nb/design/1"
 """What a document's `format` says."""
@@ -29,20 +30,6 @@ _PLACEMENTS: tuple[Placement, ...] = ("center", "left", "right")  # the first is
 _MAX_BLANKS = 40
 """Most blanks at which the key of a shape may be parted into two names."""
 _LOOKALIKES = "ϵєɛ"  # letters that a text copied from a paper may have for ε
-
-
-class Members(dict[str, Any]):
-    """A JSON object that remembers which of its keys stand in it twice."""
-
-    def __init__(self, pairs: list[tuple[str, Any]]) -> None:
-        super().__init__(pairs)
-        self.repeated: list[str] = []
-        if len(self) < len(pairs):
-            seen: set[str] = set()
-            for key, _ in pairs:
-                if key in seen:
-                    self.repeated.append(key)
-                seen.add(key)
 
 
 class DocumentReader:
