@@ -25,6 +25,7 @@ __all__ = [
     "Range",
     "forget_measures",
     "instances",
+    "next_longer",
     "ranges",
 ]
 
@@ -148,6 +149,61 @@ def instances(
         left,
         tuple(sorted(set().union(*(kind.clipped for kind in kinds)))),
     )
+
+
+def next_longer(
+    pattern: Pattern,
+    symbol: SymbolOf,
+    counter: CounterOf,
+    limit: float,
+    canvas: float,
+    check: Check | None = None,
+) -> tuple[Word | None, bool]:
+    """The shortest word of a pattern that is longer than a limit, and whether there are longer ones still.
+
+    Unsized letters count as nothing. Words of more letters than `MAX_SPELLED` are not looked at.
+    """
+    ways = _measured(pattern, symbol, check)
+    for reach in _reaches(ways, pattern, counter, limit):
+        found = instances(pattern, symbol, counter, reach, check, canvas)
+        longer = [word for word in found.words if word.size > limit + EPS]
+        if longer:
+            word = min(longer, key=lambda own: own.size)
+            further = next(_reaches(ways, pattern, counter, word.size), None)
+            return word, further is not None or any(own.size > word.size + EPS for own in longer)
+    return None, False
+
+
+def _reaches(
+    ways: Sequence[Way] | None, pattern: Pattern, counter: CounterOf, limit: float
+) -> Iterator[float]:
+    """Sizes beyond a limit up to which there is a word longer than that, if there is any."""
+    if ways is None:  # they cannot be measured beforehand
+        yield from (factor * limit for factor in (1.5, 3.0, 9.0))
+        return
+    sizes: list[float] = []
+    for own in (way.measure for way in ways):
+        grown = {name: [0.0, 0.0] for name in own.growth}  # at the value nearest to 0, and at the end
+        for name, growth in own.growth.items():
+            bounds = counter(name)
+            zero = _nearest_zero(bounds)
+            ends = [bounds.value] * 2 if bounds.value is not None else [bounds.min, bounds.max]
+            far = [
+                inf if end is None and growth.more > 0 else growth.size(zero if end is None else end)
+                for end in ends
+            ]
+            grown[name] = [growth.size(zero), max(far)]
+        least = own.size + sum(low for low, _ in grown.values())
+        total = own.size + sum(high for _, high in grown.values())
+        if least > limit + EPS:
+            sizes.append(least)
+        elif total > limit + EPS:
+            # one copy more of anything leads beyond the limit at the latest from just below it
+            step = max(max(g.first, g.more, g.back_first, g.back_more) for g in own.growth.values())
+            sizes.append(limit + step)
+    if sizes:
+        yield min(sizes) + 2.0 * EPS
+        yield max(sizes) + 2.0 * EPS
 
 
 def ranges(

@@ -12,8 +12,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from facade_nb.design import Counter, DesignError, Symbol, parse
+from facade_nb.design import Counter, DesignError, Pattern, Symbol, parse
 from facade_nb.design.model import AXES
+from facade_nb.design.pattern import Concat, Count, Sym
 from facade_nb.solver import Objective
 from facade_nb.solver import instances as listing
 from facade_nb.solver.candidates import candidates
@@ -214,7 +215,8 @@ class TestOfAnAxis:
         one = make_design(0)
         problem = axis_problem(one, "x")
         name, _ = problem.patterns[0]
-        long = parse("A^15000 A^15000")
+        half = Count(Sym("A"), "", False, 15_000)
+        long = Pattern(Concat((half, half)))  # no text is read as such a pattern
         patterns = tuple((n, long if n == name else p) for n, p in problem.patterns)
         symbols = tuple({**dict(problem.symbols), "A": Symbol("A", 0.1)}.items())
         broken = type(problem)(
