@@ -97,8 +97,8 @@ def with_layer(design: Design, name: str, /, **fields: Any) -> Design:
     `x` and `y` take an object with the fields to change (``x={"mask": ["P"]}``) or just a pattern's name; ``name=``
     renames the layer.
     """
-    document = write(design)
-    layer = document["layers"][_layer(design, name)]
+    index, document = _layer(design, name), write(design)
+    layer = document["layers"][index]
     for key in ("x", "y"):
         if key in fields:
             change = fields.pop(key)
@@ -126,16 +126,16 @@ def add_layer(
 
 def remove_layer(design: Design, name: str) -> Design:
     """The design without a layer."""
-    document = write(design)
-    del document["layers"][_layer(design, name)]
+    index, document = _layer(design, name), write(design)
+    del document["layers"][index]
     return read(document)
 
 
 def move_layer(design: Design, name: str, index: int) -> Design:
     """The design with a layer at another index of the list (bottom first; -1 is the top)."""
-    document = write(design)
+    known, document = _layer(design, name), write(design)
     layers = document["layers"]
-    layer = layers.pop(_layer(design, name))
+    layer = layers.pop(known)
     layers.insert(index if index >= 0 else len(layers) + 1 + index, layer)
     return read(document)
 
@@ -147,7 +147,8 @@ def with_shape(
     document = write(design)
     owner: Any = document
     if layer is not None:
-        owner = document["layers"][_layer(design, layer)]
+        known = _layer(design, layer)
+        owner = document["layers"][known]
     elif pattern is not None:
         patterns, pattern = document.get("patterns", {}), nfc(pattern)
         _known(pattern, patterns, "patterns", "pattern")

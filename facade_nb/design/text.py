@@ -54,7 +54,7 @@ def symbol_fault(name: str) -> str:
         return "a name has none of < > { }"
     if category(name[0])[0] == "M":
         return f"a name does not begin with a mark ({described(name[0])})"
-    for sign in name:
+    for sign in dict.fromkeys(name):
         if is_unseen(sign):
             return f"a name has no characters that are not seen ({described(sign)})"
         if decomposition(sign).startswith(("<wide>", "<narrow>")) or meant(sign) in _BRACKETS:
@@ -66,7 +66,7 @@ def counter_fault(name: str) -> str:
     """Why a cleaned name cannot name a counter, or an empty text where it can."""
     if not name or control_character(name) or name == "*":
         return symbol_fault(name)
-    for sign in name:
+    for sign in dict.fromkeys(name):
         if meant(sign) and is_foreign(sign):
             return f"'{sign}' ({described(sign)}) stands in it; '{meant(sign)}' was probably meant"
         if is_unseen(sign):

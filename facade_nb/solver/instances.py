@@ -8,6 +8,7 @@ from itertools import chain
 from math import inf
 from typing import Any
 
+from ..design.errors import DesignError
 from ..design.model import Counter, Symbol
 from ..design.pattern import Pattern
 from ..design.tree import Concat, Count, Node, concatenation, spellings, walk
@@ -164,23 +165,25 @@ def next_longer(
     Unsized letters count as nothing. Words of more letters than `MAX_SPELLED` are not looked at.
     """
     ways = _measured(pattern, symbol, check)
-    for reach in _reaches(ways, pattern, counter, limit):
+    speller = _Speller(symbol)
+
+    def reaches(beyond: float) -> Iterator[float]:
+        if ways is None:
+            return _reaches_spelled(pattern, speller, counter, beyond, check)
+        return _reaches(ways, counter, beyond)
+
+    for reach in reaches(limit):
         found = instances(pattern, symbol, counter, reach, check, canvas)
         longer = [word for word in found.words if word.size > limit + EPS]
         if longer:
             word = min(longer, key=lambda own: own.size)
-            further = next(_reaches(ways, pattern, counter, word.size), None)
+            further = next(reaches(word.size), None)
             return word, further is not None or any(own.size > word.size + EPS for own in longer)
     return None, False
 
 
-def _reaches(
-    ways: Sequence[Way] | None, pattern: Pattern, counter: CounterOf, limit: float
-) -> Iterator[float]:
+def _reaches(ways: Sequence[Way], counter: CounterOf, limit: float) -> Iterator[float]:
     """Sizes beyond a limit up to which there is a word longer than that, if there is any."""
-    if ways is None:  # they cannot be measured beforehand
-        yield from (factor * limit for factor in (1.5, 3.0, 9.0))
-        return
     sizes: list[float] = []
     for own in (way.measure for way in ways):
         grown = {name: [0.0, 0.0] for name in own.growth}  # at the value nearest to 0, and at the end
@@ -204,6 +207,42 @@ def _reaches(
     if sizes:
         yield min(sizes) + 2.0 * EPS
         yield max(sizes) + 2.0 * EPS
+
+
+def _reaches_spelled(
+    pattern: Pattern, speller: _Speller, counter: CounterOf, limit: float, check: Check | None
+) -> Iterator[float]:
+    """The same for a pattern that cannot be measured beforehand: counters go on one at a time, and all to their ends."""
+    bounds = {name: counter(name) for name in pattern.counters}
+    zero = {name: _nearest_zero(own) for name, own in bounds.items()}
+    ends = {
+        name: own.max if own.max is not None and own.value is None else zero[name]
+        for name, own in bounds.items()
+    }
+    tried = [zero]
+    if all(abs(value) <= MAX_COPIES for value in ends.values()):
+        tried.append(ends)
+    for name, own in bounds.items():
+        for step in (1, -1):
+            value = zero[name] + step
+            for _ in range(MAX_SPELLED):
+                if not _inside(own, value):
+                    break
+                if check is not None:
+                    check()
+                try:
+                    sizes = [word.size for word in speller.words(pattern, {**zero, name: value})]
+                except DesignError:  # words that are too long to be spelled
+                    break
+                if max(sizes) > limit + EPS or (abs(value) > MAX_COPIES and max(sizes) <= EPS):
+                    tried.append({**zero, name: value})
+                    break
+                value += step
+    found = [word.size for values in tried for word in speller.words(pattern, values)]
+    longer = [size for size in found if size > limit + EPS]
+    if longer:
+        yield min(longer) + 2.0 * EPS
+        yield max(longer) + 2.0 * EPS
 
 
 def ranges(

@@ -70,6 +70,52 @@ class TestWords:
         assert "cannot fill the canvas" in str(error) and "Counter" not in str(error)
         assert error.counters == ()
 
+    @pytest.mark.parametrize(
+        ("text", "canvas", "counters", "told"),
+        [
+            (
+                "(bgr)^k",
+                5.0,
+                {},
+                "its words measure 0 m or 15 m or more, and the canvas is 5 m wide. Nearest are ε and b g r.",
+            ),
+            ("(bgr)^k", 5.0, {"max": 1}, "its words measure 0 m or 15 m, and"),
+            ("(bgr)^-k", 5.0, {}, "its words measure 0 m or 15 m or more, and"),
+            ("(bgr)^k", 5.0, {"min": -2, "max": 0}, "its words measure 0 m or 15 m or more, and"),
+            ("(bgr)^@k", 5.0, {}, "its words measure 0 m or 25 m or more, and"),
+            ("(bgr)^k|A", 5.0, {}, "its words measure at most 1 m or 15 m or more, and"),
+            (
+                "A|B",
+                4.0,
+                {},
+                "its words measure 1 m or 10 m, and the canvas is 4 m wide. Nearest are A and B.",
+            ),
+            ("A|AA|B", 5.5, {}, "its words measure at most 2 m or 10 m, and"),
+            ("A^k|B", 5.0, {"max": 2}, "its words measure at most 2 m or 10 m, and"),
+            ("A(bgr)^k(BB)^m", 8.0, {}, "its words measure 1 m or 16 m or more, and"),
+            (
+                "()",
+                5.0,
+                {},
+                "its longest word, ε, measures 0 m and cannot fill the canvas, which is 5 m wide.",
+            ),
+            ("A^k", 5.0, {"max": 2}, "its longest word, A A, measures 2 m and cannot fill the canvas"),
+        ],
+    )
+    def test_words_that_are_too_short_or_too_long(
+        self, text: str, canvas: float, counters: dict[str, int], told: str
+    ) -> None:
+        sizes = {"b": 5.0, "g": 5.0, "r": 5.0, "A": 1.0, "B": 10.0}
+        error = refused(design(sizes, {"wall": text}, ["wall"], canvas, counters={"k": counters}))
+        assert str(error).startswith(f"Pattern 'wall': {told}")
+        assert (error.constraint, error.patterns) == ("canvas", ("wall",))
+
+    def test_a_width_of_either_length_is_proposed(self) -> None:
+        error = refused(
+            design({"A": 1.0, "B": 10.0}, {"wall": "A|B"}, ["wall"], 8.0, counters={}), tolerances=(0.0,)
+        )
+        assert error.suggestions[0].path == ("canvas", "width") and error.suggestions[0].value == 10.0
+
     def test_what_the_message_proposes_works(self) -> None:
         assert solve(design({"A": 1.0, "B": 2.0}, {"w": "A(BA)^3"}, ["w"], width=10.0)).x.cost == 0.0
         assert solve(design({"A": 0.5}, {"w": "A^3"}, ["w"], width=1.5)).x.cost == 0.0

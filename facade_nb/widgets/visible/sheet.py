@@ -184,8 +184,7 @@ def shortened(text: str, most: int) -> str:
 def spelled(letters: Sequence[LetterNote]) -> str:
     """A word in short, as the front end writes it: ``A²C``, ``G(AB)³A``, a dash behind mirrored letters."""
     names = [
-        (a.symbol if spell(a.symbol) == a.symbol else f"⟨{a.symbol}⟩") + "′" * a.mirrored
-        for a in letters
+        (a.symbol if spell(a.symbol) == a.symbol else f"⟨{a.symbol}⟩") + "′" * a.mirrored for a in letters
     ]
     keys = [(a.symbol, a.mirrored, a.transparent) for a in letters]
     out, n = "", 0
