@@ -9,6 +9,7 @@ from math import inf
 from typing import Any
 
 from ..design.errors import DesignError
+from ..design.limits import nearest_zero
 from ..design.model import Counter, Symbol
 from ..design.pattern import Pattern
 from ..design.tree import Concat, Count, Node, concatenation, spellings, walk
@@ -117,7 +118,7 @@ def instances(
     speller = _Speller(symbol)
     if ways is None:
         return _one_by_one(pattern, speller, counter, limit, low, check)
-    zero = {name: _nearest_zero(counter(name)) for name in pattern.counters}
+    zero = {name: nearest_zero(counter(name)) for name in pattern.counters}
     shortest = min(ways, key=lambda way: way.measure.at(zero))
     letters = inf if canvas is None else MAX_SPELLED
     kinds = [_Kind(own, zero, counter, limit, common or {}, letters, check) for own in _alike(ways).values()]
@@ -189,7 +190,7 @@ def _reaches(ways: Sequence[Way], counter: CounterOf, limit: float) -> Iterator[
         grown = {name: [0.0, 0.0] for name in own.growth}  # at the value nearest to 0, and at the end
         for name, growth in own.growth.items():
             bounds = counter(name)
-            zero = _nearest_zero(bounds)
+            zero = nearest_zero(bounds)
             ends = [bounds.value] * 2 if bounds.value is not None else [bounds.min, bounds.max]
             far = [
                 inf if end is None and growth.more > 0 else growth.size(zero if end is None else end)
@@ -212,9 +213,9 @@ def _reaches(ways: Sequence[Way], counter: CounterOf, limit: float) -> Iterator[
 def _reaches_spelled(
     pattern: Pattern, speller: _Speller, counter: CounterOf, limit: float, check: Check | None
 ) -> Iterator[float]:
-    """The same for a pattern that cannot be measured beforehand: counters go on one at a time, and all to their ends."""
+    """The same for a pattern that cannot be measured beforehand: counters go on one by one, and all to their ends."""
     bounds = {name: counter(name) for name in pattern.counters}
-    zero = {name: _nearest_zero(own) for name, own in bounds.items()}
+    zero = {name: nearest_zero(own) for name, own in bounds.items()}
     ends = {
         name: own.max if own.max is not None and own.value is None else zero[name]
         for name, own in bounds.items()
@@ -254,7 +255,7 @@ def ranges(
     ways = _measured(pattern, symbol, check)
     if ways is None:
         return {}
-    zero = {name: _nearest_zero(counter(name)) for name in pattern.counters}
+    zero = {name: nearest_zero(counter(name)) for name in pattern.counters}
     kinds = [_Kind(own, zero, counter, limit, {}, MAX_SPELLED, check) for own in _alike(ways).values()]
     found: dict[str, Range] = {}
     for name in pattern.counters:
@@ -499,7 +500,7 @@ def _one_by_one(
 ) -> Instances:
     """Words of a pattern that cannot be measured beforehand, by spelling all of them out."""
     names = pattern.counters
-    zero = {name: _nearest_zero(counter(name)) for name in names}
+    zero = {name: nearest_zero(counter(name)) for name in names}
     endless: set[str] = set()
     found: list[Word] = []
 
@@ -548,11 +549,3 @@ def _inside(bounds: Counter, value: int) -> bool:
     if bounds.value is not None:
         return value == bounds.value
     return bounds.min <= value and (bounds.max is None or value <= bounds.max)
-
-
-def _nearest_zero(bounds: Counter) -> int:
-    if bounds.value is not None:
-        return bounds.value
-    if bounds.min > 0:
-        return bounds.min
-    return 0 if bounds.max is None else min(0, bounds.max)

@@ -8,7 +8,7 @@ from itertools import product
 from math import floor, inf
 from numbers import Real
 
-from ..design.errors import DesignError, Fault, nearest, quoted
+from ..design.errors import DesignError, Fault, listed, nearest, quoted
 from ..design.fields import describe
 from ..design.limits import LEAST_LENGTH, MOST_COUNT, MOST_LENGTH
 from ..design.model import Counter, Symbol
@@ -24,6 +24,8 @@ __all__ = ["axis_words", "forget_words", "words"]
 
 _kept: Kept[tuple[Instances, float]] = Kept(4_000_000)
 """Words of patterns asked for last, and how much is opaque in one of them at most; weighed by their letters."""
+_MAX_SAMPLES = 1_000_000
+"""Most words that sampled sizes make of one."""
 _SPAN = f"sizes lie between {LEAST_LENGTH:f} and {MOST_LENGTH:,.0f}"
 _ranges: Kept[dict[str, Range]] = Kept(1_000)
 """What patterns say of counters."""
@@ -246,6 +248,9 @@ def _is_range(value: object) -> bool:
 
 def _sample(word: Word, unsized: Sequence[str], step: float, limit: float) -> Iterator[Word]:
     most = max(0, floor((limit - word.size) / step + EPS))
+    if most ** len(unsized) > _MAX_SAMPLES:
+        text = f"expected a larger step: {most:,} samples of {listed(unsized)} each make over {_MAX_SAMPLES:,} words"
+        raise DesignError(Fault("unsized_step", text))
     for multiples in product(range(1, most + 1), repeat=len(unsized)):
         size = dict(zip(unsized, (m * step for m in multiples), strict=True))
         letters = tuple(a if a.size is not None else replace(a, size=size[a.symbol]) for a in word.letters)

@@ -24,7 +24,7 @@ def fault(text: str) -> tuple[int | None, str]:
 
 
 BARE = ["A", "b2", "Δ", "漢", "É", "कि", "กู่", "שָ", "b२", "ㄱ", "ʌ"]
-NOT_BARE = ["ε", "window", "front door", "A_1", "2", "♥", "ᄒ"]
+NOT_BARE = ["ε", "window", "front door", "ˆ", "ª", "𝔣", "ⁿ", "A_1", "2", "♥", "ᄒ", "ℓ"]
 
 
 @pytest.mark.parametrize("name", BARE)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
 
 from facade_nb import Design, DesignError, NoLayout, solve
-from facade_nb.design import Suggestion, edit
+from facade_nb.design import Canvas, Suggestion, Symbol, edit
 from facade_nb.solver import Objective, merging, obstacles, solving
 from tests.oracle.designs import design, make_design
 
@@ -392,6 +394,35 @@ class TestDisplay:
         error = refused(design({"A": 9.0}, {"wall": "A"}, ["wall"]))
         assert str(error) == error.message
         assert error._render_traceback_() == [f"NoLayout: {error.message}"]
+
+    @pytest.mark.parametrize("size", [1e-308, 1e308])
+    def test_sizes_beyond_what_can_be_computed(self, size: float) -> None:
+        """A design that was made, not read, is checked before it is solved."""
+        one = design({"A": 1.0}, {"wall": "A^k"}, ["wall"])
+        for broken, place in [
+            (replace(one, canvas=Canvas(size, 2.0)), "canvas.width"),
+            (replace(one, symbols={**one.symbols, "A": Symbol("A", size)}), "symbols.A.size"),
+        ]:
+            with pytest.raises(
+                DesignError, match=rf"{place}: expected a length from 0.000001 to 1,000,000 m, found"
+            ):
+                solve(broken)
+
+    @pytest.mark.parametrize(
+        ("width", "size"), [(1e6, 1e-6), (1e-6, 1e6), (1e6, 1e6), (1e-6, 1e-6), (1e6, 3.0)]
+    )
+    def test_sizes_at_the_ends_of_what_can_be(self, width: float, size: float) -> None:
+        for text in ("A^k", "A", "A|AA", "A^kA^m"):
+            one = design({"A": size}, {"wall": text}, ["wall"], width)
+            try:
+                assert solve(one).x.groups["g"].columns
+            except NoLayout as error:
+                assert str(error).startswith("Pattern 'wall'") and len(str(error)) < 400
+
+    def test_names_of_megabytes(self) -> None:
+        name = "x" * 1_000_000
+        error = refused(design({"A": 9.0}, {name: "A"}, [name]))
+        assert str(error).startswith("Pattern 'xxx") and len(str(error)) < 300
 
     def test_words_that_cannot_be_listed(self) -> None:
         """A count of thousands is the design's fault, and told as one when it is read."""
