@@ -12,8 +12,9 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .design.errors import DesignError, Fault, GrammarError
+from .design.errors import GrammarError
 from .design.files import write_together
+from .design.inputs import read_text
 
 if TYPE_CHECKING:
     from .render.texture.atlas import Tiles
@@ -124,11 +125,7 @@ def _tiles(folder: str | None) -> Tiles | None:
 def _grammar(path: Path, tiles: Tiles | None) -> Grammar:
     from .render.texture import Grammar
 
-    try:
-        text = path.read_text("utf-8-sig")
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
-        raise DesignError(Fault(str(path), f"cannot be read as a grammar: {reason}")) from error
+    text = read_text(path, "a grammar")
     try:
         return Grammar.parse(text, tiles)
     except GrammarError as error:

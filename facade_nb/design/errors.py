@@ -1,13 +1,16 @@
 """What can be wrong with a design, and how it is told.
 
 A fault names its place, says what was expected and what was found. Errors carry all faults found, not the first.
+Whatever the document, what is told of it is a few lines: names are cut in the middle, lists and faults are counted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from heapq import nsmallest
+from itertools import islice
 from typing import Any
 
 __all__ = [
@@ -18,8 +21,42 @@ __all__ = [
     "NoLayout",
     "PatternError",
     "Suggestion",
+    "cut",
+    "listed",
     "nearest",
+    "quoted",
 ]
+
+_NAME = 60
+"""Most characters of a name in a sentence."""
+_PLACE = 200
+_MESSAGE = 1200
+_FAULTS = 20
+"""So many faults are told; `DesignError.faults` has all of them."""
+_LISTED = 8
+"""Most names in a list."""
+_COMPARED = 100
+"""A name is compared with so many others, letter by letter."""
+
+
+def cut(text: str, most: int = _NAME) -> str:
+    """The text, its middle left out where it is too long."""
+    if len(text) <= most:
+        return text
+    tail = most // 3
+    return f"{text[: most - tail - 1]}…{text[len(text) - tail :]}"
+
+
+def quoted(name: object) -> str:
+    """A name in quotation marks, cut where it is too long for a sentence."""
+    return repr(cut(str(name)))
+
+
+def listed(names: Iterable[object], most: int = _LISTED) -> str:
+    """Names in quotation marks with commas, the first ones of many."""
+    known = names if isinstance(names, Collection) else list(names)
+    rest = len(known) - most
+    return ", ".join(map(quoted, islice(known, most))) + (f", … and {rest:,} more" if rest > 0 else "")
 
 
 class FacadeError(Exception):
@@ -52,6 +89,10 @@ class Fault:
     column: int | None = None
     excerpt: str = ""
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "place", cut(self.place, _PLACE))
+        object.__setattr__(self, "message", cut(self.message, _MESSAGE))
+
     def __str__(self) -> str:
         where = self.place
         if self.line is not None:
@@ -68,7 +109,10 @@ class DesignError(FacadeError, ValueError):
         if isinstance(faults, str):
             faults = Fault("", faults)
         self.faults: tuple[Fault, ...] = (faults,) if isinstance(faults, Fault) else tuple(faults)
-        super().__init__("\n".join(map(str, self.faults)))
+        told = [str(fault) for fault in self.faults[:_FAULTS]]
+        if len(self.faults) > _FAULTS:
+            told.append(f"… and {len(self.faults) - _FAULTS:,} more faults")
+        super().__init__("\n".join(told))
 
 
 class PatternError(DesignError):
@@ -144,6 +188,9 @@ class NoLayout(FacadeError):
     stage: str = ""
     trace: Any = field(default=None, repr=False)
 
+    def __post_init__(self) -> None:
+        self.message = cut(self.message, 2 * _MESSAGE)
+
     def __str__(self) -> str:
         return self.message
 
@@ -154,7 +201,21 @@ class NoLayout(FacadeError):
 
 
 def nearest(name: str, valid: Iterable[str]) -> str:
-    """Return ``"; did you mean 'x'?"`` for the valid name nearest to `name`, or an empty text."""
-    names = [str(v) for v in valid]
-    found = [v for v in names if v.lower() == name.lower()] or get_close_matches(name, names, n=1, cutoff=0.5)
-    return f"; did you mean {found[0]!r}?" if found else ""
+    """Return ``"; did you mean 'x'?"`` for the valid name nearest to `name`, or an empty text.
+
+    However many names there are, few are compared letter by letter: those of about the same length, the ones that
+    begin alike first.
+    """
+    if len(name) > _NAME:
+        return ""
+    lower = name.lower()
+    names = [own for v in valid if abs(len(own := str(v)) - len(name)) <= _NAME]
+    found = next((own for own in names if own.lower() == lower), None)
+    if found is None:
+
+        def apart(own: str) -> tuple[bool, int]:
+            return own[:1].lower() != lower[:1], abs(len(own) - len(name))
+
+        few = names if len(names) <= _COMPARED else nsmallest(_COMPARED, names, key=apart)
+        found = next(iter(get_close_matches(name, few, n=1, cutoff=0.5)), None)
+    return "" if found is None else f"; did you mean {found!r}?"
