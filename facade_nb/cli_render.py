@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import io
 import re
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from math import isfinite
@@ -14,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from .cli_ending import say
 from .cli_files import Output, Source, write
-from .design.errors import DesignError, Fault, GrammarError, quoted
+from .design.errors import GrammarError, quoted
+from .design.inputs import read_text
 
 if TYPE_CHECKING:
     from .render.texture.atlas import Tiles
@@ -144,20 +144,16 @@ def _tiles(folder: str | None) -> Tiles | None:
 
     tiles = TileSet.from_folder(folder)
     for fault in tiles.faults[:_NOTES]:
-        print(f"Note: {fault}", file=sys.stderr)
+        say(f"Note: {fault}")
     if len(tiles.faults) > _NOTES:
-        print(f"Note: … and {len(tiles.faults) - _NOTES:,} more files of that folder", file=sys.stderr)
+        say(f"Note: … and {len(tiles.faults) - _NOTES:,} more files of that folder")
     return tiles
 
 
 def _grammar(path: Path, tiles: Tiles | None) -> Grammar:
     from .render.texture import Grammar
 
-    try:
-        text = path.read_text("utf-8-sig")
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
-        raise DesignError(Fault(str(path), f"cannot be read as a grammar: {reason}")) from error
+    text = read_text(path, "a grammar")
     try:
         return Grammar.parse(text, tiles)
     except GrammarError as error:

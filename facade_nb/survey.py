@@ -9,11 +9,12 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import fsum, isfinite
+from itertools import islice
+from math import fsum
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from .design.errors import FacadeError, nearest
+from .design.errors import DesignError, FacadeError, cut, nearest, quoted
+from .design.fields import Faults, at, describe
+from .design.inputs import read_json_text, read_text
+from .design.sections import DocumentReader
 from .solver.model.layout import Layout, PlacedShape, Rect
 
 __all__ = ["OPENING_KINDS", "Pair", "Survey", "SurveyError", "compare", "load_survey", "match"]
@@ -29,6 +33,10 @@ __all__ = ["OPENING_KINDS", "Pair", "Survey", "SurveyError", "compare", "load_su
 OPENING_KINDS = frozenset({"window", "door"})
 """The kinds of shapes that a survey of openings can speak of."""
 
+_LEAST = 1e-6
+"""Sides of openings are no shorter, metres."""
+_MOST = 1e9
+"""Places lie within so many metres: surveys may be in the coordinates of a country."""
 _VARIABLE = "FACADE_NB_DATA"
 _FILE = "ingolstadt.json"
 
@@ -144,36 +152,107 @@ def load_survey(building: str, path: str | Path | None = None) -> Survey:
     Raises
     ------
     SurveyError
-        Where there is no such file, it is no survey, or has no such building.
+        Where there is no such file, it is no survey, or has no such building; with the place of every fault, what was
+        expected and what was found.
     """
-    file = _data_file(path)
+    file, name = _data_file(path), str(building)
     try:
-        document = json.loads(file.read_text(encoding="utf-8"))
-        found = {str(facade["building"]): facade for facade in document["facades"]}
-    except OSError as error:
-        raise SurveyError(f"{file}: cannot be read: {error.strerror}") from None
-    except (ValueError, KeyError, TypeError) as error:
+        document = read_json_text(read_text(file, "a survey"), str(file))
+    except DesignError as error:
+        raise SurveyError(f"expected a survey; {error}") from None
+    reader = _Reader(document)
+    found = reader.facades()
+    if reader.faults.found:
+        raise reader.error(file)
+    if name not in found:
+        known = ", ".join(map(cut, islice(found, 8))) + (", …" if len(found) > 8 else "") or "there is none"
         raise SurveyError(
-            f"{file}: expected a survey, an object with facades that each have building and openings; "
-            f"found something else ({type(error).__name__}: {error})"
-        ) from None
-    facade = found.get(str(building))
-    if facade is None:
-        listed = ", ".join(found) or "there is none"
-        hint = nearest(str(building), found)
-        raise SurveyError(f"{file}: expected a building of the survey ({listed}); found {building!r}{hint}")
-    openings = tuple(facade.get("openings", ()))
-    rects = [
-        _rect(opening, f"{file}: building {building}: openings[{i}]") for i, opening in enumerate(openings)
-    ]
-    return Survey(
-        str(building),
-        float(facade.get("width", max((r[2] for r in rects), default=0.0))),
-        float(facade.get("height", max((r[3] for r in rects), default=0.0))),
-        openings,
-        str(document.get("source", "")),
-        str(document.get("licence", "")),
-    )
+            f"{file}: expected a building of the survey ({known}); found {quoted(name)}{nearest(name, found)}"
+        )
+    survey = reader.survey(name, found[name][1])
+    if reader.faults.found:
+        raise SurveyError(f"{file}: building {cut(name)}: {DesignError(reader.faults.found)}")
+    return survey
+
+
+def _named(name: str | int) -> bool:
+    """Whether a building has a name, or a number of fewer digits than Python minds."""
+    return bool(name.strip()) if isinstance(name, str) else abs(name) < 10**100
+
+
+class _Reader:
+    """Reads a document of surveys; what is wrong with it is noted with its place."""
+
+    def __init__(self, document: object) -> None:
+        self.document = document
+        self.faults = Faults()
+
+    def error(self, place: object) -> SurveyError:
+        """What is wrong, all of it."""
+        what = "expected a survey, an object with facades that each have building and openings"
+        return SurveyError(f"{place}: {what}\n{DesignError(self.faults.found)}")
+
+    def facades(self) -> dict[str, tuple[str, Mapping[str, Any]]]:
+        """Place and members of each building; none may stand twice."""
+        faults = self.faults
+        keys = DocumentReader()
+        keys.repeated_keys(self.document)
+        faults.found += keys.faults.found
+        values = faults.mapping(self.document, "", "a survey (an object)")
+        if isinstance(self.document, Mapping) and "facades" not in values:
+            faults.add("facades", "this field is missing")
+        found: dict[str, tuple[str, Mapping[str, Any]]] = {}
+        for index, item in enumerate(
+            faults.sequence(values.get("facades", ()), "facades", "a list of facades")
+        ):
+            place = at("facades", index)
+            facade = faults.mapping(item, place)
+            name = facade.get("building")
+            if isinstance(name, bool) or not isinstance(name, str | int) or not _named(name):
+                if isinstance(item, Mapping):
+                    faults.expected(at(place, "building"), "the number of a building", name)
+                continue
+            if str(name) in found:
+                first = found[str(name)][0]
+                faults.add(
+                    at(place, "building"), f"expected a building of its own; {quoted(name)} is {first}"
+                )
+                continue
+            found[str(name)] = place, facade
+        return found
+
+    def survey(self, name: str, facade: Mapping[str, Any]) -> Survey:
+        """The survey of one building."""
+        faults = self.faults
+        openings: list[Mapping[str, Any]] = []
+        rects: list[Rect] = []
+        for index, opening in enumerate(
+            faults.sequence(facade.get("openings"), "openings", "a list of openings")
+        ):
+            own = at("openings", index)
+            if not isinstance(opening, Mapping):
+                faults.expected(own, "an opening (an object with kind and rect)", opening)
+                continue
+            fault = _rect_fault(opening)
+            if fault:
+                faults.add(f"{own}.rect", fault)
+                continue
+            if "kind" in opening:
+                faults.text(opening["kind"], at(own, "kind"), "")
+            openings.append(opening)
+            rects.append(_rect(opening, own))
+        extent = [max((rect[side] for rect in rects), default=0.0) for side in (2, 3)]
+        given = (facade.get(field) for field in ("width", "height"))
+        width, height = (
+            default if value is None else faults.number(value, field, default, least=0)
+            for value, field, default in zip(given, ("width", "height"), extent, strict=True)
+        )
+        values = self.document if isinstance(self.document, Mapping) else {}
+        texts = [
+            "" if values.get(key) is None else faults.text(values[key], key, "", empty=True)
+            for key in ("source", "licence")
+        ]
+        return Survey(name, width, height, tuple(openings), *texts)
 
 
 def _data_file(path: str | Path | None) -> Path:
@@ -195,14 +274,42 @@ def _shapes(layout: Layout) -> list[tuple[int, PlacedShape]]:
 
 
 def _rect(opening: object, place: str) -> Rect:
-    rect = opening.get("rect") if isinstance(opening, Mapping) else None
-    try:
-        left, bottom, right, top = (float(v) for v in rect)  # type: ignore[union-attr]
-    except (TypeError, ValueError):
-        left = bottom = right = top = float("nan")
-    if not all(map(isfinite, (left, bottom, right, top))) or left >= right or bottom >= top:
-        raise SurveyError(f"{place}.rect: expected left < right and bottom < top in metres, found {rect!r}")
+    fault = _rect_fault(opening)
+    if fault:
+        raise SurveyError(f"{place}.rect: {fault}")
+    assert isinstance(opening, Mapping)
+    left, bottom, right, top = (float(v) for v in opening["rect"])
     return (left, bottom, right, top)
+
+
+def _rect_fault(opening: object) -> str:
+    """What is wrong with the rectangle of an opening; empty where it is one."""
+    rect = opening.get("rect") if isinstance(opening, Mapping) else None
+    values: list[Any] = [] if isinstance(rect, str | bytes | Mapping) else _four(rect)
+    if len(values) == 4 and all(map(_is_length, values)):
+        left, bottom, right, top = map(float, values)
+        if min(right - left, top - bottom) >= _LEAST:
+            return ""
+    shown = "[" + ", ".join(map(describe, values)) + "]" if values else describe(rect)
+    return f"expected left < right and bottom < top in metres, found {shown}"
+
+
+def _four(rect: object) -> list[Any]:
+    """The members of a list, no more than are needed to see that it has four."""
+    try:
+        return list(islice(iter(rect), 5))  # type: ignore[call-overload]
+    except TypeError:
+        return []
+
+
+def _is_length(value: object) -> bool:
+    """Whether this is a number that a façade may have as a place; true is none."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return False
+    try:
+        return abs(float(value)) <= _MOST
+    except OverflowError:
+        return False
 
 
 def _to_corner(rects: Sequence[Rect]) -> NDArray[np.float64]:

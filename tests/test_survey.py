@@ -170,6 +170,149 @@ def test_what_is_no_survey_is_told(tmp_path: Path) -> None:
         load_survey("17", file)
 
 
+def told(folder: Path, **fields: Any) -> str:
+    """What is said of the small survey with some fields of its façade changed."""
+    (facade,) = SMALL["facades"]
+    file = survey_file(folder, {**SMALL, "facades": [{**facade, **fields}]})
+    with pytest.raises(SurveyError) as error:
+        load_survey("17", file)
+    return str(error.value).removeprefix(f"{file}: ")
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"openings": None}, "openings: expected a list of openings; found null"),
+        ({"openings": {}}, "openings: expected a list of openings; found an object"),
+        ({"openings": ["x"]}, "openings[0]: expected an opening (an object with kind and rect); found 'x'"),
+        ({"openings": [{"rect": [0, 0, 1, 1], "kind": 3}]}, "openings[0].kind: expected a text; found 3"),
+        ({"width": "12,5"}, "width: expected a number from 0; found '12,5'"),
+        ({"width": "12.5"}, "width: expected a number from 0; found '12.5'"),
+        ({"height": -1}, "height: expected a number from 0; found -1"),
+        ({"height": True}, "height: expected a number from 0; found true"),
+        ({"width": float("nan")}, "width: expected a number from 0, and finite; found nan"),
+        ({"width": float("inf")}, "width: expected a number from 0, and finite; found inf"),
+        ({"width": 10**400}, "width: expected a number from 0, and finite; found a very large number"),
+        ({"width": 1e308}, "width: expected a number from 0 to 1,000,000; found 1e+308"),
+    ],
+)
+def test_each_fault_has_its_place(tmp_path: Path, fields: dict[str, Any], message: str) -> None:
+    assert told(tmp_path, **fields) == f"building 17: {message}"
+
+
+@pytest.mark.parametrize(
+    ("rect", "found"),
+    [
+        (["0", 0, 1, 1], "['0', 0, 1, 1]"),
+        ([0, 0, 10**400, 1], "[0, 0, a very large number, 1]"),
+        ([0, 0, 1e-308, 1], "[0, 0, 1e-308, 1]"),
+        ([0, 0, 1e308, 1], "[0, 0, 1e+308, 1]"),
+        ([False, 0, True, 1], "[false, 0, true, 1]"),
+        (list(range(10**5)), "[0, 1, 2, 3, 4]"),
+        ({"a": 1}, "an object"),
+        (None, "null"),
+    ],
+)
+def test_rectangles_are_four_numbers(tmp_path: Path, rect: Any, found: str) -> None:
+    expected = f"openings[0].rect: expected left < right and bottom < top in metres, found {found}"
+    assert told(tmp_path, openings=[{"rect": rect}]) == f"building 17: {expected}"
+    with pytest.raises(SurveyError) as error:
+        compare(layout_of((0, 0, 1, 1)), [{"rect": rect}])
+    assert str(error.value) == expected
+
+
+def test_all_faults_are_told_at_once_and_in_a_few_lines(tmp_path: Path) -> None:
+    text = told(tmp_path, width="wide", openings=[3] * 50_000)
+    assert "openings[1]: expected an opening" in text and text.endswith("… and 49,981 more faults")
+    assert len(text) < 2000
+    assert len(told(tmp_path, building="x" * 3_000_000)) < 200
+
+
+def test_a_building_stands_once(tmp_path: Path) -> None:
+    (facade,) = SMALL["facades"]
+    for again in ("17", 17):
+        file = survey_file(
+            tmp_path, {"facades": [facade, {**facade, "building": "3"}, {**facade, "building": again}]}
+        )
+        with pytest.raises(
+            SurveyError, match=r"facades\[2\]\.building: expected a building of its own; '17' is facades\[0\]"
+        ):
+            load_survey("17", file)
+    file.write_text('{"facades": [{"building": "17", "building": "18", "openings": []}]}')
+    with pytest.raises(SurveyError, match=r"facades\[0\]\.building: this key stands twice in its object"):
+        load_survey("17", file)
+
+
+@pytest.mark.parametrize("building", [None, True, 1.5, "", " ", [], 10**400])
+def test_a_building_has_a_name(tmp_path: Path, building: Any) -> None:
+    assert "facades[0].building: expected the number of a building; found" in told(
+        tmp_path, building=building
+    )
+
+
+def test_width_and_height_go_by_the_openings_where_they_are_not_given(tmp_path: Path) -> None:
+    openings = [{"rect": [0, 0, 2, 1]}, {"rect": [3, 0, 4, 1.5]}]
+    for extra in ({}, {"width": None, "height": None}):
+        survey = load_survey(
+            "17", survey_file(tmp_path, {"facades": [{"building": 17, "openings": openings, **extra}]})
+        )
+        assert (survey.width, survey.height) == (4.0, 1.5)
+
+
+@pytest.mark.parametrize("coding", ["utf-8", "utf-8-sig"])
+def test_a_byte_order_mark_is_read_over(tmp_path: Path, coding: str) -> None:
+    file = survey_file(tmp_path, SMALL)
+    file.write_text(json.dumps(SMALL), encoding=coding)
+    assert load_survey("17", file).width == 2.0
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"", "line 1, column 1: this is not JSON: expecting value"),
+        ("é".encode("utf-16"), "it is not text in UTF-8; it looks like UTF-16"),
+        (b'{"facades": "\xe9"}', "it is not text in UTF-8; byte 13 is none"),
+        (b"[" * 100_000, "lists and objects are nested too deeply"),
+        (b'{"facades": ' + b"9" * 5000 + b"}", "a number has too many digits"),
+        (b'"x"', "expected a survey (an object); found 'x'"),
+        (b"{}", "facades: this field is missing"),
+    ],
+)
+def test_files_that_are_no_survey(tmp_path: Path, data: bytes, message: str) -> None:
+    file = survey_file(tmp_path, SMALL)
+    file.write_bytes(data)
+    with pytest.raises(SurveyError) as error:
+        load_survey("17", file)
+    assert "expected a survey" in str(error.value)
+    assert message in str(error.value) and str(file) in str(error.value) and len(str(error.value)) < 400
+
+
+anything = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=3),
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(
+            st.sampled_from(["facades", "building", "openings", "rect", "kind", "width"]), inner, max_size=4
+        )
+    ),
+    max_leaves=12,
+)
+
+
+@given(anything)
+def test_any_json_is_a_survey_or_told_shortly(
+    tmp_path_factory: pytest.TempPathFactory, document: Any
+) -> None:
+    folder = tmp_path_factory.mktemp("survey")
+    for one in (document, {"facades": document}, {"facades": [{"building": "17", "openings": document}]}):
+        try:
+            survey = load_survey("17", survey_file(folder, one))
+        except SurveyError as error:
+            assert len(str(error)) < 3000
+        else:
+            assert 0.0 <= compare(layout_of((0, 0, 1, 1)), survey.openings) <= 1.0
+
+
 def test_the_design_for_ingolstadt_has_under_twelve_symbols() -> None:
     design = gallery.load("ingolstadt-4018215")
     used = {symbol for pattern in design.patterns.values() for symbol in pattern.parsed.symbols}

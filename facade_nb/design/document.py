@@ -8,11 +8,11 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from .errors import DesignError, Fault
+from .errors import DesignError, cut
 from .files import write_atomically
+from .inputs import Members, read_json_text, read_text
 from .model import Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol
-from .sections import FORMAT, DocumentReader, Members
-from .text import fault_at
+from .sections import FORMAT, DocumentReader
 
 __all__ = ["FORMAT", "read", "read_json", "write", "write_json"]
 
@@ -47,32 +47,22 @@ def read_json(source: str | Path) -> Design:
     if isinstance(source, str) and source.lstrip("\ufeff \t\r\n")[:1] in ("{", "["):
         place, text = "", source.removeprefix("\ufeff")
     else:
-        place = str(source)
-        text = _file_text(source, place)
-    try:
-        document = json.loads(text, object_pairs_hook=Members)
-    except json.JSONDecodeError as error:
-        reason = error.msg[:1].lower() + error.msg[1:]
-        raise DesignError(fault_at(text, error.pos, f"this is not JSON: {reason}", place)) from error
-    except RecursionError as error:
-        raise DesignError(Fault(place, "lists and objects are nested too deeply")) from error
-    except ValueError as error:  # an integer of thousands of digits
-        raise DesignError(Fault(place, "a number has too many digits")) from error
-    return read(document)
+        place, text = str(source), _file_text(source)
+    return read(read_json_text(text, place))
 
 
-def _file_text(source: str | Path, place: str) -> str:
+def _file_text(source: str | Path) -> str:
     try:
-        return Path(source).read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise DesignError(
-            Fault(place, f"this file is not UTF-8 text: byte {error.start} cannot be read")
-        ) from error
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        name = place if isinstance(source, Path) or len(place) <= 80 else f"{place[:80]}…"
+        return read_text(source, "a design")
+    except DesignError as error:
+        cause = error.__cause__
+        if cause is None or isinstance(cause, UnicodeError):
+            raise
         expected = "expected a design as JSON text, or the path of a file with one"
-        raise DesignError(f"{expected}; {name!r} cannot be read as a file: {reason}") from error
+        reason = getattr(cause, "strerror", None) or str(cause)
+        raise DesignError(
+            f"{expected}; {cut(str(source), 200)!r} cannot be read as a file: {reason}"
+        ) from error
 
 
 def write(design: Design) -> dict[str, Any]:

@@ -10,8 +10,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from .document import read, write
-from .errors import DesignError, Fault, Suggestion, nearest
+from .errors import DesignError, Fault, Suggestion, listed, nearest, quoted
 from .model import Design
+from .names import nfc
+from .text import clean_name
 
 __all__ = [
     "add_layer",
@@ -63,7 +65,7 @@ def take(design: Design, suggestion: Suggestion) -> Design:
 
 def with_pattern(design: Design, name: str, text: str | None = None, /, **fields: Any) -> Design:
     """The design with the text, `hidden` or `shapes` of a pattern changed; a new name makes a new pattern."""
-    document = write(design)
+    document, name = write(design), nfc(name)
     patterns = document.setdefault("patterns", {})
     before = patterns.get(name, {})
     pattern = dict(before) if isinstance(before, dict) else {"text": before}
@@ -74,11 +76,13 @@ def with_pattern(design: Design, name: str, text: str | None = None, /, **fields
 
 def rename_pattern(design: Design, name: str, new: str) -> Design:
     """The design with a pattern under another name, in layers too."""
-    document = write(design)
+    document, name, new = write(design), nfc(name), nfc(new)
     patterns = document.get("patterns", {})
     _known(name, patterns, "patterns", "pattern")
     if new != name and new in patterns:
-        raise DesignError(Fault("patterns", f"expected a new name for pattern {name!r}; {new!r} is taken"))
+        raise DesignError(
+            Fault("patterns", f"expected a new name for pattern {quoted(name)}; {quoted(new)} is taken")
+        )
     document["patterns"] = {new if key == name else key: pattern for key, pattern in patterns.items()}
     for layer in document.get("layers", ()):
         for axis in (layer["x"], layer["y"]):
@@ -93,8 +97,8 @@ def with_layer(design: Design, name: str, /, **fields: Any) -> Design:
     `x` and `y` take an object with the fields to change (``x={"mask": ["P"]}``) or just a pattern's name; ``name=``
     renames the layer.
     """
-    document = write(design)
-    layer = document["layers"][_layer(design, name)]
+    index, document = _layer(design, name), write(design)
+    layer = document["layers"][index]
     for key in ("x", "y"):
         if key in fields:
             change = fields.pop(key)
@@ -122,16 +126,16 @@ def add_layer(
 
 def remove_layer(design: Design, name: str) -> Design:
     """The design without a layer."""
-    document = write(design)
-    del document["layers"][_layer(design, name)]
+    index, document = _layer(design, name), write(design)
+    del document["layers"][index]
     return read(document)
 
 
 def move_layer(design: Design, name: str, index: int) -> Design:
     """The design with a layer at another index of the list (bottom first; -1 is the top)."""
-    document = write(design)
+    known, document = _layer(design, name), write(design)
     layers = document["layers"]
-    layer = layers.pop(_layer(design, name))
+    layer = layers.pop(known)
     layers.insert(index if index >= 0 else len(layers) + 1 + index, layer)
     return read(document)
 
@@ -143,15 +147,16 @@ def with_shape(
     document = write(design)
     owner: Any = document
     if layer is not None:
-        owner = document["layers"][_layer(design, layer)]
+        known = _layer(design, layer)
+        owner = document["layers"][known]
     elif pattern is not None:
-        patterns = document.get("patterns", {})
+        patterns, pattern = document.get("patterns", {}), nfc(pattern)
         _known(pattern, patterns, "patterns", "pattern")
         owner = patterns[pattern]
         if isinstance(owner, str):
             owner = patterns[pattern] = {"text": owner}
     shapes = owner.setdefault("shapes", {})
-    _update(shapes.setdefault(key, {}), fields)
+    _update(shapes.setdefault(key := clean_name(key), {}), fields)
     if not shapes[key]:
         del shapes[key]
     return read(document)
@@ -166,19 +171,21 @@ def _update(target: dict[str, Any], fields: Mapping[str, Any]) -> None:
 
 
 def _member(document: dict[str, Any], section: str, name: str) -> dict[str, Any]:
-    member: dict[str, Any] = document.setdefault(section, {}).setdefault(name, {})
+    member: dict[str, Any] = document.setdefault(section, {}).setdefault(clean_name(name), {})
     return member
 
 
 def _layer(design: Design, name: str) -> int:
-    names = [layer.name for layer in design.layers]
+    name, names = nfc(name), [layer.name for layer in design.layers]
     _known(name, names, "layers", "layer")
     return names.index(name)
 
 
 def _known(name: str, names: Any, place: str, what: str) -> None:
     if name not in names:
-        listed = ", ".join(map(repr, names)) or "there is none"
+        known = listed(names) or "there is none"
         raise DesignError(
-            Fault(place, f"expected the name of a {what} ({listed}); found {name!r}{nearest(name, names)}")
+            Fault(
+                place, f"expected the name of a {what} ({known}); found {quoted(name)}{nearest(name, names)}"
+            )
         )

@@ -6,10 +6,11 @@ Whatever the document, what is told of it is a few lines: names are cut in the m
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from heapq import nsmallest
+from itertools import islice
 from typing import Any
 
 __all__ = [
@@ -53,9 +54,9 @@ def quoted(name: object) -> str:
 
 def listed(names: Iterable[object], most: int = _LISTED) -> str:
     """Names in quotation marks with commas, the first ones of many."""
-    found = list(names)
-    rest = len(found) - most
-    return ", ".join(map(quoted, found[:most])) + (f", … and {rest:,} more" if rest > 0 else "")
+    known = names if isinstance(names, Collection) else list(names)
+    rest = len(known) - most
+    return ", ".join(map(quoted, islice(known, most))) + (f", … and {rest:,} more" if rest > 0 else "")
 
 
 class FacadeError(Exception):

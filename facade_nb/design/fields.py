@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from numbers import Integral, Real
 from typing import Any, TypeVar
 
-from .errors import Fault, nearest
+from .errors import Fault, cut, nearest, quoted
+from .limits import LEAST_LENGTH, MOST_COUNT, MOST_LENGTH
 from .text import control_character
 
 __all__ = ["Faults", "at", "describe"]
@@ -21,6 +22,7 @@ def at(place: str, key: str | int) -> str:
     """The place of a member: ``layers[1]``, ``patterns.Bx``, ``symbols["front door"]``."""
     if isinstance(key, int):
         return f"{place}[{key}]"
+    key = cut(key)
     if re.fullmatch(r"\w+", key):
         return f"{place}.{key}" if place else key
     return f"{place}[{json.dumps(key, ensure_ascii=False)}]"
@@ -34,17 +36,21 @@ def describe(value: object) -> str:
         case bool():
             return "true" if value else "false"
         case str():
-            return repr(value) if len(value) <= 40 else f"{value[:40]!r}…"
+            return quoted(value)
         case int():
             return str(value) if value.bit_length() < 64 else "a very large number"
         case Real():
-            return str(value)
+            return cut(str(value))
         case Mapping():
             return "an object"
         case list() | tuple():
             return "a list"
         case _:
-            return f"a Python {type(value).__name__}"
+            return f"a Python {cut(type(value).__name__)}"
+
+
+_HINTS = 20
+"""So many faults are told with the nearest name. Looking for it takes longer the more names there are."""
 
 
 class Faults:
@@ -52,6 +58,10 @@ class Faults:
 
     def __init__(self) -> None:
         self.found: list[Fault] = []
+
+    def nearest(self, name: str, valid: Iterable[str]) -> str:
+        """What `errors.nearest` says, for the first faults; a document with more of them is refused as quickly."""
+        return nearest(name, valid) if len(self.found) < _HINTS else ""
 
     def add(self, place: str, message: str) -> None:
         """Note a fault."""
@@ -78,7 +88,7 @@ class Faults:
         fields = self.mapping(value, place)
         for key in fields:
             if key not in known:
-                hint = nearest(key, known) or f"; known are {', '.join(known)}"
+                hint = self.nearest(key, known) or f"; known are {', '.join(known)}"
                 self.add(at(place, key), f"unknown field {describe(key)}{hint}")
         if isinstance(value, Mapping):
             for key in required:
@@ -113,17 +123,24 @@ class Faults:
         if (positive and number <= 0) or (least is not None and number < least):
             self.expected(place, expected, value)
             return default
+        if abs(number) > MOST_LENGTH or (positive and number < LEAST_LENGTH):
+            low = f"{LEAST_LENGTH:f}" if positive else f"{-MOST_LENGTH if least is None else least:,.0f}"
+            self.expected(place, f"a number from {low} to {MOST_LENGTH:,.0f}", value)
+            return default
         return number
 
     def integer(self, value: object, place: str, default: T) -> int | T:
         """A whole number; 3.0 is one."""
-        if not isinstance(value, bool):
-            if isinstance(value, Integral):
-                return int(value)
-            if isinstance(value, float) and value.is_integer():
-                return int(value)
-        self.expected(place, "a whole number", value)
-        return default
+        if isinstance(value, bool) or not (
+            isinstance(value, Integral) or (isinstance(value, float) and value.is_integer())
+        ):
+            self.expected(place, "a whole number", value)
+            return default
+        number = int(value)
+        if abs(number) > MOST_COUNT:
+            self.expected(place, f"a whole number from {-MOST_COUNT:,} to {MOST_COUNT:,}", value)
+            return default
+        return number
 
     def flag(self, value: object, place: str, default: T) -> bool | T:
         """True or false."""
@@ -151,7 +168,7 @@ class Faults:
         for option in options:
             if value == option:
                 return option
-        hint = nearest(value, map(str, options)) if isinstance(value, str) else ""
+        hint = self.nearest(value, map(str, options)) if isinstance(value, str) else ""
         self.expected(place, f"one of {', '.join(map(str, options))}", value, hint)
         return options[0]
 

@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import lru_cache
-from unicodedata import category
-from unicodedata import name as unicode_name
+from itertools import takewhile
+from unicodedata import category, decomposition
 
 from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from .errors import PatternError
+from .lookalikes import described, is_unseen, meant, sign_classes
 from .text import fault_at
 
-__all__ = ["GRAMMAR", "read_tree", "refuse", "show"]
+__all__ = ["read_tree", "refuse", "show"]
 
-# A letter may carry combining marks; Python's `re` has no class for marks, so the lexer takes every sign that is
-# neither a word character nor an operator, and `reading` looks at it.
-_MARKS = r"[^\w\s\x00-\x7f·∘⊙’′−]"
+_HANGUL = "(?:[\u1100-\u115e\ua960-\ua97c][\u1161-\u11a7\ud7b0-\ud7c6]|[\uac00-\ud7a3])[\u11a8-\u11ff\ud7cb-\ud7fb]?"
+"""A syllable, also where its letters are stored one by one."""
 
-GRAMMAR = rf"""
+
+def _grammar() -> str:
+    """The grammar in lark's form. Python's `re` has no classes for letters and marks of scripts: they are listed."""
+    marks, foreign = sign_classes()
+    digit = rf"(?:(?![{foreign}])\d)"
+    letter = rf"(?:{_HANGUL}|(?![{foreign}])[^\W\d_])[{marks}]*"
+    return rf"""
 start: _SEP? alternation (_SEP substitution)* _SEP?
 substitution: (SYMBOL | LONG) _ASSIGN alternation
 ?alternation: sequence (BAR sequence)*
@@ -29,11 +36,11 @@ substitution: (SYMBOL | LONG) _ASSIGN alternation
 group: _LPAR alternation? _RPAR
 count: _CARET (MODE | BAR | DOT)? MINUS? (NUMBER | SYMBOL | BRACED)
 
-EPSILON.2: /ε(?!\d|{_MARKS})/
-SYMBOL: /[^\W\d_]{_MARKS}*\d*/
+EPSILON.2: /ε(?!{digit}|[{marks}])/
+SYMBOL: /{letter}{digit}*/
 LONG: /<[^<>\r\n]*>/
 BRACED: /\{{[^{{}}\r\n]*\}}/
-NUMBER: /\d+/
+NUMBER: /{digit}+/
 MIRROR: /['’′]/
 BAR: "|"
 DOT: "." | "·"
@@ -47,6 +54,7 @@ _SEP: /[;\r\n](?:[\s;]|#[^\r\n\ud800-\udfff]*)*/
 %ignore /[^\S\r\n]+/
 %ignore /#[^\r\n\ud800-\udfff]*/
 """
+
 
 _OPERAND = "a symbol, '(' or ε"
 _HINTS = {
@@ -63,21 +71,28 @@ _HINTS = {
     "@": "a reflection mode stands after '^', such as A^@k",
     ":": "a reflection mode stands after '^', such as A^:k; a substitution is written with ':='",
     "-": "a minus sign stands after '^', such as A^-1; longer names stand in angle brackets",
+    '"': "a mirrored instance is written with ', such as A'",
 }
+_SIGNS = "^~|'.:;@-()<>{}#ε"
+"""Signs of the language; ':=' is told as a whole."""
+_SHOWN = 40
+"""Most characters of a text that a sentence shows."""
+_READ = "’′"
+"""Signs that are read as another one, and may not be known to be."""
 
 
 @lru_cache(maxsize=1)
 def _parser() -> Lark:
-    return Lark(GRAMMAR, parser="lalr", lexer="basic")
+    return Lark(_grammar(), parser="lalr", lexer="basic")
 
 
 def read_tree(text: str) -> Tree[Token]:
     """The parse tree of a pattern text. Raises `PatternError` with line, column and caret."""
     try:
         return _parser().parse(text)
-    except UnexpectedInput:
-        pass
-    raise _explain(text)
+    except UnexpectedInput as error:
+        stopped = error
+    raise _explain(text, stopped)
 
 
 def refuse(text: str, offset: int, message: str) -> PatternError:
@@ -85,25 +100,27 @@ def refuse(text: str, offset: int, message: str) -> PatternError:
     return PatternError(fault_at(text, offset, message))
 
 
-def _explain(text: str) -> PatternError:
-    """Read a faulty text again, one token at a time, and say what stops it where."""
-    lexer = _parser().parse_interactive(text)
+def _explain(text: str, error: UnexpectedInput) -> PatternError:
+    """Read a faulty text again up to the place where it stops the parser, and say what stops it there.
+
+    The parser that stopped has reduced its stack already for the token that it then refused; this one has not seen it.
+    """
+    parser = _parser().parse_interactive(text)
     tokens: list[Token] = []
-    try:
-        for token in lexer.iter_parse():
+    offset, found = error.pos_in_stream or 0, ""
+    ended = isinstance(error, UnexpectedToken) and error.token.type == "$END"
+    lexer = parser.lexer_thread.lex(parser.parser_state)  # type: ignore[no-untyped-call]  # lark leaves it unannotated
+    with suppress(UnexpectedCharacters):
+        for token in takewhile(lambda token: ended or token.start_pos < offset, lexer):
+            parser.feed_token(token)
             tokens.append(token)
-        offset, found = max((token.end_pos or 0 for token in tokens if token.type != "_SEP"), default=0), ""
-    except UnexpectedCharacters as error:
-        offset = error.pos_in_stream or 0
+    if ended:
+        offset = max((token.end_pos or 0 for token in tokens if token.type != "_SEP"), default=0)
+    elif isinstance(error, UnexpectedToken):
+        found = str(error.token)
+    else:
         found = text[offset]
-    except UnexpectedToken as error:
-        tokens.pop()
-        offset, found = error.token.start_pos or 0, str(error.token)
-    # The parser has already reduced its stack for the token that it then refused: make one that has not seen it.
-    parser = _parser().parse_interactive("")
-    for token in tokens:
-        parser.feed_token(token)
-    return refuse(text, *_message(offset, _found_kind(text, offset, found), parser, tokens))
+    return refuse(text, *_message(text, offset, _found_kind(text, offset, found), parser, tokens))
 
 
 def _found_kind(text: str, offset: int, found: str) -> str:
@@ -113,11 +130,20 @@ def _found_kind(text: str, offset: int, found: str) -> str:
     return ";" if found.startswith(";") else found
 
 
-def _message(offset: int, found: str, parser: InteractiveParser, tokens: list[Token]) -> tuple[int, str]:
+def _message(
+    text: str, offset: int, found: str, parser: InteractiveParser, tokens: list[Token]
+) -> tuple[int, str]:
     """Where to point, and what to say."""
     if found in ("<", "{"):
         closing = {"<": ">", "{": "}"}[found]
+        rest = text[offset:].splitlines()[0]
+        near = next((n for n, sign in enumerate(rest) if meant(sign) == closing), None)
+        if near is not None:
+            return offset + near, f"expected {closing!r}; found {show(rest[near])}; {_probably(closing)}"
         return offset, f"this {found!r} is not closed: expected {closing!r} before the end of the line"
+    following = text[offset + 1 : offset + 2]
+    if found == ":" and following and meant(following) == "=":
+        return offset + 1, f"expected '=' after ':'; found {show(following)}; {_probably('=')}"
     opened: list[int] = []
     for token in tokens:
         if token.type == "_LPAR":
@@ -173,18 +199,54 @@ def _found(found: str) -> str:
 
 
 def show(found: str) -> str:
-    """A piece of text in quotation marks; a character that is not seen by itself by its number and name."""
-    if len(found) == 1 and (not found.isprintable() or category(found)[0] == "M"):
-        return f"U+{ord(found):04X} ({unicode_name(found, 'unnamed character').lower()})"
-    return f'"{found}"' if "'" in found else f"'{found}'"
+    """A piece of text in quotation marks; a character that may be taken for another one with its number and name."""
+    if len(found) != 1:
+        return _quoted(found if len(found) <= _SHOWN else found[:_SHOWN] + "…")
+    if not found.isprintable() or category(found)[0] == "M" or is_unseen(found):
+        number, name = described(found).split(", ", 1)
+        return f"{number} ({name})"
+    return f"{_quoted(found)} ({described(found)})" if meant(found) and found not in "·−" else _quoted(found)
+
+
+def _quoted(text: str) -> str:
+    return f'"{text}"' if "'" in text else f"'{text}'"
+
+
+def _probably(sign: str) -> str:
+    return f"{_quoted(sign)} was probably meant"
 
 
 def _hint(found: str, complete: bool) -> str:
     """A word on what may have been meant."""
+    if len(found) == 1:
+        if is_unseen(found) or found in "\u200c\u200d":
+            return "; it is not seen: take it out"
+        if found in _READ:
+            return "; it is read as ', which stands after what it mirrors"
+        sign = meant(found) if found not in "·−" else found.replace("−", "-")
+        if sign and sign != found:
+            return _hint_of(found, sign, complete)
     if found in _HINTS and (complete or found not in "~@:-"):
         return f"; {_HINTS[found]}"
     if found.isdecimal():
         return "; a count is written with '^', such as A^2" if complete else ""
-    if len(found) == 1 and not found.isascii() and category(found)[0] in "SP" and found not in "·∘⊙’′−":
+    if len(found) == 1 and not found.isascii() and found not in "·∘⊙−" and _is_sign(found):
         return "; only letters name symbols, other signs stand in angle brackets"
     return ""
+
+
+def _is_sign(found: str) -> bool:
+    return category(found)[0] in "SPN" or category(found) == "Lm"
+
+
+def _hint_of(found: str, sign: str, complete: bool) -> str:
+    """The same for a character that stands for another one."""
+    if sign in _SIGNS or sign == ":=":
+        return f"; {_probably(sign)}"
+    if sign in _HINTS:
+        return f"; {_HINTS[sign]}"
+    if complete and decomposition(found).startswith("<super>") and sign.isalnum():
+        return f"; a count is written with '^', such as A^{sign}"
+    if "fraktur" in described(found):
+        return f"; a mirrored {sign} is written {sign}'"
+    return f"; {_probably(sign)}" if sign.isalnum() else ""

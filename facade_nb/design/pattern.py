@@ -29,9 +29,11 @@ from .tree import (
     check_room,
     choices,
     concatenation,
+    letters_at,
     spellings,
     unparse,
     walk,
+    ways_at_most,
 )
 
 __all__ = [
@@ -223,6 +225,15 @@ class Pattern:
                 rest = ((name, own.get(name, contents[name][0])) for name in self.substituted)
                 found.append(Pattern(control, tuple(rest)))
         return tuple(found)
+
+    def most_ways(self) -> int:
+        """How many `ways` there are at most: choices that come to the same are counted each."""
+        return ways_at_most(self.control) * prod(ways_at_most(content) for _, content in self.substitutions)
+
+    def fewest_letters(self, counters: Mapping[str, int]) -> int:
+        """Letters of the shortest word for these counter values, shared letters of reflections counted twice."""
+        contents = {name: letters_at(content, {}, counters, min) for name, content in self.substitutions}
+        return letters_at(self.control, contents, counters, min)
 
     def spell(self, counters: Mapping[str, int]) -> Iterator[GlyphFields]:
         """The fields of each `Glyph` of the first word for these counter values: quicker than `words`.

@@ -2,16 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TypeAlias
-from unicodedata import category
 
 from lark import Token, Tree
 
-from .errors import nearest
-from .grammar import read_tree, refuse, show
+from .errors import DesignError, listed, nearest, quoted
+from .grammar import read_tree, refuse
+from .lookalikes import is_foreign
 from .pattern import Pattern, Site
 from .text import clean_name, counter_fault, symbol_fault
-from .tree import MAX_LETTERS, Count, Empty, Mirror, Node, Sym, alternation, concatenation
+from .tree import (
+    MAX_LETTERS,
+    MAX_WORDS,
+    MODES,
+    Count,
+    Empty,
+    Mirror,
+    Node,
+    Sym,
+    alternation,
+    concatenation,
+    longest,
+    too_long,
+)
 
 __all__ = ["MAX_DEPTH", "MAX_TEXT", "read_pattern"]
 
@@ -49,7 +63,8 @@ class _Reader:
         control, *rest = read_tree(self.text).children
         node = self.node(control, 0)
         if not rest:
-            return Pattern(node, (), self.text, tuple(self.sites))
+            self.check_length(node, {}, 0)
+            return self.checked(Pattern(node, (), self.text, tuple(self.sites)))
         statements = [_two(statement) for statement in rest]
         targets = [self.name(target) for target, _ in statements]
         sites = self._control_sites(targets)
@@ -59,7 +74,20 @@ class _Reader:
             start = len(self.sites)
             contents[name] = self.node(content, 0)
             self._check_content(name, start, sites)
-        return Pattern(node, tuple(contents.items()), self.text, tuple(self.sites))
+        lengths = {name: longest(content, {}) for name, content in contents.items()}
+        self.check_length(
+            node, lengths, next(site.offset for site in self.sites if site.role == "substituted")
+        )
+        return self.checked(Pattern(node, tuple(contents.items()), self.text, tuple(self.sites)))
+
+    def checked(self, pattern: Pattern) -> Pattern:
+        """The pattern, if it does not have too many words."""
+        if pattern.most_ways() > MAX_WORDS:
+            try:
+                pattern.ways()  # equal ones are counted once
+            except DesignError as error:
+                raise refuse(self.text, 0, error.faults[0].message) from None
+        return pattern
 
     def _control_sites(self, targets: list[tuple[str, int]]) -> list[Site]:
         """Give the control pattern's sites their roles; each target must stand there and have one content."""
@@ -67,13 +95,16 @@ class _Reader:
         names: set[str] = set()
         for name, offset in targets:
             if name in names:
-                raise refuse(self.text, offset, f"{name!r} is already substituted; a symbol has one content")
+                raise refuse(
+                    self.text, offset, f"{quoted(name)} is already substituted; a symbol has one content"
+                )
             if name not in control:
-                one_of = ", ".join(map(repr, control)) or "none, it has no symbols"
+                one_of = listed(control) or "none, it has no symbols"
                 raise refuse(
                     self.text,
                     offset,
-                    f"expected a symbol of the control pattern ({one_of}); found {name!r}{nearest(name, control)}",
+                    f"expected a symbol of the control pattern ({one_of}); found {quoted(name)}"
+                    + nearest(name, control),
                 )
             names.add(name)
         for index, site in enumerate(self.sites):
@@ -149,16 +180,12 @@ class _Reader:
                         self.text, offset, "expected one minus sign, before the brace or in it; found two"
                     )
                 negative, text = True, text[1:].lstrip()
-        if text.isdecimal():
-            return Count(body, mode, negative, self.number(text, offset))
+        if text.isdecimal() and not any(map(is_foreign, text)):
+            found = Count(body, mode, negative, self.number(text, offset))
+            self.check_length(found, {}, offset)
+            return found
         if token.type == "BRACED":
-            fault = (
-                counter_fault(text)
-                if text
-                else "expected a number or a counter between '{' and '}'; found nothing"
-            )
-            if fault:
-                raise refuse(self.text, offset, fault)
+            self.check_counter(text, offset)
         else:
             text, _ = self.name(token)
         for site in self.sites[first:]:
@@ -170,6 +197,23 @@ class _Reader:
         self.counted.update(dict.fromkeys(range(first, len(self.sites)), text))
         self.sites.append(Site(text, "counter", offset))
         return Count(body, mode, negative, text)
+
+    def check_counter(self, name: str, offset: int) -> None:
+        """Check what stands in braces, which is no number."""
+        if not name:
+            raise refuse(
+                self.text, offset, "expected a number or a counter between '{' and '}'; found nothing"
+            )
+        fault = counter_fault(name)
+        if fault:
+            found = "" if name[0] in MODES else f"expected a number or a counter; found {quoted(name)}: "
+            raise refuse(self.text, offset, found + fault)
+
+    def check_length(self, node: Node, contents: Mapping[str, int], offset: int) -> None:
+        """Refuse words that are too long whatever the counters are."""
+        letters = longest(node, contents)
+        if letters > MAX_LETTERS:
+            raise refuse(self.text, offset, too_long(letters))
 
     def number(self, digits: str, offset: int) -> int:
         digits = digits.lstrip("0")
@@ -188,15 +232,6 @@ class _Reader:
             if fault:
                 raise refuse(self.text, offset, f"expected a name between '<' and '>': {fault}")
             return name, offset
-        if not text.isascii():
-            if not text[0].isalpha():
-                message = f"expected a symbol, which begins with a letter; found {text[0]!r}"
-                hint = "; a count is written with '^', such as A^2" if text[0].isdigit() else ""
-                raise refuse(self.text, offset, message + hint)
-            for index, sign in enumerate(text[1:], 1):
-                if not sign.isdecimal() and category(sign)[0] != "M":
-                    message = f"expected an operator, a symbol or the end; found {show(sign)}"
-                    raise refuse(self.text, offset + index, message)
         return clean_name(text), offset
 
 

@@ -6,13 +6,17 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
-from .errors import PatternError, nearest
+from .errors import PatternError, listed, quoted
 from .fields import Faults, at
+from .inputs import Members
+from .limits import nearest_zero
 from .model import Canvas, Counter, Design, Layer, LayerAxis, PatternDef, Placement, Shape, Symbol
+from .names import nfc
 from .pattern import Pattern, parse
 from .text import clean_name, counter_fault, fault_at, symbol_fault
+from .tree import MAX_LETTERS, too_long
 
-__all__ = ["FORMAT", "DocumentReader", "Members"]
+__all__ = ["FORMAT", "DocumentReader"]
 
 FORMAT = "facade-nb/design/1"
 """What a document's `format` says."""
@@ -23,21 +27,9 @@ _SHAPE_FIELDS = tuple(field.name for field in fields(Shape))
 _SYMBOL_FIELDS = tuple(field.name for field in fields(Symbol))[1:]
 _FLAGS = {"opaque": True, "attached": False, "unoccludable": False, "transparent": False}
 _PLACEMENTS: tuple[Placement, ...] = ("center", "left", "right")  # the first is the default
+_MAX_BLANKS = 40
+"""Most blanks at which the key of a shape may be parted into two names."""
 _LOOKALIKES = "ϵєɛ"  # letters that a text copied from a paper may have for ε
-
-
-class Members(dict[str, Any]):
-    """A JSON object that remembers which of its keys stand in it twice."""
-
-    def __init__(self, pairs: list[tuple[str, Any]]) -> None:
-        super().__init__(pairs)
-        self.repeated: list[str] = []
-        if len(self) < len(pairs):
-            seen: set[str] = set()
-            for key, _ in pairs:
-                if key in seen:
-                    self.repeated.append(key)
-                seen.add(key)
 
 
 class DocumentReader:
@@ -82,6 +74,7 @@ class DocumentReader:
         layers = self.layers(values.get("layers", ()))
         shapes = self.shapes(values.get("shapes", {}), "shapes")
         self.check_sizes()
+        self.check_letters(counters)
         self.check_keys()
         return Design(name, canvas, self.symbols, counters, patterns, layers, shapes)
 
@@ -99,7 +92,7 @@ class DocumentReader:
             name = naming(key, place)
             if name in found:
                 self.faults.add(
-                    place, f"{name!r} stands twice, once in another Unicode form or with other blanks"
+                    place, f"{quoted(name)} stands twice, once in another Unicode form or with other blanks"
                 )
             found[name] = member(name, value, place)
         return found
@@ -121,8 +114,8 @@ class DocumentReader:
         return name
 
     def pattern_name(self, key: str, place: str) -> str:
-        """A pattern's name, as it is."""
-        return self.faults.text(key, place, key)
+        """A pattern's name in composed form."""
+        return nfc(self.faults.text(key, place, key))
 
     def canvas(self, value: object) -> Canvas:
         """The canvas; what is missing has its default."""
@@ -200,6 +193,7 @@ class DocumentReader:
         if value is None:
             return None
         parsed = self.patterns.get(pattern)
+        known = frozenset(parsed.symbols if parsed else ())
         found: dict[str, None] = {}
         for index, item in enumerate(self.faults.sequence(value, place, "a list of symbols")):
             name = self.faults.text(item, at(place, index), None)
@@ -207,10 +201,11 @@ class DocumentReader:
                 continue
             name = clean_name(name)
             found[name] = None
-            if parsed is not None and name not in parsed.symbols:
-                known = ", ".join(map(repr, parsed.symbols)) or "none, it has no symbols"
-                expected = f"a symbol of pattern {pattern!r} ({known})"
-                self.faults.expected(at(place, index), expected, name, nearest(name, parsed.symbols))
+            if parsed is not None and name not in known:
+                names = listed(parsed.symbols) or "none, it has no symbols"
+                expected = f"a symbol of pattern {quoted(pattern)} ({names})"
+                hint = self.faults.nearest(name, parsed.symbols)
+                self.faults.expected(at(place, index), expected, name, hint)
         return tuple(found)
 
     def layers(self, value: object) -> tuple[Layer, ...]:
@@ -222,7 +217,8 @@ class DocumentReader:
             layer = self.layer(item, place)
             if layer.name in places:
                 self.faults.add(
-                    at(place, "name"), f"expected a name of its own; {layer.name!r} is {places[layer.name]}"
+                    at(place, "name"),
+                    f"expected a name of its own; {quoted(layer.name)} is {places[layer.name]}",
                 )
             elif layer.name:
                 places[layer.name] = place
@@ -234,7 +230,7 @@ class DocumentReader:
         faults = self.faults
         known = ("name", "x", "y", "depth", "visible", "shapes")
         values = faults.record(value, place, known, ("name", "x", "y"))
-        name = faults.text(values["name"], at(place, "name"), "") if "name" in values else ""
+        name = nfc(faults.text(values["name"], at(place, "name"), "")) if "name" in values else ""
         x, y = (
             self.axis(values[key], at(place, key)) if key in values else LayerAxis("") for key in ("x", "y")
         )
@@ -247,14 +243,16 @@ class DocumentReader:
         values = self.faults.record(value, place, ("pattern", "group", "mask"), ("pattern",))
         pattern = ""
         if "pattern" in values:
-            pattern = self.faults.text(values["pattern"], at(place, "pattern"), "")
+            pattern = nfc(self.faults.text(values["pattern"], at(place, "pattern"), ""))
             if pattern and pattern not in self.patterns:
-                names = ", ".join(map(repr, self.patterns)) or "there is none"
-                hint = nearest(pattern, self.patterns)
+                names = listed(self.patterns) or "there is none"
+                hint = self.faults.nearest(pattern, self.patterns)
                 self.faults.expected(at(place, "pattern"), f"the name of a pattern ({names})", pattern, hint)
         default = LayerAxis(pattern)
         group = self.faults.text(values.get("group", default.group), at(place, "group"), default.group)
-        return LayerAxis(pattern, group, self.symbol_list(values.get("mask"), at(place, "mask"), pattern))
+        return LayerAxis(
+            pattern, nfc(group), self.symbol_list(values.get("mask"), at(place, "mask"), pattern)
+        )
 
     def shapes(self, value: object, place: str) -> dict[str, Shape]:
         """Shapes by key; whether the keys name symbols is checked once all symbols are known."""
@@ -264,7 +262,7 @@ class DocumentReader:
             key = clean_name(raw)
             if key in shapes:
                 self.faults.add(
-                    inside, f"{key!r} stands twice, once in another Unicode form or with other blanks"
+                    inside, f"{quoted(key)} stands twice, once in another Unicode form or with other blanks"
                 )
             self.keys.append((inside, key))
             shapes[key] = self.shape(item, inside)
@@ -301,12 +299,33 @@ class DocumentReader:
                     continue
                 told.add(symbol)
                 message = (
-                    f"symbol {symbol!r} has no size: expected {at(at('symbols', symbol), 'size')}, "
+                    f"symbol {quoted(symbol)} has no size: expected {at(at('symbols', symbol), 'size')}, "
                     "for only placeholders of control patterns go without"
                 )
-                hint = "; the empty word is written ε" if symbol in _LOOKALIKES else nearest(symbol, sized)
+                hint = (
+                    "; the empty word is written ε"
+                    if symbol in _LOOKALIKES
+                    else self.faults.nearest(symbol, sized)
+                )
                 self.faults.found.append(
                     fault_at(pattern.text, site.offset, message + hint, at("patterns", name))
+                )
+
+    def check_letters(self, counters: Mapping[str, Counter]) -> None:
+        """Every pattern has a word that is not too long with its counters as near to 0 as they may be."""
+        least = {name: nearest_zero(own) for name, own in counters.items()}
+        for name, pattern in self.patterns.items():
+            if pattern is None or not any(map(least.get, pattern.counters)):
+                continue  # words that are too long whatever the counters are were refused with their text
+            letters = pattern.fewest_letters(least)
+            if letters > MAX_LETTERS:
+                counter = max(pattern.counters, key=lambda own: abs(least.get(own, 0)))
+                own = counters[counter]
+                field = "value" if own.value is not None else "min" if own.min > 0 else "max"
+                self.faults.add(
+                    at(at("counters", counter), field),
+                    f"expected a count with which pattern {quoted(name)} can be written out; "
+                    f"found {getattr(own, field):,}: {too_long(letters)}",
                 )
 
     def check_keys(self) -> None:
@@ -315,7 +334,7 @@ class DocumentReader:
         known = dict.fromkeys((*used, *self.symbols))
         unsure = None in self.patterns.values()  # a pattern that cannot be read may use any symbol
         for place, key in self.keys:
-            words = key.split(" ")
+            words = key.split(" ", _MAX_BLANKS)
             pairs = [(" ".join(words[:cut]), " ".join(words[cut:])) for cut in range(1, len(words))]
             if not pairs:
                 expected = "two symbols with a blank between them, horizontal first, such as 'A P' or 'A *'"
@@ -323,5 +342,5 @@ class DocumentReader:
             elif not unsure and not any(all(name == "*" or name in known for name in pair) for pair in pairs):
                 for name in pairs[0] if len(pairs) == 1 else (key,):
                     if name != "*" and name not in known:
-                        hint = nearest(name, known)
+                        hint = self.faults.nearest(name, known)
                         self.faults.expected(place, "symbols that a pattern uses, or *", name, hint)

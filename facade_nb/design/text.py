@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
-from unicodedata import category, combining, east_asian_width, normalize
+from unicodedata import category, combining, decomposition, east_asian_width
 
 from .errors import Fault
+from .lookalikes import described, is_foreign, is_unseen, meant
+from .names import is_identifier, nfc
 
 __all__ = [
     "clean_name",
@@ -22,11 +24,18 @@ __all__ = [
 _LINE_END = re.compile(r"\r\n|\r|\n")
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufffe\uffff]")
 _EXCERPT_WIDTH = 88
+_BRACKETS = ("<", ">", "{", "}")
+_PIECES = re.compile("[\u1100-\u11ff\ua960-\ua97f\ud7b0-\ud7ff]")
+"""Letters of which Korean syllables are made: side by side they would be one letter."""
+_COUNTER = (
+    "a counter's name is made of letters, digits and _, and begins with a letter, such as {floors}; nothing is "
+    "computed in it: 2k copies of B are (B^2)^k, k + 1 are B^k B"
+)
 
 
 def clean_name(name: str) -> str:
     """The name in Unicode's composed form (NFC), without blanks around it and with single ones inside."""
-    return normalize("NFC", " ".join(name.split()))
+    return nfc(" ".join(name.split()))
 
 
 def control_character(text: str) -> str:
@@ -43,20 +52,43 @@ def symbol_fault(name: str) -> str:
         return "a name has no control characters"
     if set(name) & set("<>{}"):
         return "a name has none of < > { }"
+    if category(name[0])[0] == "M":
+        return f"a name does not begin with a mark ({described(name[0])})"
+    for sign in dict.fromkeys(name):
+        if is_unseen(sign):
+            return f"a name has no characters that are not seen ({described(sign)})"
+        if decomposition(sign).startswith(("<wide>", "<narrow>")) or meant(sign) in _BRACKETS:
+            return f"'{sign}' ({described(sign)}) stands in it; '{meant(sign)}' was probably meant"
     return "'*' is the wildcard of shapes" if name == "*" else ""
 
 
 def counter_fault(name: str) -> str:
     """Why a cleaned name cannot name a counter, or an empty text where it can."""
-    fault = symbol_fault(name)
-    if not fault and name[0] in "-−~|.:@·∘⊙":
+    if not name or control_character(name) or name == "*":
+        return symbol_fault(name)
+    for sign in dict.fromkeys(name):
+        if meant(sign) and is_foreign(sign):
+            return f"'{sign}' ({described(sign)}) stands in it; '{meant(sign)}' was probably meant"
+        if is_unseen(sign):
+            return f"a name has no characters that are not seen ({described(sign)})"
+    if name[0] in "~|.:@·∘⊙":
         return f"a counter's name does not begin with {name[0]!r}; a mode stands before the brace, as in ^~{{floors}}"
-    return fault or ("a number is no name" if name.isdecimal() else "")
+    if name.isdecimal():
+        return "a number is no name"
+    # Unicode's rule counts the middle dot in, which is a sign of multiplication here
+    if not all(map(is_identifier, name.split(" "))) or "\u00b7" in name:
+        return _COUNTER
+    return ""
 
 
 def _is_short(name: str) -> bool:
-    """Whether patterns can write the name bare: one letter, then digits; ε alone is the empty word."""
-    return name[:1].isalpha() and name != "ε" and (len(name) == 1 or name[1:].isdecimal())
+    """Whether patterns can write the name bare: one letter with its marks, then digits; ε alone is the empty word."""
+    if not name[:1].isalpha() or name == "ε" or is_foreign(name[0]) or _PIECES.match(name):
+        return False
+    rest = name[1:].lstrip(
+        "".join(sign for sign in name[1:] if category(sign)[0] == "M" and not is_unseen(sign))
+    )
+    return not rest or (rest.isdecimal() and not any(map(is_foreign, rest)))
 
 
 def spell(symbol: str) -> str:

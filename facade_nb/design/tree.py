@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, product
 from math import prod
@@ -26,10 +26,14 @@ __all__ = [
     "check_room",
     "choices",
     "concatenation",
+    "letters_at",
+    "longest",
     "mirrored",
     "spellings",
+    "too_long",
     "unparse",
     "walk",
+    "ways_at_most",
 ]
 
 MODES: Mapping[str, str] = {
@@ -189,6 +193,57 @@ def choices(node: Node) -> list[Node]:
             return [node]
 
 
+def longest(node: Node, contents: Mapping[str, int], counters: Mapping[str, int] | None = None) -> int:
+    """Letters of the longest word, counted without spelling it; never fewer than it has.
+
+    Parameters
+    ----------
+    contents
+        Letters of what is substituted, by symbol.
+    counters
+        Values of counters; those without one are 0.
+    """
+    return letters_at(node, contents, counters or {}, max)
+
+
+def letters_at(
+    node: Node, contents: Mapping[str, int], counters: Mapping[str, int], of: Callable[[Iterable[int]], int]
+) -> int:
+    """Letters of the longest or of the shortest word (`of`: max or min).
+
+    Letters that a reflection shares are counted twice, as where a word is spelled.
+    """
+    match node:
+        case Sym(name=name):
+            return contents.get(name, 1)
+        case Concat(parts=parts):
+            return sum(letters_at(part, contents, counters, of) for part in parts)
+        case Alt(options=options):
+            return of([letters_at(option, contents, counters, of) for option in options])
+        case Mirror(body=body):
+            return letters_at(body, contents, counters, of)
+        case Count(body=body, mode=mode, value=value):
+            times = counters.get(value, 0) if isinstance(value, str) else value
+            if times == 0:
+                return 0
+            return abs(times) * (2 if mode else 1) * letters_at(body, contents, counters, of)
+        case _:
+            return 0
+
+
+def ways_at_most(node: Node) -> int:
+    """How many choices of alternatives a tree has; equal ones are counted as often as they stand in it."""
+    match node:
+        case Concat(parts=parts):
+            return prod(map(ways_at_most, parts))
+        case Alt(options=options):
+            return sum(map(ways_at_most, options))
+        case Mirror(body=body) | Count(body=body):
+            return ways_at_most(body)
+        case _:
+            return 1
+
+
 def mirrored(word: Spelling) -> Spelling:
     """The word reversed, every letter mirrored; a mirrored letter becomes a normal one."""
     return tuple((symbol, not flag) for symbol, flag in reversed(word))
@@ -269,7 +324,7 @@ def _repeat(base: Spelling, mode: str, count: int) -> Spelling:
 def check_room(length: int = 0, total: int = 0, words: int = 0) -> None:
     """Refuse a word of too many letters, too many letters in all, or too many words (`DesignError`)."""
     if length > MAX_LETTERS:
-        raise DesignError(f"a word would have {length:,} letters; at most {MAX_LETTERS:,} are possible")
+        raise DesignError(too_long(length))
     if total > _MAX_TOTAL:
         raise DesignError(
             f"the words would have over {_MAX_TOTAL:,} letters together; use fewer alternatives"
@@ -278,3 +333,9 @@ def check_room(length: int = 0, total: int = 0, words: int = 0) -> None:
         raise DesignError(
             f"there would be over {MAX_WORDS:,} words for one choice of counters; use fewer alternatives"
         )
+
+
+def too_long(letters: int) -> str:
+    """What is said of a word of too many letters."""
+    shown = f"{letters:,}" if letters < 10**12 else "over 1,000,000,000,000"
+    return f"a word would have {shown} letters; at most {MAX_LETTERS:,} are possible"

@@ -10,7 +10,8 @@ from heapq import heappop, heappush
 from itertools import product
 from math import inf
 
-from ..design.errors import DesignError, Fault, NoLayout
+from ..design.errors import DesignError, NoLayout
+from ..design.limits import range_faults
 from ..design.model import AXES, Axis, Design
 from .alignment.core.binding import start_afresh
 from .analysis.systems import analyse
@@ -89,13 +90,9 @@ def solve(
         raise TypeError(
             f"solve: expected a Design, found {type(design).__name__}; Design.from_dict reads a document"
         )
-    for axis in AXES:
-        if not 0 < design.canvas.along(axis) < inf:
-            field = "width" if axis == "x" else "height"
-            found = design.canvas.along(axis)
-            raise DesignError(
-                Fault(f"canvas.{field}", f"expected a positive number of metres, found {found!r}")
-            )
+    faults = range_faults(design)
+    if faults:
+        raise DesignError(faults)
     if time_limit is not None and not time_limit >= 0:
         raise ValueError(f"time_limit: expected seconds, 0 or more, found {time_limit!r}")
     if not tolerances or any(not 0 <= t <= 1 for t in tolerances) or list(tolerances) != sorted(tolerances):

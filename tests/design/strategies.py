@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from typing import Any
+from unicodedata import category
 
 from hypothesis import strategies as st
 
@@ -23,8 +24,25 @@ from facade_nb.design.pattern import Alt, Concat, Count, Empty, Mirror, Node, Sy
 from facade_nb.design.text import clean_name, counter_fault, symbol_fault
 from facade_nb.design.tree import MODES, alternation, concatenation
 
-NAMES = ["A", "B", "e", "b2", "Δ", "É", "漢", "window", "front door", "ε", "ε1", "x-1", "a;b#c"]
-COUNTERS = ["k", "n2", "κ", "floors", "of bays", "k-1"]
+NAMES = [
+    "A",
+    "B",
+    "e",
+    "b2",
+    "Δ",
+    "É",
+    "漢",
+    "กู่",
+    "कि2",
+    "שָ",
+    "window",
+    "front door",
+    "ε",
+    "ε1",
+    "x-1",
+    "a;b#c",
+]
+COUNTERS = ["k", "n2", "κ", "floors", "of bays", "k_1", "ชั้น", "मंज़िल"]
 
 names = st.sampled_from(NAMES) | st.text(min_size=1, max_size=6).map(clean_name).filter(
     lambda name: not symbol_fault(name)
@@ -94,7 +112,9 @@ def spellings_of(draw: st.DrawFn, text: str) -> str:
     """Another spelling of a canonical text: blanks, comments, other glyphs, new lines for semicolons."""
     glyphs = {"'": "'’′", ";": ";\n", "-": "-−"}
     modes = {".": ".·", ":": ":∘", "@": "@⊙"}
-    tokens = re.findall(r"<[^>]*>|\{[^}]*\}|:=|\^|[^\W\d]\d*|\d+|\S", text)
+    marks = "".join(sign for sign in set(text) if category(sign)[0] == "M")
+    letter = rf"[^\W\d][{re.escape(marks)}]*" if marks else r"[^\W\d]"
+    tokens = re.findall(rf"<[^>]*>|\{{[^}}]*\}}|:=|\^|{letter}\d*|\d+|\S", text)
     out = []
     for before, token in zip(["", *tokens], tokens, strict=False):
         spelled = draw(st.sampled_from((modes if before == "^" else glyphs).get(token, [token])))

@@ -412,7 +412,7 @@ def test_a_link_is_written_through(tmp_path: Path) -> None:
     ("content", "message"),
     [
         (None, "cannot be read as a file: No such file or directory"),
-        (b"\xff\xfe", "this file is not UTF-8 text: byte 0 cannot be read"),
+        (b"\xff\xfe", "cannot be read as a design: it is not text in UTF-8; it looks like UTF-16"),
         (b"{", "line 1, column 2: this is not JSON: expecting property name enclosed in double quotes"),
     ],
 )

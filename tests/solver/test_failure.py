@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
 
 from facade_nb import Design, DesignError, NoLayout, solve
-from facade_nb.design import Suggestion, edit
+from facade_nb.design import Canvas, Suggestion, Symbol, edit
 from facade_nb.solver import Objective
 from facade_nb.solver import solution as solving
 from facade_nb.solver.assembly import shapes as merging
@@ -72,6 +74,52 @@ class TestWords:
         error = refused(design({"A": 0.5}, {"wall": "AA"}, ["wall"]))
         assert "cannot fill the canvas" in str(error) and "Counter" not in str(error)
         assert error.counters == ()
+
+    @pytest.mark.parametrize(
+        ("text", "canvas", "counters", "told"),
+        [
+            (
+                "(bgr)^k",
+                5.0,
+                {},
+                "its words measure 0 m or 15 m or more, and the canvas is 5 m wide. Nearest are ε and b g r.",
+            ),
+            ("(bgr)^k", 5.0, {"max": 1}, "its words measure 0 m or 15 m, and"),
+            ("(bgr)^-k", 5.0, {}, "its words measure 0 m or 15 m or more, and"),
+            ("(bgr)^k", 5.0, {"min": -2, "max": 0}, "its words measure 0 m or 15 m or more, and"),
+            ("(bgr)^@k", 5.0, {}, "its words measure 0 m or 25 m or more, and"),
+            ("(bgr)^k|A", 5.0, {}, "its words measure at most 1 m or 15 m or more, and"),
+            (
+                "A|B",
+                4.0,
+                {},
+                "its words measure 1 m or 10 m, and the canvas is 4 m wide. Nearest are A and B.",
+            ),
+            ("A|AA|B", 5.5, {}, "its words measure at most 2 m or 10 m, and"),
+            ("A^k|B", 5.0, {"max": 2}, "its words measure at most 2 m or 10 m, and"),
+            ("A(bgr)^k(BB)^m", 8.0, {}, "its words measure 1 m or 16 m or more, and"),
+            (
+                "()",
+                5.0,
+                {},
+                "its longest word, ε, measures 0 m and cannot fill the canvas, which is 5 m wide.",
+            ),
+            ("A^k", 5.0, {"max": 2}, "its longest word, A A, measures 2 m and cannot fill the canvas"),
+        ],
+    )
+    def test_words_that_are_too_short_or_too_long(
+        self, text: str, canvas: float, counters: dict[str, int], told: str
+    ) -> None:
+        sizes = {"b": 5.0, "g": 5.0, "r": 5.0, "A": 1.0, "B": 10.0}
+        error = refused(design(sizes, {"wall": text}, ["wall"], canvas, counters={"k": counters}))
+        assert str(error).startswith(f"Pattern 'wall': {told}")
+        assert (error.constraint, error.patterns) == ("canvas", ("wall",))
+
+    def test_a_width_of_either_length_is_proposed(self) -> None:
+        error = refused(
+            design({"A": 1.0, "B": 10.0}, {"wall": "A|B"}, ["wall"], 8.0, counters={}), tolerances=(0.0,)
+        )
+        assert error.suggestions[0].path == ("canvas", "width") and error.suggestions[0].value == 10.0
 
     def test_what_the_message_proposes_works(self) -> None:
         assert solve(design({"A": 1.0, "B": 2.0}, {"w": "A(BA)^3"}, ["w"], width=10.0)).x.cost == 0.0
@@ -223,12 +271,12 @@ class TestMore:
             edit.take(one, error.suggestion)
 
     def test_no_word_of_that_size(self) -> None:
-        """Three of A are too short at this tolerance, and four too long: one is seen as too short."""
+        """Three of A are too short at this tolerance, and four too long."""
         one = design({"A": 1.3}, {"a": "A^k"}, ["a"], 4.5)
         error = refused(one, objective=Objective.paper(), tolerances=(0.1,))
         assert str(error) == (
-            "Pattern 'a': its longest word, A A A, measures 3.9 m and cannot fill the canvas, which is 4.5 m wide. "
-            "It would work with a width of 3.9 m, or with 'A' of 1.5 m."
+            "Pattern 'a': its words measure at most 3.9 m or 5.2 m or more, and the canvas is 4.5 m wide. Nearest are "
+            "A A A and A A A A. It would work with a width of 3.9 m, or with 'A' of 1.5 m."
         )
 
     def test_too_long_or_too_short(self) -> None:
@@ -350,8 +398,36 @@ class TestDisplay:
         assert str(error) == error.message
         assert error._render_traceback_() == [f"NoLayout: {error.message}"]
 
+    @pytest.mark.parametrize("size", [1e-308, 1e308])
+    def test_sizes_beyond_what_can_be_computed(self, size: float) -> None:
+        """A design that was made, not read, is checked before it is solved."""
+        one = design({"A": 1.0}, {"wall": "A^k"}, ["wall"])
+        for broken, place in [
+            (replace(one, canvas=Canvas(size, 2.0)), "canvas.width"),
+            (replace(one, symbols={**one.symbols, "A": Symbol("A", size)}), "symbols.A.size"),
+        ]:
+            with pytest.raises(
+                DesignError, match=rf"{place}: expected a length from 0.000001 to 1,000,000 m, found"
+            ):
+                solve(broken)
+
+    @pytest.mark.parametrize(
+        ("width", "size"), [(1e6, 1e-6), (1e-6, 1e6), (1e6, 1e6), (1e-6, 1e-6), (1e6, 3.0)]
+    )
+    def test_sizes_at_the_ends_of_what_can_be(self, width: float, size: float) -> None:
+        for text in ("A^k", "A", "A|AA", "A^kA^m"):
+            one = design({"A": size}, {"wall": text}, ["wall"], width)
+            try:
+                assert solve(one).x.groups["g"].columns
+            except NoLayout as error:
+                assert str(error).startswith("Pattern 'wall'") and len(str(error)) < 400
+
+    def test_names_of_megabytes(self) -> None:
+        name = "x" * 1_000_000
+        error = refused(design({"A": 9.0}, {name: "A"}, [name]))
+        assert str(error).startswith("Pattern 'xxx") and len(str(error)) < 300
+
     def test_words_that_cannot_be_listed(self) -> None:
-        """A count of thousands is the design's fault, and told as one."""
-        one = design({"A": 1.0}, {"wall": "A^k"}, ["wall"], counters={"k": {"value": 10**8}})
-        with pytest.raises(DesignError, match="a word would have 100,000,000 letters"):
-            solve(one)
+        """A count of thousands is the design's fault, and told as one when it is read."""
+        with pytest.raises(DesignError, match=r"counters\.k\.value: .*a word would have 100,000,000 letters"):
+            design({"A": 1.0}, {"wall": "A^k"}, ["wall"], counters={"k": {"value": 10**8}})

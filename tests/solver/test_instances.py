@@ -12,14 +12,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from facade_nb.design import Counter, DesignError, Symbol, parse
+from facade_nb.design import Counter, DesignError, Pattern, Symbol, parse
 from facade_nb.design.model import AXES
+from facade_nb.design.pattern import Concat, Count, Sym
 from facade_nb.solver import Objective
 from facade_nb.solver.candidates.stream import candidates
 from facade_nb.solver.model.problem import axis_problem
 from facade_nb.solver.words import instances as listing
 from facade_nb.solver.words.enumeration import axis_words, forget_words
-from facade_nb.solver.words.instances import instances, ranges
+from facade_nb.solver.words.instances import instances, next_longer, ranges
 from facade_nb.solver.words.lengths import measure
 from facade_nb.solver.words.sums import Sums
 from tests.oracle.designs import make_design
@@ -185,6 +186,48 @@ class TestInstances:
         assert bounded == {"k": (-2, 3)}
 
 
+class TestNextLonger:
+    """The shortest word beyond a limit, against all words."""
+
+    @pytest.mark.parametrize(
+        "text",
+        [
+            "A^k",
+            "(AB)^k",
+            "(ABA)^@k",
+            "A^kB^m",
+            "A(BC)^kB^m",
+            "A^k|B^m",
+            "B|AC|ABC",
+            "C(A|B)^kA^m",
+            "x m; m := (BC)^k|A",
+            "(A^k)^.2B",
+        ],
+    )
+    @pytest.mark.parametrize("bounds", [(0, None), (-2, 1), (1, 3), (2, 2)])
+    def test_it_is_the_next_of_all(self, text: str, bounds: tuple[int, int | None]) -> None:
+        sizes = {"A": 1.0, "B": 1.7, "C": 3.1}
+
+        def symbol(name: str) -> Symbol:
+            return Symbol(name, sizes.get(name))
+
+        def counter(name: str) -> Counter:
+            return Counter(name, *bounds)
+
+        pattern = parse(text)
+        low, high = bounds[0], 14 if bounds[1] is None else bounds[1]
+        lengths = {
+            round(sum(sizes.get(g.symbol, 0.0) for g in word), 9)
+            for values in product(range(low, high + 1), repeat=len(pattern.counters))
+            for word in pattern.words(dict(zip(pattern.counters, values, strict=True)))
+        }
+        for limit in (0.5, 2.05, 4.0, 7.3):
+            beyond = sorted(own for own in lengths if own > limit + 1e-6)
+            word, more = next_longer(pattern, symbol, counter, limit, limit)
+            assert (None if word is None else round(word.size, 9)) == (beyond[0] if beyond else None)
+            assert more == (len(beyond) > 1)
+
+
 class TestOfAnAxis:
     @pytest.mark.parametrize("seed", range(40))
     def test_no_candidate_is_lost(self, seed: int) -> None:
@@ -214,7 +257,8 @@ class TestOfAnAxis:
         one = make_design(0)
         problem = axis_problem(one, "x")
         name, _ = problem.patterns[0]
-        long = parse("A^15000 A^15000")
+        half = Count(Sym("A"), "", False, 15_000)
+        long = Pattern(Concat((half, half)))  # no text is read as such a pattern
         patterns = tuple((n, long if n == name else p) for n, p in problem.patterns)
         symbols = tuple({**dict(problem.symbols), "A": Symbol("A", 0.1)}.items())
         broken = type(problem)(

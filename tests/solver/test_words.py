@@ -179,10 +179,30 @@ class TestFaults:
         ):
             words("Ab", {"A": 1, "B": 2}, canvas=4, tolerance=0)
 
+    @pytest.mark.parametrize("value", [1e-308, 1e308, 10**400, "1", True])
+    def test_numbers_beyond_what_can_be_computed(self, value: Any) -> None:
+        for call in (
+            lambda: words("A", {"A": value}, canvas=4, tolerance=0),
+            lambda: words("A", {"A": 1}, canvas=4, tolerance=0, unsized_step=value),
+        ):
+            with pytest.raises(DesignError, match=r"sizes lie between 0\.000001 and 1,000,000"):
+                call()
+        if value != 1e-308:
+            with pytest.raises(
+                DesignError, match="canvas: expected metres, 0 or more, at most 1,000,000, found"
+            ):
+                words("A", {"A": 1}, canvas=value, tolerance=0)
+
     @pytest.mark.parametrize("size", [0, -1.0, float("nan"), float("inf")])
     def test_sizes_out_of_range(self, size: float) -> None:
         with pytest.raises(DesignError, match=r"sizes\.A: expected a positive size in metres, found"):
             words("A", {"A": size}, canvas=4, tolerance=0)
+
+    def test_a_step_that_makes_millions_of_words(self) -> None:
+        with pytest.raises(
+            DesignError, match="unsized_step: expected a larger step: 3,000,000 samples of 'e'"
+        ):
+            words("e m; m := A", {"A": 1}, canvas=4, tolerance=0, unsized_step=1e-6)
 
     @pytest.mark.parametrize("step", [0, -0.5, float("nan"), float("inf")])
     def test_steps_out_of_range(self, step: float) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, islice
 
-from ...design.errors import NoLayout, Suggestion
+from ...design.errors import NoLayout, Suggestion, quoted
 from ...design.model import Axis, Design
 from ..analysis.systems import Analysis, analyse
 from ..budget import MEMORY, Clock, Stopped
@@ -13,7 +13,7 @@ from ..model.letters import Word
 from ..model.problem import AxisProblem
 from ..selection.axis import AxisSearch
 from ..words.enumeration import axis_words
-from ..words.instances import MAX_SPELLED, instances
+from ..words.instances import MAX_SPELLED, instances, next_longer
 from .obstacles import aligns, obstacle, one_group
 from .refusal import Blame, canvas_of, is_held, layers_of, names_of, refuse, remedies_of, short, tolerance
 from .remedies import Remedies, nice, size_of
@@ -138,8 +138,8 @@ def _length(blame: Blame, walk: AxisSearch, helper: Remedies) -> NoLayout | None
     for name, found in walk.found.items():
         if found.shortest.size > problem.canvas + walk.tolerance + 1e-9:
             text = (
-                f"Pattern {name!r}: its shortest word, {short(found.shortest)}, measures {found.shortest.size:.4g} m, "
-                f"and the canvas is {canvas_of(problem)}."
+                f"Pattern {quoted(name)}: its shortest word, {short(found.shortest)}, measures "
+                f"{found.shortest.size:.4g} m, and the canvas is {canvas_of(problem)}."
             )
             held = [c for c in problem.pattern[name].counters if is_held(problem, c)]
             better = chain(
@@ -170,15 +170,19 @@ def _too_short(blame: Blame, walk: AxisSearch, name: str, helper: Remedies) -> N
         not every.words
     ):  # all have an unsized letter, or a counter in common with a pattern that leaves no value
         return refuse(
-            blame, problem, f"Pattern {name!r} has no word that fits the canvas.", "canvas", patterns=[name]
+            blame,
+            problem,
+            f"Pattern {quoted(name)} has no word that fits the canvas.",
+            "canvas",
+            patterns=[name],
         )
     low = problem.canvas - walk.tolerance
     longest = max(every.words, key=lambda word: word.size)
     held = [c for c in longest.counters if is_held(problem, c)]
     if every.clipped:
         text = (
-            f"Pattern {name!r} would need words of more than {MAX_SPELLED:,} letters to fill the canvas, which is "
-            f"{canvas_of(problem)}; no word may have more."
+            f"Pattern {quoted(name)} would need words of more than {MAX_SPELLED:,} letters to fill the canvas, "
+            f"which is {canvas_of(problem)}; no word may have more."
         )
         heaviest = _heaviest([longest])
         tries = (size_of(own, nice(problem.canvas / n)) for own in heaviest for n in (100, 30))
@@ -186,20 +190,23 @@ def _too_short(blame: Blame, walk: AxisSearch, name: str, helper: Remedies) -> N
         return refuse(
             blame, problem, text, "letters", better, patterns=[name], symbols=heaviest, counters=every.clipped
         )
+    longer, more = next_longer(
+        problem.pattern[name],
+        symbols.__getitem__,
+        counters.__getitem__,
+        problem.canvas + walk.tolerance,
+        problem.canvas,
+        walk.check,
+    )
     if longest.size < low:
-        text = (
-            f"Pattern {name!r}: its longest word, {short(longest)}, measures {longest.size:.4g} m and cannot "
-            f"fill the canvas, which is {canvas_of(problem)}."
-        )
-        better = chain(
-            helper.counters(held), helper.canvas([longest.size]), _resized(helper, problem, longest)
-        )
-        return refuse(blame, problem, text, "canvas", better, patterns=[name], counters=held)
-    near = sorted(every.words, key=lambda word: abs(word.size - problem.canvas))[:2]
+        return _gap(blame, walk, name, helper, longest, longer, more)
+    near = sorted(
+        [*every.words, *([longer] if longer else [])], key=lambda word: abs(word.size - problem.canvas)
+    )[:2]
     shown = " and ".join(f"{short(word)}, {word.size:.4g} m" for word in near)
     text = (
-        f"Pattern {name!r} has no word that fills the canvas, which is {canvas_of(problem)}, within a tolerance of "
-        f"{walk.tolerance:.4g} m. Nearest: {shown}."
+        f"Pattern {quoted(name)} has no word that fills the canvas, which is {canvas_of(problem)}, within a "
+        f"tolerance of {walk.tolerance:.4g} m. Nearest: {shown}."
     )
     better = chain(
         helper.canvas(word.size for word in near),
@@ -208,6 +215,43 @@ def _too_short(blame: Blame, walk: AxisSearch, name: str, helper: Remedies) -> N
         _resized(helper, problem, near[0]),
     )
     return refuse(blame, problem, text, "tolerance", better, patterns=[name], counters=held)
+
+
+def _gap(
+    blame: Blame,
+    walk: AxisSearch,
+    name: str,
+    helper: Remedies,
+    longest: Word,
+    longer: Word | None,
+    more: bool,
+) -> NoLayout:
+    """A pattern whose words are all too short, or all too short or too long.
+
+    `longest` is the longest one that is not too long, `longer` the shortest one that is; `more`: there are longer ones.
+    """
+    problem = walk.problem
+    held = [c for c in longest.counters if is_held(problem, c)]
+    better = chain(
+        helper.counters(held),
+        helper.canvas([longest.size, *([longer.size] if longer else [])]),
+        _resized(helper, problem, longest),
+        *([_resized(helper, problem, longer)] if longer else []),
+    )
+    if longer is None:
+        text = (
+            f"Pattern {quoted(name)}: its longest word, {short(longest)}, measures {longest.size:.4g} m and cannot "
+            f"fill the canvas, which is {canvas_of(problem)}."
+        )
+    else:
+        least = walk.found[name].shortest.size
+        below = f"{'at most ' if longest.size > least + 1e-9 else ''}{longest.size:.4g} m"
+        above = f"{longer.size:.4g} m{' or more' if more else ''}"
+        text = (
+            f"Pattern {quoted(name)}: its words measure {below} or {above}, and the canvas is {canvas_of(problem)}. "
+            f"Nearest are {short(longest)} and {short(longer)}."
+        )
+    return refuse(blame, problem, text, "canvas", better, patterns=[name], counters=held)
 
 
 def _resized(helper: Remedies, problem: AxisProblem, word: Word) -> Iterator[Suggestion]:
@@ -243,8 +287,9 @@ def _no_candidate(blame: Blame, walk: AxisSearch, helper: Remedies) -> NoLayout 
     for c in shared:
         values = {n: {word.counters[c] for word in walk.found[n].words} for n in users[c]}
         if not set.intersection(*values.values()):
-            shown = ", ".join(f"{name!r} fits with {_span(own)}" for name, own in values.items())
-            text = f"Patterns {names_of(users[c])} share counter {c!r}, and no value of it fits all of them: {shown}."
+            shown = ", ".join(f"{quoted(name)} fits with {_span(own)}" for name, own in values.items())
+            text = f"Patterns {names_of(users[c])} share counter {quoted(c)}, and no value of it fits all of them"
+            text += f": {shown}."
             better = _balance(helper, walk, users[c], [c])
             return refuse(blame, problem, text, "counters", better, patterns=users[c], counters=[c])
     patterns = [n for n, p in problem.patterns if any(c in p.counters for c in shared)] or list(walk.found)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import chain, islice
 
-from ...design.errors import NoLayout
+from ...design.errors import NoLayout, quoted
 from ..analysis.systems import analyse
 from ..budget import Clock, Stopped
 from ..candidates.stream import CandidateStream
@@ -69,7 +69,7 @@ def obstacle(blame: Blame, walk: AxisSearch) -> NoLayout:
     if helpful:
         constraint, first = helpful[0]
         name = first.path[1]
-        text = f"{name!r} is {_BREAKS[constraint]}: every alignment {along} breaks that."
+        text = f"{quoted(name)} is {_BREAKS[constraint]}: every alignment {along} breaks that."
         standing = [n for n, p in problem.patterns if name in p.symbols]
         same = [own for c, own in helpful if c == constraint]
         others = [own for c, own in helpful if c != constraint]
@@ -123,8 +123,8 @@ def _no_room(blame: Blame, walk: AxisSearch, helper: Remedies, along: str) -> No
             if blame.clock.seconds > end or not aligns(blame, trial, unsure=False):
                 continue
             text = (
-                f"There is no room for {symbol!r} of pattern {name!r} {along}: it would have to be of no length. "
-                "Without it there is an alignment."
+                f"There is no room for {quoted(symbol)} of pattern {quoted(name)} {along}: it would have to be of "
+                "no length. Without it there is an alignment."
             )
             found = chain(
                 helper.counters(c for c, _ in problem.counters if is_held(problem, c)), helper.canvas()
@@ -168,7 +168,7 @@ def _bounds(problem: AxisProblem, name: str) -> str:
         *([f"at least {low:.4g} m"] if low is not None else []),
         *([f"at most {high:.4g} m"] if high is not None else []),
     ]
-    return f"{name!r} {' and '.join(parts)}"
+    return f"{quoted(name)} {' and '.join(parts)}"
 
 
 def _out_of_bounds(blame: Blame, walk: AxisSearch, helper: Remedies) -> NoLayout | None:
@@ -180,9 +180,9 @@ def _out_of_bounds(blame: Blame, walk: AxisSearch, helper: Remedies) -> NoLayout
         least = sum(s.min or 0.0 for s in own)
         greatest = None if any(s.max is None for s in own) else sum(s.max or 0.0 for s in own)
         if least > problem.canvas + 1e-9:
-            text = f"{short(word)} of pattern {name!r} measures at least {least:.4g} m, by the min of"
+            text = f"{short(word)} of pattern {quoted(name)} measures at least {least:.4g} m, by the min of"
         elif own and greatest is not None and greatest < problem.canvas - 1e-9:
-            text = f"{short(word)} of pattern {name!r} measures at most {greatest:.4g} m, by the max of"
+            text = f"{short(word)} of pattern {quoted(name)} measures at most {greatest:.4g} m, by the max of"
         else:
             continue
         bounded = {s.name: s for s in own if s.min is not None or s.max is not None}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from ...design.errors import NoLayout, Suggestion
+from ...design.errors import NoLayout, Suggestion, listed
 from ...design.model import Axis, Design
 from ..budget import Clock, Stopped
 from ..model.problem import AxisProblem
@@ -125,7 +125,7 @@ def tolerance(blame: Blame, helper: Remedies) -> Iterator[Suggestion]:
 
 def names_of(names: Sequence[str]) -> str:
     """Names in quotes, with commas."""
-    return ", ".join(map(repr, names))
+    return listed(names)
 
 
 def short(word: object) -> str:

@@ -7,7 +7,7 @@ from math import ceil, floor, inf, log10
 from typing import NamedTuple
 
 from ...design.edit import take
-from ...design.errors import DesignError, Suggestion
+from ...design.errors import DesignError, Suggestion, quoted
 from ...design.model import Axis, Counter, Design, Symbol
 from ..budget import Stopped
 
@@ -119,14 +119,14 @@ class Remedies:
                 if now is None:
                     continue
                 open_ended = Suggestion(
-                    f"{symbol.name!r} without {field}", ("symbols", symbol.name, field), None
+                    f"{quoted(symbol.name)} without {field}", ("symbols", symbol.name, field), None
                 )
                 sizes = self.sizes(open_ended)
                 if sizes is None or symbol.name not in sizes:
                     continue
                 value = _rounded(sizes[symbol.name], away)
                 exact = Suggestion(
-                    f"{symbol.name!r} {word} {value:.4g} m", ("symbols", symbol.name, field), value
+                    f"{quoted(symbol.name)} {word} {value:.4g} m", ("symbols", symbol.name, field), value
                 )
                 yield from self.working([exact, open_ended])
 
@@ -175,7 +175,7 @@ def _at(name: str, value: int) -> Suggestion:
 
 
 def _counter(name: str, field: str, text: str, value: int | None) -> Suggestion:
-    return Suggestion(f"counter {name!r} {text}", ("counters", name, field), value)
+    return Suggestion(f"counter {quoted(name)} {text}", ("counters", name, field), value)
 
 
 def _canvas_of(axis: Axis, size: float) -> Suggestion:
@@ -185,18 +185,18 @@ def _canvas_of(axis: Axis, size: float) -> Suggestion:
 
 def size_of(name: str, size: float) -> Suggestion:
     """A symbol of another size."""
-    return Suggestion(f"{name!r} of {size:.5g} m", ("symbols", name, "size"), size)
+    return Suggestion(f"{quoted(name)} of {size:.5g} m", ("symbols", name, "size"), size)
 
 
 def relaxed(symbol: Symbol) -> Iterator[tuple[str, Suggestion]]:
     """Each qualifier of a symbol that forbids something, as the constraint it makes, and the symbol without it."""
     name = symbol.name
     if symbol.unoccludable:
-        yield "C3", Suggestion(f"{name!r} not unoccludable", ("symbols", name, "unoccludable"), False)
+        yield "C3", Suggestion(f"{quoted(name)} not unoccludable", ("symbols", name, "unoccludable"), False)
     if symbol.attached:
-        yield "C4", Suggestion(f"{name!r} not attached", ("symbols", name, "attached"), False)
+        yield "C4", Suggestion(f"{quoted(name)} not attached", ("symbols", name, "attached"), False)
     if not symbol.opaque and not symbol.transparent:
-        yield "C1", Suggestion(f"{name!r} opaque", ("symbols", name, "opaque"), True)
+        yield "C1", Suggestion(f"{quoted(name)} opaque", ("symbols", name, "opaque"), True)
 
 
 def nice(size: float) -> float:

@@ -9,6 +9,7 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from ...design.errors import DesignError, Fault
+from ...design.inputs import read_text
 from ..events import Event
 from .codec import FORMAT, from_plain, to_plain
 
@@ -140,14 +141,7 @@ class Trace:
         DesignError
             For a file that cannot be read, for text that is not JSON (with line and column), and as `from_dict`.
         """
-        if isinstance(source, Path):
-            try:
-                text = source.read_text("utf-8")
-            except (OSError, UnicodeDecodeError) as error:
-                why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-                raise DesignError(Fault(str(source), f"cannot be read: {why}")) from None
-        else:
-            text = source
+        text = read_text(source) if isinstance(source, Path) else source.removeprefix("\ufeff")
         try:
             document = json.loads(text, parse_constant=_no_number)
         except json.JSONDecodeError as error:

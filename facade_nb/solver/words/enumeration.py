@@ -8,7 +8,9 @@ from itertools import product
 from math import floor, inf
 from numbers import Real
 
-from ...design.errors import DesignError, Fault, nearest
+from ...design.errors import DesignError, Fault, listed, nearest, quoted
+from ...design.fields import describe
+from ...design.limits import LEAST_LENGTH, MOST_COUNT, MOST_LENGTH
 from ...design.model import Counter, Symbol
 from ...design.pattern import parse
 from ..budget import Progress
@@ -22,6 +24,9 @@ __all__ = ["axis_words", "forget_words", "words"]
 
 _kept: Kept[tuple[Instances, float]] = Kept(4_000_000)
 """Words of patterns asked for last, and how much is opaque in one of them at most; weighed by their letters."""
+_MAX_SAMPLES = 1_000_000
+"""Most words that sampled sizes make of one."""
+_SPAN = f"sizes lie between {LEAST_LENGTH:f} and {MOST_LENGTH:,.0f}"
 _ranges: Kept[dict[str, Range]] = Kept(1_000)
 """What patterns say of counters."""
 
@@ -175,26 +180,32 @@ def words(
     """
     parsed = parse(pattern)
     faults = [
-        Fault(f"sizes.{name}", f"expected a positive size in metres, found {size!r}")
+        Fault(f"sizes.{name}", f"expected a positive size in metres, found {describe(size)}; {_SPAN}")
         for name, size in sizes.items()
-        if not _is_length(size) or size == 0
+        if not _is_length(size) or size < LEAST_LENGTH
     ]
     faults += [
-        Fault(what, f"expected metres, 0 or more, found {value!r}")
+        Fault(what, f"expected metres, 0 or more, at most {MOST_LENGTH:,.0f}, found {describe(value)}")
         for what, value in (("canvas", canvas), ("tolerance", tolerance))
         if not _is_length(value)
     ]
     faults += [
-        Fault("pattern", f"symbol {name!r} stands for itself and needs a size{nearest(name, sizes)}")
+        Fault("pattern", f"symbol {quoted(name)} stands for itself and needs a size{nearest(name, sizes)}")
         for name in parsed.symbols
         if name in parsed.solids and name not in sizes
     ]
-    if unsized_step is not None and (not _is_length(unsized_step) or unsized_step == 0):
-        faults.append(Fault("unsized_step", f"expected a positive length in metres, found {unsized_step!r}"))
+    if unsized_step is not None and (not _is_length(unsized_step) or unsized_step < LEAST_LENGTH):
+        shown = describe(unsized_step)
+        faults.append(Fault("unsized_step", f"expected a positive length in metres, found {shown}; {_SPAN}"))
     bounds: dict[str, Counter] = {}
     for name, given in (counters or {}).items():
         if not _is_range(given):
-            faults.append(Fault(f"counters.{name}", f"expected (min, max), whole numbers, found {given!r}"))
+            faults.append(
+                Fault(
+                    f"counters.{name}",
+                    f"expected (min, max), whole numbers within {MOST_COUNT:,} either way, found {describe(given)}",
+                )
+            )
         elif given[1] is not None and given[0] > given[1]:
             faults.append(Fault(f"counters.{name}", f"expected min ≤ max, found {given[0]} and {given[1]}"))
         else:
@@ -220,18 +231,26 @@ def words(
 
 
 def _is_length(value: object) -> bool:
-    return not isinstance(value, bool) and isinstance(value, Real) and 0 <= float(value) < inf
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return False
+    try:
+        return 0 <= float(value) <= MOST_LENGTH
+    except OverflowError:
+        return False
 
 
 def _is_range(value: object) -> bool:
     if not isinstance(value, Sequence) or len(value) != 2:
         return False
     low, high = value
-    return isinstance(low, int) and (high is None or isinstance(high, int))
+    return all(isinstance(v, int) and abs(v) <= MOST_COUNT for v in (low, 0 if high is None else high))
 
 
 def _sample(word: Word, unsized: Sequence[str], step: float, limit: float) -> Iterator[Word]:
     most = max(0, floor((limit - word.size) / step + EPS))
+    if most ** len(unsized) > _MAX_SAMPLES:
+        text = f"expected a larger step: {most:,} samples of {listed(unsized)} each make over {_MAX_SAMPLES:,} words"
+        raise DesignError(Fault("unsized_step", text))
     for multiples in product(range(1, most + 1), repeat=len(unsized)):
         size = dict(zip(unsized, (m * step for m in multiples), strict=True))
         letters = tuple(a if a.size is not None else replace(a, size=size[a.symbol]) for a in word.letters)

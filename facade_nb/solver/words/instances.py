@@ -8,6 +8,8 @@ from itertools import chain
 from math import inf
 from typing import Any
 
+from ...design.errors import DesignError
+from ...design.limits import nearest_zero
 from ...design.model import Counter, Symbol
 from ...design.pattern import Pattern
 from ...design.tree import Concat, Count, Node, concatenation, spellings, walk
@@ -25,6 +27,7 @@ __all__ = [
     "Range",
     "forget_measures",
     "instances",
+    "next_longer",
     "ranges",
 ]
 
@@ -115,7 +118,7 @@ def instances(
     speller = _Speller(symbol)
     if ways is None:
         return _one_by_one(pattern, speller, counter, limit, low, check)
-    zero = {name: _nearest_zero(counter(name)) for name in pattern.counters}
+    zero = {name: nearest_zero(counter(name)) for name in pattern.counters}
     shortest = min(ways, key=lambda way: way.measure.at(zero))
     letters = inf if canvas is None else MAX_SPELLED
     kinds = [_Kind(own, zero, counter, limit, common or {}, letters, check) for own in _alike(ways).values()]
@@ -150,6 +153,99 @@ def instances(
     )
 
 
+def next_longer(
+    pattern: Pattern,
+    symbol: SymbolOf,
+    counter: CounterOf,
+    limit: float,
+    canvas: float,
+    check: Check | None = None,
+) -> tuple[Word | None, bool]:
+    """The shortest word of a pattern that is longer than a limit, and whether there are longer ones still.
+
+    Unsized letters count as nothing. Words of more letters than `MAX_SPELLED` are not looked at.
+    """
+    ways = _measured(pattern, symbol, check)
+    speller = _Speller(symbol)
+
+    def reaches(beyond: float) -> Iterator[float]:
+        if ways is None:
+            return _reaches_spelled(pattern, speller, counter, beyond, check)
+        return _reaches(ways, counter, beyond)
+
+    for reach in reaches(limit):
+        found = instances(pattern, symbol, counter, reach, check, canvas)
+        longer = [word for word in found.words if word.size > limit + EPS]
+        if longer:
+            word = min(longer, key=lambda own: own.size)
+            further = next(reaches(word.size), None)
+            return word, further is not None or any(own.size > word.size + EPS for own in longer)
+    return None, False
+
+
+def _reaches(ways: Sequence[Way], counter: CounterOf, limit: float) -> Iterator[float]:
+    """Sizes beyond a limit up to which there is a word longer than that, if there is any."""
+    sizes: list[float] = []
+    for own in (way.measure for way in ways):
+        grown = {name: [0.0, 0.0] for name in own.growth}  # at the value nearest to 0, and at the end
+        for name, growth in own.growth.items():
+            bounds = counter(name)
+            zero = nearest_zero(bounds)
+            ends = [bounds.value] * 2 if bounds.value is not None else [bounds.min, bounds.max]
+            far = [
+                inf if end is None and growth.more > 0 else growth.size(zero if end is None else end)
+                for end in ends
+            ]
+            grown[name] = [growth.size(zero), max(far)]
+        least = own.size + sum(low for low, _ in grown.values())
+        total = own.size + sum(high for _, high in grown.values())
+        if least > limit + EPS:
+            sizes.append(least)
+        elif total > limit + EPS:
+            # one copy more of anything leads beyond the limit at the latest from just below it
+            step = max(max(g.first, g.more, g.back_first, g.back_more) for g in own.growth.values())
+            sizes.append(limit + step)
+    if sizes:
+        yield min(sizes) + 2.0 * EPS
+        yield max(sizes) + 2.0 * EPS
+
+
+def _reaches_spelled(
+    pattern: Pattern, speller: _Speller, counter: CounterOf, limit: float, check: Check | None
+) -> Iterator[float]:
+    """The same for a pattern that cannot be measured beforehand: counters go on one by one, and all to their ends."""
+    bounds = {name: counter(name) for name in pattern.counters}
+    zero = {name: nearest_zero(own) for name, own in bounds.items()}
+    ends = {
+        name: own.max if own.max is not None and own.value is None else zero[name]
+        for name, own in bounds.items()
+    }
+    tried = [zero]
+    if all(abs(value) <= MAX_COPIES for value in ends.values()):
+        tried.append(ends)
+    for name, own in bounds.items():
+        for step in (1, -1):
+            value = zero[name] + step
+            for _ in range(MAX_SPELLED):
+                if not _inside(own, value):
+                    break
+                if check is not None:
+                    check()
+                try:
+                    sizes = [word.size for word in speller.words(pattern, {**zero, name: value})]
+                except DesignError:  # words that are too long to be spelled
+                    break
+                if max(sizes) > limit + EPS or (abs(value) > MAX_COPIES and max(sizes) <= EPS):
+                    tried.append({**zero, name: value})
+                    break
+                value += step
+    found = [word.size for values in tried for word in speller.words(pattern, values)]
+    longer = [size for size in found if size > limit + EPS]
+    if longer:
+        yield min(longer) + 2.0 * EPS
+        yield max(longer) + 2.0 * EPS
+
+
 def ranges(
     pattern: Pattern, symbol: SymbolOf, counter: CounterOf, limit: float, check: Check | None = None
 ) -> dict[str, Range]:
@@ -159,7 +255,7 @@ def ranges(
     ways = _measured(pattern, symbol, check)
     if ways is None:
         return {}
-    zero = {name: _nearest_zero(counter(name)) for name in pattern.counters}
+    zero = {name: nearest_zero(counter(name)) for name in pattern.counters}
     kinds = [_Kind(own, zero, counter, limit, {}, MAX_SPELLED, check) for own in _alike(ways).values()]
     found: dict[str, Range] = {}
     for name in pattern.counters:
@@ -404,7 +500,7 @@ def _one_by_one(
 ) -> Instances:
     """Words of a pattern that cannot be measured beforehand, by spelling all of them out."""
     names = pattern.counters
-    zero = {name: _nearest_zero(counter(name)) for name in names}
+    zero = {name: nearest_zero(counter(name)) for name in names}
     endless: set[str] = set()
     found: list[Word] = []
 
@@ -453,11 +549,3 @@ def _inside(bounds: Counter, value: int) -> bool:
     if bounds.value is not None:
         return value == bounds.value
     return bounds.min <= value and (bounds.max is None or value <= bounds.max)
-
-
-def _nearest_zero(bounds: Counter) -> int:
-    if bounds.value is not None:
-        return bounds.value
-    if bounds.min > 0:
-        return bounds.min
-    return 0 if bounds.max is None else min(0, bounds.max)

@@ -6,6 +6,7 @@ from base64 import b64encode
 from collections.abc import Iterable, Sequence
 from html import escape
 
+from ...design.text import spell
 from ...render.style import num
 from ...solver.events import LetterNote
 
@@ -183,8 +184,7 @@ def shortened(text: str, most: int) -> str:
 def spelled(letters: Sequence[LetterNote]) -> str:
     """A word in short, as the front end writes it: ``A²C``, ``G(AB)³A``, a dash behind mirrored letters."""
     names = [
-        (a.symbol if len(a.symbol) == 1 or a.symbol[1:].isdigit() else f"⟨{a.symbol}⟩") + "′" * a.mirrored
-        for a in letters
+        (a.symbol if spell(a.symbol) == a.symbol else f"⟨{a.symbol}⟩") + "′" * a.mirrored for a in letters
     ]
     keys = [(a.symbol, a.mirrored, a.transparent) for a in letters]
     out, n = "", 0

@@ -49,8 +49,19 @@ export function parsed(word: string): LetterNote[] {
   }));
 }
 
-export function nameOf({ symbol, mirrored }: LetterNote): string {
-  return (/^\p{L}\d*$/u.test(symbol) ? symbol : `⟨${symbol}⟩`) + (mirrored ? "′" : "");
+export function nameOf({ symbol, mirrored }: Pick<LetterNote, "symbol" | "mirrored">): string {
+  return (isShort(symbol) ? symbol : `⟨${symbol}⟩`) + (mirrored ? "′" : "");
+}
+
+/** One letter with its marks, then digits. */
+const SHORT = /^\p{L}\p{M}*\p{Nd}*$/u;
+/** Letters that patterns do not read bare: parts of syllables, lone accents, and raised or ornate forms of letters. */
+const FORMS =
+  /^[\u1100-\u11ff\ua960-\ua97f\ud7b0-\ud7ff\u02b0-\u02ff\u0374ªº\u1d2c-\u1d6a\u1d78\u1d9b-\u1dbf\u2071\u207f\u2090-\u209c\u210a-\u2131\u2133\u2134\u2139-\u2149\u2c7c\u2c7d\u{1d400}-\u{1d7ff}]/u;
+
+/** Whether patterns write a symbol without angle brackets, as `spell` in facade_nb/design/text.py has it. */
+export function isShort(symbol: string): boolean {
+  return SHORT.test(symbol) && symbol !== "ε" && !FORMS.test(symbol);
 }
 
 /** The repetition that begins at `n`: so many letters, so many times. Groups count from three times on. */

@@ -20,7 +20,7 @@ export function term({ text }: Term): HTMLElement {
 /** An equation's text, its variables in italics: `2|f| = 2k − 1.5j + 3.6`. */
 export function equation(text: string): Node[] {
   return text
-    .split(/(\|[^|]+\||\p{L}[\p{L}\d]*)/u)
+    .split(/(\|[^|]+\||\p{L}[\p{L}\p{M}\p{Nd}_]*)/u)
     .filter(Boolean)
     .map((piece) => (/^\|?\p{L}/u.test(piece) ? h("i", {}, piece) : document.createTextNode(piece)));
 }
@@ -29,5 +29,5 @@ export function equation(text: string): Node[] {
 export function variables(names: Iterable<string>): { counters: string[]; symbols: string[] } {
   const all = [...names];
   const symbols = all.flatMap((name) => [...(/\|([^|]+)\|/.exec(name)?.slice(1) ?? [])]);
-  return { counters: all.filter((name) => /^\p{L}[\p{L}\d]*$/u.test(name)), symbols };
+  return { counters: all.filter((name) => /^[\p{L}_][\p{L}\p{M}\p{Nd}_ ]*$/u.test(name)), symbols };
 }

@@ -2,7 +2,7 @@
 // an alignment tried by hand is judged while it is dragged, and a saved page judges without a kernel. Tests hold every
 // edge of the lattices of real designs, and alignments made up at random, to what Python says.
 
-import type { LetterNote } from "./letters.ts";
+import { isShort, type LetterNote } from "./letters.ts";
 
 export const EPS = 1e-9;
 
@@ -55,7 +55,7 @@ export interface Refusal {
 type Choice = [Option, Refusal | null];
 
 const letterName = ({ symbol, mirrored }: LetterNote): string =>
-  (/^\p{L}\d*$/u.test(symbol) ? symbol : `<${symbol}>`) + (mirrored ? "'" : "");
+  (isShort(symbol) ? symbol : `<${symbol}>`) + (mirrored ? "'" : "");
 
 /** Three significant digits, as Python's `:.3g` for numbers of ordinary size. */
 export const brief = (value: number): string => String(Number(value.toPrecision(3)));

@@ -2,7 +2,7 @@
 
 import { h, keyed, mark, type Row, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
-import type { LetterNote } from "../letters.ts";
+import { type LetterNote, nameOf as letterName } from "../letters.ts";
 import { linked, target } from "../links.ts";
 import { rowsNamed } from "../weights.ts";
 import type { Arc } from "./scene.ts";
@@ -26,8 +26,7 @@ export function columnText(subject: Subject, column: readonly (readonly number[]
   );
 }
 
-const name = (letter: LetterNote | undefined): string =>
-  letter ? (letter.symbol.length > 2 ? `⟨${letter.symbol}⟩` : letter.symbol) + (letter.mirrored ? "′" : "") : "";
+const name = (letter: LetterNote | undefined): string => (letter ? letterName(letter) : "");
 
 /** The columns that leave a node, those that may come next first. From step to step most of them stay. */
 export class LeavingList {

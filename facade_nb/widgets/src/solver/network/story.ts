@@ -1,6 +1,7 @@
 // The networks of a trace, and what the search has done in one of them at a moment.
 
 import type { Alternative } from "../alternatives.ts";
+import { nameOf } from "../letters.ts";
 import type { Axis, Timeline } from "../timeline.ts";
 import { played } from "../timeline.ts";
 import type { BandNote } from "../weights.ts";
@@ -317,7 +318,7 @@ export function lettersBetween(from: number, to: number, filled = to > from): nu
 export function restOf(band: BandNote, place: number): string {
   const rest = band.letters
     .slice(place >> 1)
-    .map(({ symbol, mirrored }) => (/^\p{L}\d*$/u.test(symbol) ? symbol : `⟨${symbol}⟩`) + (mirrored ? "′" : ""))
+    .map(nameOf)
     .join("");
   return place & 1 ? `…${rest}` : rest || "ε";
 }
