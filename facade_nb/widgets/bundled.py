@@ -78,6 +78,7 @@ class Bundled(Widget):
     def __init__(self, **traits: Any) -> None:
         self._asleep = False
         self._views: set[str] = set()
+        self._heard: dict[str, int] = {}
         code = Code.of(self.front)
         code.hold(self)
         super().__init__(front_end=code, **traits)
@@ -111,19 +112,30 @@ class Bundled(Widget):
 
     def _receive(self, _: Widget, message: Message, __: list[Any]) -> None:
         """Note that a view came or went; whatever else is asked, `_answer` it."""
-        op = message.get("op")
+        op, client = message.get("op"), message.get("client", "")
+        if "seq" in message:
+            self._heard[client] = message["seq"]
         if op == "wake":
             self.wake()
+        elif op == "ping":
+            if message.get("renew"):
+                self._renew()
         elif op == "view":
             if message["here"]:
-                self._views.add(message["client"])
+                self._views.add(client)
                 self.wake()
             else:
-                self._views.discard(message["client"])
+                self._views.discard(client)
+                self._heard.pop(client, None)
                 if not self._views:
                     self._sleep()
         else:
             self._answer(message)
+
+    def _renew(self) -> None:
+        """After a gap in the connection: tell everything again, and which messages of the front end's have come."""
+        self.send_state()
+        self.send({"kind": "pong", "heard": self._heard})
 
     def _answer(self, message: Message) -> None:
         """Do what the front end asks for."""

@@ -16,7 +16,8 @@ export class FakeModel implements WidgetModel {
   get<T>(name: string): T {
     return this.traits[name] as T;
   }
-  set(values: Record<string, unknown>): void {
+  set(name: string | Record<string, unknown>, value?: unknown): void {
+    const values = typeof name === "string" ? { [name]: value } : name;
     Object.assign(this.traits, values);
     for (const name of Object.keys(values)) this.emit(`change:${name}`);
   }

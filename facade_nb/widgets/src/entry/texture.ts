@@ -3,6 +3,7 @@
 import "../styles/base.css";
 import "../styles/fields.css";
 import "../styles/texture.css";
+import { absence } from "../absence.ts";
 import { h, mark } from "../dom.ts";
 import { editor } from "../texture/editor.ts";
 import { inspector } from "../texture/inspector.ts";
@@ -12,9 +13,12 @@ import { table } from "../texture/table.ts";
 import { adoptStyle, watchTheme } from "../theme.ts";
 import type { Mount } from "../types.ts";
 
+/** What changes the model: to look around asks nothing of Python. */
+const EDITS = ".fnb-tex-text, .fnb-tex-slide input, .fnb-tex-edit";
+
 export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();
-  adoptStyle(css);
+  adoptStyle(css, el, end.signal);
   const session = Session.of(channel);
   const parts: Record<string, () => HTMLElement> = {
     view: () => picture(session, model, end.signal),
@@ -38,6 +42,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   el.append(root);
   const trouble = h("pre", { class: "fnb-tex-trouble", role: "alert", hidden: true });
   root.append(make(), trouble);
+  absence(root, session.kernel, end.signal, { what: "façade", needs: EDITS, unsent: () => session.waits });
   session.hold(() => {
     trouble.textContent = session.trouble;
     trouble.hidden = !session.trouble;
