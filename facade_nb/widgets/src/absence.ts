@@ -52,10 +52,14 @@ export function absence(root: HTMLElement, kernel: Kernel, signal: AbortSignal, 
     if (kernel.live || kernel.presence === "saved") return;
     const control = held(event.target);
     if (!control) return;
-    // A text can be walked through and copied; nothing of ours must read the keys.
+    // A text can be walked through and copied; but nothing of ours must read the keys.
+    const text = control.matches(TEXTS);
+    if (text && event instanceof MouseEvent) return;
     event.stopPropagation();
-    const walks = control.matches(TEXTS) || (event instanceof KeyboardEvent && event.key === "Tab");
-    if (!walks) event.preventDefault();
+    const key = event instanceof KeyboardEvent ? event : null;
+    // The browser's own undo would move the caret, in a field that it may not write to.
+    const undoes = !!key && (key.ctrlKey || key.metaKey) && (/^[zy]$/i.test(key.key) || /^Key[ZY]$/.test(key.code));
+    if (undoes || (!text && key?.key !== "Tab")) event.preventDefault();
   };
   for (const name of ["keydown", "pointerdown", "mousedown", "click", "input", "change", "drop"])
     root.addEventListener(name, keep, { capture: true, signal, passive: false });

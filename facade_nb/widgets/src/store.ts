@@ -110,7 +110,7 @@ export class Store {
   /** What was typed in a field of any view, and did not reach the kernel before it went. */
   unsent(path: Path): unknown {
     const key = keyOf(path);
-    return this.live ? undefined : this.left().find((edit) => keyOf(edit.path) === key)?.value;
+    return this.live ? undefined : this.left().findLast((edit) => keyOf(edit.path) === key)?.value;
   }
 
   /** Whether there are edits that have not reached the kernel. */

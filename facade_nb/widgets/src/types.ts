@@ -151,7 +151,7 @@ export interface WidgetModel {
   // biome-ignore lint/suspicious/noExplicitAny: as above
   off(names: string, callback: (...args: any[]) => void): void;
   readonly model_id: string;
-  readonly comm_live?: boolean;
+  comm_live?: boolean;
   /** Makes of its state what is saved. */
   serialize?(state: Record<string, unknown>): Record<string, unknown>;
   readonly widget_manager: WidgetManager;

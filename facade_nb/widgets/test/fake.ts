@@ -6,7 +6,7 @@ type Listener = (...args: unknown[]) => void;
 
 export class FakeModel implements WidgetModel {
   readonly model_id = "m1";
-  readonly comm_live = true;
+  comm_live = true;
   readonly widget_manager = {} as WidgetManager;
   readonly sent: Record<string, unknown>[] = [];
   private readonly listeners = new Map<string, Set<Listener>>();

@@ -94,6 +94,7 @@ export function massing({ store }: Context, model: WidgetModel, signal: AbortSig
   void show();
   const ask = (here: boolean) => store.kernel.tell({ op: "renderer", client: store.client, here }, model);
   const tell = () => {
+    if (store.kernel.presence === "gone") release(renderer);
     if (view) return;
     ask(true);
     if (!model.widget_manager.create_view)
@@ -104,6 +105,13 @@ export function massing({ store }: Context, model: WidgetModel, signal: AbortSig
   store.kernel.watch(tell, signal);
   tell();
   return el;
+}
+
+/** pythreejs tells Python of every turn: when its kernel has gone, it can be looked around all the same. */
+function release(renderer: WidgetModel | null): void {
+  if (!renderer) return;
+  const [camera, controls] = [renderer.get<WidgetModel>("camera"), renderer.get<WidgetModel[]>("controls")];
+  for (const own of [renderer, camera, ...controls]) own.comm_live = false;
 }
 
 /** The picker listens for clicks, and an orbit ends with one: swallow those. */
