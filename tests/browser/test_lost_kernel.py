@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import urllib.request
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from .conftest import HOUSE
 from .gate import Gate
-from .jupyter import Notebook, serve
+from .jupyter import App, Notebook, serve
 
 SOME = """
 from IPython.display import display
@@ -43,6 +45,7 @@ class Server:
         self.lab = lab
         self.page = lab.page
         self.gate = gate
+        self.ended = False
         self._address = address
         self._token = token
 
@@ -60,13 +63,10 @@ class Server:
 
     def show(self, code: str, views: int) -> None:
         """Run the notebook's cell, with a kernel, and wait for all views."""
-        self.page.evaluate(
-            f"""async () => {{
-                const context = {SESSION};
-                if (!context.session?.kernel) await context.changeKernel({{name: 'python3'}});
-                await context.session.kernel.info;
-            }}"""
-        )
+        if self.ended:
+            self.lab.open("0")  # the page would ask which kernel to start
+            self.ended = False
+        self.page.evaluate(f"() => {KERNEL}.info")
         self.lab.run(HOUSE + code)
         expect(self.page.locator(".fnb")).to_have_count(views, timeout=60_000)
         self.said = self.page.locator(".fnb-absence:visible")
@@ -93,6 +93,7 @@ def restarted_in_the_menu(server: Server) -> None:
 
 
 def shut_down_in_the_menu(server: Server) -> None:
+    server.ended = True
     server.page.evaluate(f"() => {{ {SESSION}.shutdown().catch(() => 0) }}")
 
 
@@ -101,10 +102,12 @@ def restarted_elsewhere(server: Server) -> None:
 
 
 def kernel_shut_down_elsewhere(server: Server) -> None:
+    server.ended = True
     server.request("DELETE", f"/api/kernels/{server.kernel}")
 
 
 def session_ended_elsewhere(server: Server) -> None:
+    server.ended = True
     sessions = json.loads(server.request("GET", "/api/sessions"))
     [own] = [one["id"] for one in sessions if one["kernel"]["id"] == server.kernel]
     server.request("DELETE", f"/api/sessions/{own}")
@@ -227,6 +230,21 @@ def press_everything(page: Page) -> None:
     page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     page.mouse.wheel(0, 40)
     page.wait_for_timeout(300)
+
+
+@pytest.mark.parametrize("app", ["notebook", "voila"])
+def test_a_killed_kernel_is_told_in_other_applications(browser: Browser, tmp_path: Path, app: App) -> None:
+    with serve(tmp_path, app) as (address, token), browser.new_page() as page:
+        notebook = Notebook(page, address, token, tmp_path, app)
+        notebook.open(HOUSE + "import os; print('pid', os.getpid(), '.')\nStudio(model)")
+        if app == "notebook":
+            notebook.run()
+        expect(page.locator("[data-shape]").first).to_be_visible(timeout=60_000)
+        expect(page.locator(".fnb-absence:visible")).to_have_count(0)
+        [pid] = re.findall(r"pid (\d+)", page.get_by_text("pid ").last.inner_text())
+        os.kill(int(pid), signal.SIGKILL)
+        expect(page.get_by_text("The kernel died and was started anew.")).to_be_visible()
+        expect(notebook.field("Pattern Bx")).to_have_attribute("readonly", "")
 
 
 def test_a_view_that_is_made_later_shows_what_was_typed_too(server: Server) -> None:

@@ -56,6 +56,7 @@ export function absence(root: HTMLElement, kernel: Kernel, signal: AbortSignal, 
     const text = control.matches(TEXTS);
     if (text && event instanceof MouseEvent) return;
     event.stopPropagation();
+    if (event.type === "change") control.setAttribute("data-changed", "");
     const key = event instanceof KeyboardEvent ? event : null;
     // The browser's own undo would move the caret, in a field that it may not write to.
     const undoes = !!key && (key.ctrlKey || key.metaKey) && (/^[zy]$/i.test(key.key) || /^Key[ZY]$/.test(key.code));
@@ -82,6 +83,8 @@ function release(control: HTMLElement): void {
   mark(control, text ? "readonly" : "aria-disabled", null);
   // A field that commits when it is left could not do so meanwhile.
   if (text && !control.matches(":focus")) control.dispatchEvent(new FocusEvent("blur"));
+  if (control.dataset.changed !== undefined) control.dispatchEvent(new Event("change", { bubbles: true }));
+  delete control.dataset.changed;
 }
 
 function sentences(kernel: Kernel, { unsent, what }: Options): [title: string, more: string] {

@@ -175,7 +175,10 @@ describe("the notice", () => {
     const button = h("button", {}, "Press");
     const local = h("button", { "data-local": true }, "Fold");
     for (const one of [button, local]) one.addEventListener("click", press);
-    const root = h("div", {}, name.el, button, local);
+    const group = h("input", { type: "text", value: "roof" });
+    const change = vi.fn();
+    group.addEventListener("change", change);
+    const root = h("div", {}, name.el, button, local, group);
     document.body.append(root);
     const notice = absence(root, store.kernel, end.signal, { what: "façade", unsent: () => true }).el;
     const field = name.el as HTMLInputElement;
@@ -191,11 +194,14 @@ describe("the notice", () => {
     expect(field.value).toBe("Byy");
     button.click();
     local.click();
+    group.dispatchEvent(new Event("change", { bubbles: true })); // it had been typed in, and was left now
+    expect(change).not.toHaveBeenCalled();
     expect(press).toHaveBeenCalledTimes(1);
 
     connection.turn({ connectionStatus: "connected" });
     model.emit("msg:custom", { kind: "pong", heard: {} });
     expect([notice.hidden, field.readOnly, button.ariaDisabled]).toEqual([true, false, null]);
     expect(commit).toHaveBeenCalledExactlyOnceWith("Byy");
+    expect(change).toHaveBeenCalledTimes(1);
   });
 });
