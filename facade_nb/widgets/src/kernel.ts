@@ -15,6 +15,7 @@ import type { Connection, WidgetModel } from "./types.ts";
 export type Presence = "live" | "away" | "gone" | "saved";
 
 const BEAT = 1000; // milliseconds between messages where nothing else tells whether there is a kernel
+const DIED = "died and was started anew";
 const PARTED = ["restarting", "autorestarting", "terminating", "dead"];
 
 export class Kernel {
@@ -96,7 +97,7 @@ export class Kernel {
     };
     const look = () => {
       const { status } = connection;
-      if (status === "autorestarting") this.part("died and was started anew");
+      if (status === "autorestarting") this.part(DIED);
       else if (status === "restarting") this.part("was restarted");
       else if (connection.isDisposed || PARTED.includes(status)) this.part(this.fate || "has ended");
       else if (connection.connectionStatus !== "connected") this.turn("away");
@@ -145,13 +146,20 @@ export class Kernel {
   }
 
   private part(fate: string): void {
+    // That it has died is told a moment after that it restarts; nothing else is news of one that has gone.
+    if (this.presence === "gone" && (fate !== DIED || fate === this.fate)) return;
     this.fate = fate;
-    this.turn("gone");
+    this.presence = "gone";
+    this.notify();
   }
 
-  private turn(presence: Presence): void {
+  private turn(presence: "live" | "away"): void {
     if (this.presence === presence || this.presence === "gone") return;
     this.presence = presence;
+    this.notify();
+  }
+
+  private notify(): void {
     for (const watcher of [...this.watchers]) watcher();
   }
 

@@ -87,6 +87,14 @@ describe("a kernel that ends", () => {
     expect(store.kernel.presence).toBe("gone");
   });
 
+  it("has died where that is told after the restart", () => {
+    const told: string[] = [];
+    store.kernel.watch(() => told.push(store.kernel.fate), end.signal);
+    connection.turn({ status: "restarting" });
+    connection.turn({ status: "autorestarting" });
+    expect(told).toEqual(["was restarted", "died and was started anew"]);
+  });
+
   it("leaves what was typed in the browser's model, for every view", () => {
     store.set(BX, "A");
     store.set(BX, "AB");
