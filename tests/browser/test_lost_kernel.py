@@ -167,6 +167,8 @@ def test_however_the_kernel_ends_it_is_said_and_what_was_typed_is_kept(server: S
 
     end(server)
     expect(server.said).to_have_count(server.views)
+    if end is killed:
+        page.locator(".jp-Dialog button.jp-mod-accept").click()  # JupyterLab says so, too
     for text in server.said.all_inner_texts():
         assert text.startswith(ENDS[end]), text
     expect(page.locator(".fnb-status-line").first).to_contain_text("read only")
