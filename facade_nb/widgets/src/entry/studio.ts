@@ -5,9 +5,10 @@ import "../styles/base.css";
 import "../styles/fields.css";
 import "../styles/editors.css";
 import "../styles/views.css";
+import { absence } from "../shared/absence.ts";
 import { h, mark } from "../shared/dom.ts";
 import { Store } from "../shared/store.ts";
-import { adoptStyle, watchTheme } from "../shared/theme.ts";
+import { adoptStyle, type Theme, themeOf, watchTheme } from "../shared/theme.ts";
 import type { Mount, WidgetModel } from "../shared/types.ts";
 import { canvas } from "../studio/canvas.ts";
 import { type Context, type MakePart, section } from "../studio/common.ts";
@@ -46,7 +47,7 @@ const PARTS: Record<string, Make> = {
 export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();
   const { signal } = end;
-  adoptStyle(css);
+  adoptStyle(css, el, signal);
   const store = new Store(channel, signal);
   const part = model.get<string>("part");
   const make = PARTS[part];
@@ -57,11 +58,14 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   // The keys of a widget are its own: in command mode JupyterLab would read them as commands on cells.
   mark(root, "data-lm-suppress-shortcuts", true);
   root.append(make({ store, signal, notify }, model), noticeArea);
-  mark(root, "inert", !store.live);
+  mark(root, "inert", store.kernel.presence === "saved");
+  absence(root, store.kernel, signal, { what: "façade", unsent: () => store.waits });
   root.addEventListener("keydown", (event) => keys(event, store));
-  watchTheme(root, signal, (theme) => {
+  const tellTheme = (theme: Theme) => {
     if (store.get("theme") !== theme) store.ask({ op: "theme", theme });
-  });
+  };
+  watchTheme(root, signal, tellTheme);
+  store.kernel.watch(() => tellTheme(themeOf(root)), signal);
   el.append(root);
   return () => {
     end.abort();

@@ -1,7 +1,7 @@
 // Fields that edit one place of the design. A field shows its draft where there is one, else the design's value, and is
 // never written to while Python has not answered what was typed in it.
 
-import { h, mark, setText } from "./dom.ts";
+import { focused, h, mark, setText } from "./dom.ts";
 import { type IconName, icon } from "./icons.ts";
 import { keyOf, type Store } from "./store.ts";
 import type { DraftState, Fault, Path } from "./types.ts";
@@ -35,14 +35,14 @@ function showText(store: Store, input: HTMLInputElement | HTMLTextAreaElement, o
   const draft = draftOf(store, options.path);
   mark(input, "aria-invalid", draft ? "true" : null);
   if (store.pending(options.path)) return;
-  const text = draft ? String(draft.value ?? "") : options.value();
+  const text = String(store.unsent(options.path) ?? (draft ? (draft.value ?? "") : options.value()));
   if (input.value === text) return;
   // "6." and "6,0" mean what the design says: leave them be while they are being typed.
   const same = Number(input.value.replace(",", ".")) === Number(text) && input.value.trim() !== "" && text !== "";
-  if (input.type === "text" && input.inputMode === "decimal" && same && document.activeElement === input) return;
+  if (input.type === "text" && input.inputMode === "decimal" && same && focused(input) === input) return;
   const caret = input.selectionStart;
   input.value = text;
-  if (document.activeElement === input && caret !== null) {
+  if (focused(input) === input && caret !== null) {
     const at = Math.min(caret, text.length);
     input.setSelectionRange(at, at);
   }
@@ -123,6 +123,7 @@ export function nameField(options: { label: string; value: () => string; commit:
     autocomplete: "off",
   });
   const commit = () => {
+    if (input.readOnly) return; // what was typed while the kernel went stays
     const name = input.value.trim();
     if (name && name !== options.value()) options.commit(name);
     input.value = options.value();
@@ -139,7 +140,7 @@ export function nameField(options: { label: string; value: () => string; commit:
   return {
     el: input,
     update() {
-      if (document.activeElement !== input) input.value = options.value();
+      if (focused(input) !== input && !input.readOnly) input.value = options.value();
       input.size = Math.max(2, options.value().length);
     },
   };

@@ -1,12 +1,13 @@
 // The four cases of the paper's Figure 4 side by side: the words of both layers to scale over the façade they make, and
 // the qualifiers as switches. Python solves a case again when one of its switches is thrown.
 
-import { h, mark, setText, svg } from "../shared/dom.ts";
+import { focused, h, mark, setText, svg } from "../shared/dom.ts";
 import { parseDrawing } from "../shared/drawing.ts";
 import { formatNumber } from "../shared/fields.ts";
 import { type IconName, icon } from "../shared/icons.ts";
+import { Kernel } from "../shared/kernel.ts";
 import { announce } from "../shared/presence.ts";
-import { themeOf } from "../shared/theme.ts";
+import { themeOf, watchDress } from "../shared/theme.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { hueOf } from "./letters.ts";
 import { Links, linked, target } from "./links.ts";
@@ -46,7 +47,7 @@ const GAP = 5;
 
 export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLElement {
   const client = Math.random().toString(36).slice(2);
-  const live = channel.comm_live !== false;
+  const kernel = Kernel.of(channel);
   const links = new Links([]);
   const cards: Card[] = [];
   const grid = h("div", { class: "fnb-cases" });
@@ -64,7 +65,7 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
     grid,
   );
   const ask = (message: Record<string, unknown>) => {
-    if (live) channel.send({ ...message, client });
+    kernel.tell({ ...message, client });
   };
   let cases: Case[] = [];
   const load = async () => {
@@ -88,8 +89,7 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
   };
   channel.on("change:cases", load);
   channel.on("change:trouble", show);
-  const dress = new MutationObserver(() => requestAnimationFrame(show));
-  dress.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
+  watchDress(() => requestAnimationFrame(show), signal);
   requestAnimationFrame(show); // in the page it has a theme
   links.listen(el, signal);
   links.watch(() => links.apply(el), signal);
@@ -97,7 +97,6 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
   signal.addEventListener("abort", () => {
     channel.off("change:cases", load);
     channel.off("change:trouble", show);
-    dress.disconnect();
   });
   void load();
   return el;
@@ -152,7 +151,7 @@ class Card {
     mark(this.told, "data-failed", one.message !== "");
     setText(this.cost, one.cost === null ? "" : `J = ${formatNumber(one.cost)} m`);
     this.reset.hidden = !one.changed;
-    if (document.activeElement !== this.width) this.width.value = formatNumber(one.canvas.x);
+    if (focused(this.width) !== this.width) this.width.value = formatNumber(one.canvas.x);
     this.patterns.replaceChildren(
       ...one.patterns.map(({ layer, text }) => h("code", { title: `Layer ${layer}` }, text)),
     );

@@ -1,6 +1,7 @@
 // What the views of one texture model on a page share: the grammar unpacked, and what was entered but is not yet answered.
 
-import { oneFor, Shared } from "../shared/shared.ts";
+import { oneFor } from "../shared/one.ts";
+import { Shared } from "../shared/shared.ts";
 import type { Fault } from "../shared/types.ts";
 import { type Bytes, byteLength, unpack } from "../solver/packing.ts";
 import { renderer } from "./renderer.ts";
@@ -64,6 +65,11 @@ export class Session extends Shared {
     return this.waiting.has("text") || this.sent.has("text");
   }
 
+  /** Whether something was entered that Python has not answered. */
+  get waits(): boolean {
+    return this.waiting.size + this.sent.size > 0;
+  }
+
   override hold(update: () => void, signal: AbortSignal): void {
     super.hold(update, signal);
     update();
@@ -71,20 +77,21 @@ export class Session extends Shared {
 
   /** Take a value: it is shown at once, and sent at once or when the answer to what was sent before has come. */
   set(name: Entered, value: unknown): void {
-    if (this.live) {
+    if (this.kernel.presence === "saved") this.channel.set(name, value);
+    else {
       this.waiting.set(name, value);
       this.flush();
-    } else this.channel.set({ [name]: value });
+    }
     this.tell();
   }
 
   pick(point: Pair | null, ray: Triple | null = null): void {
-    this.send({ op: "pick", point, ray });
+    this.kernel.tell({ op: "pick", point, ray });
   }
 
   /** Have Python draw a still picture, now and after every change. */
   askStill(): void {
-    this.send({ op: "still" });
+    this.kernel.tell({ op: "still" });
   }
 
   look(step: number): void {
@@ -105,11 +112,27 @@ export class Session extends Shared {
     this.waiting.delete(name);
     this.sent.set(name, value);
     this.seq += 1;
-    this.send({ op: "set", name, value, client: this.client, seq: this.seq });
+    this.submit();
   }
 
-  private send(message: Record<string, unknown>): void {
-    if (this.live) this.channel.send(message);
+  /** Send what is on its way. */
+  private submit(): void {
+    for (const [name, value] of this.sent)
+      this.kernel.tell({ op: "set", name, value, client: this.client, seq: this.seq });
+  }
+
+  /** After a gap what was on its way is sent again, if it was lost; when the kernel has gone, what was entered is kept. */
+  protected override kernelChanged(): void {
+    if (this.live && this.kernel.received(this.client) < this.seq) this.submit();
+    else if (this.live) {
+      this.acknowledged = this.seq;
+      this.sent.clear();
+    }
+    this.flush();
+    if (this.kernel.presence === "gone")
+      for (const entered of [this.sent, this.waiting])
+        for (const [name, value] of entered) this.channel.set(name, value);
+    super.kernelChanged();
   }
 
   private readonly onSteps = (): void => {
