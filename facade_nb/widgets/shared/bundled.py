@@ -10,15 +10,29 @@ from weakref import WeakKeyDictionary
 from ipywidgets import Widget, widget_serialization
 from traitlets import Instance, Unicode
 
-__all__ = ["Bundled", "Code", "Message", "ModelWire", "bundle"]
+__all__ = ["AS_RUN", "Bundled", "Code", "Message", "ModelWire", "as_run", "bundle"]
 
 Message = dict[str, Any]
+
+
+AS_RUN = "As this cell was run: what was changed later is not shown here."
+"""What stands under a static picture: it is saved when its cell is run, and the view goes on without it."""
+
+
+def as_run(static: str) -> str:
+    """A static form that may become older than its model, marked as such."""
+    return f"<figure>{static}<figcaption><small>{AS_RUN}</small></figcaption></figure>" if static else ""
 
 
 @cache
 def bundle(name: str) -> str:
     """The text of a file of the built front end."""
     return files("facade_nb.widgets").joinpath("static", name).read_text(encoding="utf-8")
+
+
+def _is_open(widget: Widget | None) -> bool:
+    """Whether a widget can still speak to the browser: marimo closes those of a cell that is run again."""
+    return widget is not None and widget.comm is not None and not getattr(widget.comm, "_closed", False)
 
 
 class Code(Widget):
@@ -39,7 +53,7 @@ class Code(Widget):
     def of(cls, front: str) -> Code:
         """The code of a bundle, made when first asked for, or anew if it was closed."""
         code = _codes.get(front)
-        if code is None or code.comm is None:
+        if code is None or not _is_open(code):
             code = _codes[front] = cls(front)
         return code
 
@@ -78,6 +92,7 @@ class Bundled(Widget):
     def __init__(self, **traits: Any) -> None:
         self._asleep = False
         self._views: set[str] = set()
+        self._heard: dict[str, int] = {}
         code = Code.of(self.front)
         code.hold(self)
         super().__init__(front_end=code, **traits)
@@ -111,19 +126,30 @@ class Bundled(Widget):
 
     def _receive(self, _: Widget, message: Message, __: list[Any]) -> None:
         """Note that a view came or went; whatever else is asked, `_answer` it."""
-        op = message.get("op")
+        op, client = message.get("op"), message.get("client", "")
+        if "seq" in message:
+            self._heard[client] = message["seq"]
         if op == "wake":
             self.wake()
+        elif op == "ping":
+            if message.get("renew"):
+                self._renew()
         elif op == "view":
             if message["here"]:
-                self._views.add(message["client"])
+                self._views.add(client)
                 self.wake()
             else:
-                self._views.discard(message["client"])
+                self._views.discard(client)
+                self._heard.pop(client, None)
                 if not self._views:
                     self._sleep()
         else:
             self._answer(message)
+
+    def _renew(self) -> None:
+        """After a gap in the connection: tell everything again, and which messages of the front end's have come."""
+        self.send_state()
+        self.send({"kind": "pong", "heard": self._heard})
 
     def _answer(self, message: Message) -> None:
         """Do what the front end asks for."""
@@ -142,7 +168,9 @@ class ModelWire(Bundled):
     def of(cls, model: Any) -> Self:
         """The wire of a model, made when first asked for, or anew if it was closed."""
         wire: Self | None = cls._wires.get(model)
-        if wire is None or wire.comm is None:
+        if wire is None or not _is_open(wire):
+            if wire is not None:
+                wire.close()
             wire = cls._wires[model] = cls(model)
         return wire
 

@@ -32,6 +32,8 @@ class TraceModel(HasTraits):
     trace: Trace = Instance(Trace)
     position: int = Int(-1)
     picked: list[str] = List(Unicode())
+    follows = False
+    """Whether the trace is that of a model, and another one when that is edited."""
 
     def __init__(self, trace: Trace) -> None:
         super().__init__(trace=_whole(trace))
@@ -112,6 +114,7 @@ def _following(model: FacadeModel) -> TraceModel:
     if model.trace is None:
         raise DesignError(model.message or "this design was not solved")
     made = TraceModel(model.trace)
+    made.follows = True
     model.observe(lambda change: made._follow(change["new"]), "trace")
     _of_model[model] = made
     return made

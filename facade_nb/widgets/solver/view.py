@@ -11,7 +11,7 @@ from traitlets import Bool, Dict, Instance, Unicode
 
 from ...design import Design, NoLayout
 from ...solver import Layout, Trace
-from ..shared.bundled import bundle
+from ..shared.bundled import as_run, bundle
 from ..studio.model import FacadeModel
 from .channel import TraceChannel
 from .model import TraceModel
@@ -85,7 +85,10 @@ class TraceView(AnyWidget):
         raise NotImplementedError
 
     def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
-        """The live view and, for pages where none can run, the static form."""
+        """The live view and, for pages where none can run, the static form.
+
+        Where the view follows a model, which may be edited, the static form says that it is of the cell's run.
+        """
         self.channel.wake()
         made = super()._repr_mimebundle_(**options)
         if made is not None:
@@ -93,5 +96,5 @@ class TraceView(AnyWidget):
             if static and self.predict:  # the static form is the answer: a reader should ask for it
                 static = f"<details><summary>The answer</summary>{static}</details>"
             if static and len(static.encode()) <= LARGEST:
-                made[0]["text/html"] = static
+                made[0]["text/html"] = as_run(static) if self.model.follows else static
         return made

@@ -14,7 +14,7 @@ from traitlets import Instance, Unicode
 from ...design import Design, DesignError
 from ...render import elevation_svg
 from ...solver import Layout
-from ..shared.bundled import bundle
+from ..shared.bundled import as_run, bundle
 from .channel import Channel
 from .model import FacadeModel
 
@@ -68,14 +68,14 @@ class Part(AnyWidget):
         return f"{type(self).__name__}({self.model.design.name!r})"
 
     def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
-        """The live view and, for pages where none can run, a picture.
+        """The live view and, for pages where none can run, a picture, which says that it is of the cell's run.
 
         The picture is an image in HTML, since JupyterLab shows no SVG in a notebook that is not trusted yet.
         """
         self.channel.wake()
         made = super()._repr_mimebundle_(**options)
         if made is not None and self._pictured and (drawn := picture(self.model.layout)):
-            made[0]["text/html"] = drawn
+            made[0]["text/html"] = as_run(drawn)
         return made
 
 

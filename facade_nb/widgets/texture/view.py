@@ -13,7 +13,7 @@ from traitlets import Bool, Enum, Float, Instance, List, Unicode
 
 from ...render import Grammar
 from ...render.texture.view import Sight
-from ..shared.bundled import bundle
+from ..shared.bundled import as_run, bundle
 from .channel import TextureChannel
 from .model import TextureModel
 from .packet import grammar_table, step_text
@@ -70,13 +70,13 @@ class _TextureWidget(AnyWidget):
         return image(self.model, self.channel.draw_still()) if self._pictured else ""
 
     def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
-        """The live view and, for pages where none can run, the static form."""
+        """The live view and, for pages where none can run, the static form, marked as of the cell's run."""
         self.channel.wake()
         made = super()._repr_mimebundle_(**options)
         if made is not None:
             static = self.to_html()
             if static:
-                made[0]["text/html"] = static
+                made[0]["text/html"] = as_run(static)
         return made
 
 

@@ -20,6 +20,7 @@ from facade_nb.design.edit import with_canvas
 from facade_nb.solver import Trace
 from facade_nb.solver.events import AxisPosed, Event, ShapeMerged, WordJudged
 from facade_nb.widgets import FacadeModel, FacadeView, QualifiersView, TraceModel, TraceView, WordsView
+from facade_nb.widgets.shared.bundled import AS_RUN
 from facade_nb.widgets.solver import captions, chunks, code, timeline
 from facade_nb.widgets.solver.channel import TraceChannel
 from facade_nb.widgets.solver.packing import pack
@@ -308,6 +309,11 @@ class TestViews:
         assert within
         drawn = re.compile(r"base64,[^\"]*")  # an elevation has new ids each time
         assert drawn.sub("", within[1]) == drawn.sub("", shown)
+
+    def test_a_static_form_that_may_grow_old_says_so(self, trace: Trace) -> None:
+        """A model that is followed may be edited; a trace stays what it is."""
+        assert AS_RUN not in WordsView(trace)._repr_mimebundle_()[0]["text/html"]
+        assert AS_RUN in WordsView(gallery.load("figure-7"))._repr_mimebundle_()[0]["text/html"]
 
     @pytest.mark.parametrize("name", ["bookshop", "concert-hall", "terraced-house"])
     def test_the_largest_designs_have_static_forms_that_are_kept(self, name: str) -> None:

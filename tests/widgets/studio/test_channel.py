@@ -33,7 +33,7 @@ class Line:
         self.seq = 0
 
     def _record(self, key: Any = None) -> None:
-        keys = {key} if isinstance(key, str) else set(key)
+        keys = {key} if isinstance(key, str) else set(self.channel.keys if key is None else key)
         self.updates.append({name: getattr(self.channel, name) for name in keys})
 
     def ask(self, op: str, **arguments: Any) -> None:
@@ -333,3 +333,31 @@ def test_all_channels_share_one_bundle_which_goes_with_the_last_view() -> None:
     assert code.module
     one.channel.close()
     assert code.module == ""
+
+
+def test_after_a_gap_all_is_told_again_and_which_messages_have_come() -> None:
+    line = Line()
+    line.set("patterns/Bx/text", "A(BA)^2")
+    line.set("canvas/width", "7")
+    line.updates.clear()
+    line.channel._handle_custom_msg({"op": "ping", "client": "other"}, [])
+    assert (line.updates, line.replies) == ([], [])  # that it could be sent is all that is asked
+    line.channel._handle_custom_msg({"op": "ping", "client": "other", "renew": True}, [])
+    (update,) = line.updates
+    assert update["design"]["canvas"]["width"] == 7
+    assert update["ack"] == {"client": "me", "seq": 2}
+    assert line.replies == [{"kind": "pong", "heard": {"me": 2}}]
+
+
+def test_a_wire_that_its_host_has_closed_is_made_anew() -> None:
+    """As marimo does with those of a cell that is run again: it closes the comm, and the widget does not hear of it."""
+    model = FacadeModel(house())
+    first = Studio(model)
+    wire, code = first.channel, first.channel.front_end
+    wire.comm._closed = code.comm._closed = True
+    second = Studio(model)
+    assert second.channel is not wire
+    assert second.channel.front_end is not code
+    assert second.channel.front_end.module
+    model.enter(("canvas", "width"), 7.0)
+    assert second.channel.design["canvas"]["width"] == 7.0

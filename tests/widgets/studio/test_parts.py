@@ -11,6 +11,7 @@ import pytest
 
 from facade_nb import widgets
 from facade_nb.widgets import FacadeModel, MassingView, Part, Studio
+from facade_nb.widgets.shared.bundled import AS_RUN
 from facade_nb.widgets.studio.massing import Massing
 
 from ..houses import house
@@ -40,9 +41,11 @@ def test_a_part_makes_a_model_of_a_design() -> None:
 def test_parts_with_a_facade_carry_a_picture() -> None:
     bundle, _ = Studio(house())._repr_mimebundle_()
     picture = re.fullmatch(
-        r'<img alt="Elevation of Test house" src="data:image/svg\+xml;base64,(.*)">', bundle["text/html"]
+        r'<figure><img alt="Elevation of Test house" src="data:image/svg\+xml;base64,(.*?)">(.*)</figure>',
+        bundle["text/html"],
     )
     assert picture is not None
+    assert picture[2] == f"<figcaption><small>{AS_RUN}</small></figcaption>"
     assert b64decode(picture[1]).startswith(b"<svg")
     bundle, _ = widgets.PatternEditor(house())._repr_mimebundle_()
     assert "text/html" not in bundle

@@ -9,6 +9,7 @@ from traitlets import TraitError
 from facade_nb import gallery
 from facade_nb.render import Grammar
 from facade_nb.widgets import GrammarEditor, TextureModel, TextureView
+from facade_nb.widgets.shared.bundled import AS_RUN, as_run
 from facade_nb.widgets.texture.channel import TextureChannel
 from facade_nb.widgets.texture.packet import grammar_table
 
@@ -97,4 +98,6 @@ def test_views_share_a_channel_and_have_a_static_form() -> None:
     editor = GrammarEditor(view.model)
     assert editor.channel is view.channel
     assert view.to_html().startswith("<img alt=")
+    assert view._repr_mimebundle_()[0]["text/html"] == as_run(view.to_html())
+    assert AS_RUN in as_run(view.to_html())
     assert editor.to_html() == "<table><tr><td>1</td><td>S -&gt; Mat(Color, 0, 1, 0, 0, 1)</td></tr></table>"

@@ -41,7 +41,13 @@ export default {
     if (!code.get("module")) {
       // Nobody has looked for a while, and the code has been put away.
       const woken = new Promise<void>((done) => code.on("change:module", done));
-      channel.send({ op: "wake" });
+      try {
+        if (channel.comm_live === false) throw new Error();
+        channel.send({ op: "wake" });
+      } catch {
+        el.textContent = "There is no kernel to show this view: run the cell again.";
+        return;
+      }
       await woken;
     }
     const bundle = await load(code.get<string>("module"));

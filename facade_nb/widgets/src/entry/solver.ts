@@ -13,7 +13,9 @@ import "../styles/player.css";
 import "../styles/qualifiers.css";
 import "../styles/sizing.css";
 import "../styles/solver-views.css";
+import { absence } from "../shared/absence.ts";
 import { h } from "../shared/dom.ts";
+import { Kernel } from "../shared/kernel.ts";
 import { keepKeys } from "../shared/keys.ts";
 import { adoptStyle, watchTheme } from "../shared/theme.ts";
 import type { Mount } from "../shared/types.ts";
@@ -25,7 +27,7 @@ import { VIEWS } from "../solver/views/index.ts";
 
 export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();
-  adoptStyle(css);
+  adoptStyle(css, el, end.signal);
   const part = model.get<string>("part");
   const kind = VIEWS[part];
   if (!kind && part !== "solver" && part !== "qualifiers") throw new Error(`facade_nb: no view named ${part}`);
@@ -39,10 +41,13 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   };
   if (part === "qualifiers") {
     root.append(qualifiers(channel, end.signal));
+    absence(root, Kernel.of(channel), end.signal, { what: "view" });
     return leave;
   }
 
   const session = Session.of(channel);
+  // All that is asked of a trace is answered here: a view goes on being read.
+  const notice = absence(root, session.kernel, end.signal, { what: "solve", needs: "" });
   let shown: AbortController | null = null;
   const show = async () => {
     shown?.abort();
@@ -52,9 +57,9 @@ export function mount({ el, model, channel, css }: Mount): () => void {
       const loaded = await session.load();
       const make = kind ? alone(kind, session, model, loaded, own.signal) : page(session, model, loaded, own.signal);
       const made = await make;
-      if (!own.signal.aborted) root.replaceChildren(made);
+      if (!own.signal.aborted) root.replaceChildren(notice.el, made);
     } catch (error) {
-      if (!own.signal.aborted) root.replaceChildren(apology(error));
+      if (!own.signal.aborted) root.replaceChildren(notice.el, apology(error));
     }
   };
   session.hold(() => void show(), end.signal);

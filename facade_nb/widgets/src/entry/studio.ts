@@ -5,10 +5,11 @@ import "../styles/base.css";
 import "../styles/fields.css";
 import "../styles/editors.css";
 import "../styles/views.css";
+import { absence } from "../shared/absence.ts";
 import { h, mark } from "../shared/dom.ts";
 import { keepKeys } from "../shared/keys.ts";
 import { Store } from "../shared/store.ts";
-import { adoptStyle, watchTheme } from "../shared/theme.ts";
+import { adoptStyle, type Theme, themeOf, watchTheme } from "../shared/theme.ts";
 import type { Mount, WidgetModel } from "../shared/types.ts";
 import { canvas } from "../studio/canvas.ts";
 import { type Context, type MakePart, section } from "../studio/common.ts";
@@ -47,7 +48,7 @@ const PARTS: Record<string, Make> = {
 export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();
   const { signal } = end;
-  adoptStyle(css);
+  adoptStyle(css, el, signal);
   const store = new Store(channel, signal);
   const part = model.get<string>("part");
   const make = PARTS[part];
@@ -56,14 +57,17 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   const { el: noticeArea, notify } = notices(store, signal);
   const root = h("div", { class: `fnb fnb-part-${part}` });
   root.append(make({ store, signal, notify }, model), noticeArea);
-  mark(root, "inert", !store.live);
+  mark(root, "inert", store.kernel.presence === "saved");
+  absence(root, store.kernel, signal, { what: "façade", unsent: () => store.waits });
   keepKeys(root, signal, (op) => store.ask({ op }));
   root.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && !event.defaultPrevented) store.ask({ op: "select" });
   });
-  watchTheme(root, signal, (theme) => {
+  const tellTheme = (theme: Theme) => {
     if (store.get("theme") !== theme) store.ask({ op: "theme", theme });
-  });
+  };
+  watchTheme(root, signal, tellTheme);
+  store.kernel.watch(() => tellTheme(themeOf(root)), signal);
   el.append(root);
   return () => {
     end.abort();

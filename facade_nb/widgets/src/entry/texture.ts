@@ -3,6 +3,7 @@
 import "../styles/base.css";
 import "../styles/fields.css";
 import "../styles/texture.css";
+import { absence } from "../shared/absence.ts";
 import { h } from "../shared/dom.ts";
 import { keepKeys } from "../shared/keys.ts";
 import { adoptStyle, watchTheme } from "../shared/theme.ts";
@@ -13,9 +14,12 @@ import { picture } from "../texture/picture.ts";
 import { Session } from "../texture/session.ts";
 import { table } from "../texture/table.ts";
 
+/** What changes the model: to look around asks nothing of Python. */
+const EDITS = ".fnb-tex-text, .fnb-tex-slide input, .fnb-tex-edit";
+
 export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();
-  adoptStyle(css);
+  adoptStyle(css, el, end.signal);
   const session = Session.of(channel);
   const parts: Record<string, () => HTMLElement> = {
     view: () => picture(session, model, end.signal),
@@ -39,6 +43,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   el.append(root);
   const trouble = h("pre", { class: "fnb-tex-trouble", role: "alert", hidden: true });
   root.append(make(), trouble);
+  absence(root, session.kernel, end.signal, { what: "façade", needs: EDITS, unsent: () => session.waits });
   session.hold(() => {
     trouble.textContent = session.trouble;
     trouble.hidden = !session.trouble;

@@ -1,5 +1,7 @@
 // Making elements. Text is only ever set as text.
 
+import type { WidgetModel } from "./types.ts";
+
 type Child = Node | string | null | undefined | false;
 type Attributes = Record<string, string | number | boolean | null | undefined>;
 
@@ -32,6 +34,11 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return fill(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 }
 
+/** Set several traits of a model. */
+export function setTraits(model: WidgetModel, values: Record<string, unknown>): void {
+  for (const [name, value] of Object.entries(values)) model.set(name, value);
+}
+
 /** Set an attribute only where it differs: fewer style recalculations, and tests see honest mutations. */
 export function mark(element: Element, name: string, value: string | boolean | null): void {
   const next = value === false || value === null ? null : value === true ? "" : value;
@@ -42,6 +49,11 @@ export function mark(element: Element, name: string, value: string | boolean | n
 
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
+}
+
+/** The element that has the focus, in the document or shadow tree that another one stands in. */
+export function focused(among: Element): Element | null {
+  return (among.getRootNode() as Partial<DocumentOrShadowRoot>).activeElement ?? null;
 }
 
 export interface Row<T> {
@@ -59,7 +71,7 @@ export function keyed<T>(parent: HTMLElement, keyOf: (item: T) => string, make: 
         row.el.remove();
         rows.delete(key);
       }
-    const focused = document.activeElement;
+    const before = focused(parent);
     let at = parent.firstElementChild;
     for (const item of items) {
       let row = rows.get(keyOf(item));
@@ -71,7 +83,7 @@ export function keyed<T>(parent: HTMLElement, keyOf: (item: T) => string, make: 
       else parent.insertBefore(row.el, at);
       row.update(item);
     }
-    if (focused instanceof HTMLElement && focused !== document.activeElement && parent.contains(focused))
-      focused.focus({ preventScroll: true });
+    if (before instanceof HTMLElement && before !== focused(parent) && parent.contains(before))
+      before.focus({ preventScroll: true });
   };
 }

@@ -38,7 +38,7 @@ function showText(store: Store, input: HTMLInputElement | HTMLTextAreaElement, o
   const draft = draftOf(store, options.path);
   mark(input, "aria-invalid", draft ? "true" : null);
   if (store.pending(options.path)) return;
-  const text = draft ? String(draft.value ?? "") : options.value();
+  const text = String(store.unsent(options.path) ?? (draft ? (draft.value ?? "") : options.value()));
   if (input.value === text) return;
   // "6." and "6,0" mean what the design says: leave them be while they are being typed.
   const same = Number(input.value.replace(",", ".")) === Number(text) && input.value.trim() !== "" && text !== "";
@@ -109,6 +109,7 @@ export function nameField(options: { label: string; value: () => string; commit:
     autocomplete: "off",
   });
   const commit = () => {
+    if (input.readOnly) return; // what was typed while the kernel went stays
     const name = input.value.trim();
     if (name && name !== options.value()) options.commit(name);
     input.value = options.value();
@@ -121,7 +122,7 @@ export function nameField(options: { label: string; value: () => string; commit:
   return {
     el: input,
     update() {
-      if (!isFocused(input)) input.value = options.value();
+      if (!isFocused(input) && !input.readOnly) input.value = options.value();
       input.size = Math.max(2, options.value().length);
     },
   };

@@ -1,20 +1,23 @@
 // What the views of one channel on a page share. It begins with the first view that holds it, and ends with the last.
 
+import { Kernel } from "./kernel.ts";
 import { announce } from "./presence.ts";
 import type { WidgetModel } from "./types.ts";
 
 export abstract class Shared {
   readonly client = Math.random().toString(36).slice(2);
   protected readonly views = new Set<() => void>();
+  readonly kernel: Kernel;
   private present = new AbortController();
 
   protected constructor(protected readonly channel: WidgetModel) {
+    this.kernel = Kernel.of(channel);
     keepBytes(channel);
   }
 
-  /** False in a saved notebook without a kernel. */
+  /** False in a saved notebook without a kernel, and while the kernel is away. */
   get live(): boolean {
-    return this.channel.comm_live !== false;
+    return this.kernel.live;
   }
 
   get trouble(): string {
@@ -26,6 +29,7 @@ export abstract class Shared {
     if (this.views.size === 0) {
       this.present = new AbortController();
       announce(this.channel, this.client, this.present.signal);
+      this.kernel.watch(() => this.kernelChanged(), this.present.signal);
       this.begin();
     }
     this.views.add(update);
@@ -47,6 +51,11 @@ export abstract class Shared {
     for (const update of [...this.views]) update();
   }
 
+  /** The kernel has come back, or gone. */
+  protected kernelChanged(): void {
+    this.tell();
+  }
+
   protected abstract begin(): void;
   protected abstract end(): void;
 }
@@ -59,18 +68,5 @@ function keepBytes(channel: WidgetModel): void {
       state[name] = typeof own?.toJSON === "function" ? own.toJSON() : structuredClone(value);
     }
     return state;
-  };
-}
-
-/** The one `S` of a channel, made when first asked for. */
-export function oneFor<S>(make: (channel: WidgetModel) => S): (channel: WidgetModel) => S {
-  const made = new WeakMap<WidgetModel, S>();
-  return (channel) => {
-    let found = made.get(channel);
-    if (!found) {
-      found = make(channel);
-      made.set(channel, found);
-    }
-    return found;
   };
 }

@@ -3,6 +3,7 @@
 // One message is under way at a time. Of several values for one field, only the newest waits. So a slow kernel is not
 // flooded, and a fast one sees every keystroke.
 
+import { Kernel } from "./kernel.ts";
 import { announce } from "./presence.ts";
 import type { Path, Reply, State, WidgetModel } from "./types.ts";
 
@@ -12,6 +13,12 @@ type Key = keyof State;
 interface Queued {
   message: Operation;
   key: string;
+}
+
+/** A field, and what was typed in it. */
+export interface Edit {
+  path: Path;
+  value: unknown;
 }
 
 export const keyOf = (path: Path): string => JSON.stringify(path);
@@ -25,21 +32,25 @@ export class Store {
   private last = "";
   private readonly waiters = new Set<() => void>();
 
+  readonly kernel: Kernel;
+
   constructor(
     private readonly channel: WidgetModel,
     private readonly signal: AbortSignal,
   ) {
+    this.kernel = Kernel.of(channel);
     this.listen("change:ack", () => this.answered());
     announce(channel, this.client, signal);
+    this.kernel.watch(() => this.kernelChanged(), signal);
   }
 
   get<K extends Key>(key: K): State[K] {
     return this.channel.get<State[K]>(key);
   }
 
-  /** False in a saved notebook without a kernel: all can be seen, nothing edited. */
+  /** False in a saved notebook without a kernel, and while the kernel is away: all can be seen, nothing edited. */
   get live(): boolean {
-    return this.channel.comm_live !== false;
+    return this.kernel.live;
   }
 
   /** What the ids in the drawing begin with. */
@@ -63,7 +74,7 @@ export class Store {
     for (const key of keys) this.listen(`change:${key}`, changed);
   }
 
-  /** Call back when an edit is put under way or answered. */
+  /** Call back when an edit is put under way or answered, and when the kernel has gone or come back. */
   watchQueue(callback: () => void): void {
     this.waiters.add(callback);
     this.signal.addEventListener("abort", () => this.waiters.delete(callback));
@@ -87,8 +98,9 @@ export class Store {
     this.flush();
   }
 
-  /** Ask for anything else; kept in order with the edits. */
+  /** Ask for anything else; kept in order with the edits. Nothing is asked of a kernel that is away. */
   ask(message: Operation): void {
+    if (!this.live) return;
     this.queue.push({ message, key: "" });
     this.flush();
   }
@@ -104,6 +116,17 @@ export class Store {
     return this.last === "undo" || this.last === "redo";
   }
 
+  /** What was typed in a field of any view, and did not reach the kernel before it went. */
+  unsent(path: Path): unknown {
+    const key = keyOf(path);
+    return this.live ? undefined : this.left().findLast((edit) => keyOf(edit.path) === key)?.value;
+  }
+
+  /** Whether there are edits that have not reached the kernel. */
+  get waits(): boolean {
+    return this.edits().length > 0;
+  }
+
   /** Milliseconds that the message under way has been waited for. */
   get waiting(): number {
     return this.flying ? performance.now() - this.flying.since : 0;
@@ -115,8 +138,38 @@ export class Store {
     if (!next) return;
     this.last = next.message.op;
     this.flying = { ...next, seq: ++this.seq, since: performance.now() };
-    this.channel.send({ ...next.message, client: this.client, seq: this.seq });
+    this.send();
     for (const waiter of this.waiters) waiter();
+  }
+
+  private send(): void {
+    if (this.flying) this.kernel.tell({ ...this.flying.message, client: this.client, seq: this.flying.seq });
+  }
+
+  /** After a gap what was under way is sent again, if it was lost; when the kernel has gone, what was typed is kept. */
+  private kernelChanged(): void {
+    if (this.live && this.flying) {
+      this.flying.since = performance.now();
+      if (this.kernel.received(this.client) < this.flying.seq) this.send();
+      else this.flying = null;
+    }
+    this.flush();
+    // In the browser's model all views of the channel find it, those that are made later too.
+    if (this.kernel.presence === "gone" && this.waits) {
+      const keys = new Set(this.edits().map(({ path }) => keyOf(path)));
+      this.channel.set("unsent", [...this.left().filter(({ path }) => !keys.has(keyOf(path))), ...this.edits()]);
+    }
+    for (const waiter of this.waiters) waiter();
+  }
+
+  /** The edits that are under way or wait, oldest first. */
+  private edits(): Edit[] {
+    const all = this.flying ? [this.flying, ...this.queue] : this.queue;
+    return all.flatMap(({ message: { op, path, value } }) => (op === "set" ? [{ path: path as Path, value }] : []));
+  }
+
+  private left(): Edit[] {
+    return this.channel.get<Edit[] | undefined>("unsent") ?? [];
   }
 
   private answered(): void {

@@ -142,7 +142,8 @@ export type Reply = { client: string; seq: number } & (
 /** The part of a widget model (Backbone's) that is used here. */
 export interface WidgetModel {
   get<T = unknown>(name: string): T;
-  set(values: Record<string, unknown>): void;
+  /** One trait at a time: marimo's models take no more. */
+  set(name: string, value: unknown): void;
   save_changes(): void;
   send(content: unknown): void;
   // biome-ignore lint/suspicious/noExplicitAny: the events carry different arguments
@@ -150,7 +151,7 @@ export interface WidgetModel {
   // biome-ignore lint/suspicious/noExplicitAny: as above
   off(names: string, callback: (...args: any[]) => void): void;
   readonly model_id: string;
-  readonly comm_live?: boolean;
+  comm_live?: boolean;
   /** Makes of its state what is saved. */
   serialize?(state: Record<string, unknown>): Record<string, unknown>;
   readonly widget_manager: WidgetManager;
@@ -164,7 +165,27 @@ export interface WidgetView {
 
 export interface WidgetManager {
   get_model(id: string): Promise<WidgetModel>;
-  create_view(model: WidgetModel): Promise<WidgetView>;
+  /** Not in marimo, which shows widgets of anywidget's only. */
+  create_view?(model: WidgetModel): Promise<WidgetView>;
+  /** In Jupyter's managers the connection to the kernel; null: there is none any more. */
+  readonly kernel?: Connection | null;
+}
+
+interface Signal<A> {
+  connect(slot: (sender: unknown, argument: A) => void): unknown;
+  disconnect(slot: (sender: unknown, argument: A) => void): unknown;
+}
+
+/** The part of Jupyter's connection to a kernel that is used here. */
+export interface Connection {
+  readonly status: string;
+  readonly connectionStatus: string;
+  readonly isDisposed: boolean;
+  readonly statusChanged: Signal<unknown>;
+  readonly connectionStatusChanged: Signal<unknown>;
+  readonly disposed: Signal<unknown>;
+  readonly iopubMessage: Signal<{ header: { msg_type: string }; content: { restart?: boolean } }>;
+  requestCommInfo(content: { target_name: string }): Promise<{ content: { comms?: Record<string, unknown> } }>;
 }
 
 /** What a part is given: its own model, the model's channel, and the style sheet that goes with the code. */

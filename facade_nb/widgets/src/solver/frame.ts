@@ -63,7 +63,7 @@ export async function panel(
   );
   if (view.quiz) {
     const { quiz } = view;
-    const { toggle, bar, show } = question(quiz, model, refresh, signal);
+    const { toggle, bar, show } = question(quiz, session, model, refresh, signal);
     ask = () => {
       show();
       asking.set(quiz, quiz.hides && quiz.truths.size && !signal.aborted ? quiz.from : null);
@@ -137,7 +137,7 @@ export async function alone(
   return el;
 }
 
-function question(quiz: Quiz, model: WidgetModel, refresh: () => void, signal: AbortSignal) {
+function question(quiz: Quiz, session: Session, model: WidgetModel, refresh: () => void, signal: AbortSignal) {
   const press = (label: string, act: () => void) => {
     const button = h("button", { type: "button", class: "fnb-fix" }, label);
     button.addEventListener("click", act);
@@ -155,8 +155,8 @@ function question(quiz: Quiz, model: WidgetModel, refresh: () => void, signal: A
   const prompt = h("span", { class: "fnb-quiz-prompt" });
   const outcome = h("strong", { class: "fnb-quiz-outcome", role: "status" });
   const check = press("Check", () => {
-    model.set({ answer: quiz.check() });
-    if (model.comm_live !== false) model.save_changes();
+    model.set("answer", quiz.check());
+    session.kernel.save(model);
   });
   const again = press("Again", () => quiz.again());
   const bar = h("div", { class: "fnb-quiz" }, which, prompt, outcome, check, again);

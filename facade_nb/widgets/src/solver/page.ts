@@ -1,7 +1,7 @@
 // The whole page: the player above, the façade and the events beside the views; the view of the stage that is played
 // comes by itself.
 
-import { h, mark } from "../shared/dom.ts";
+import { h, mark, setTraits } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { Asking } from "./asking.ts";
 import { apology, type Panel, panel } from "./frame.ts";
@@ -45,8 +45,8 @@ export async function page(
   let kept = new Set(model.get<string[]>("views").filter((name) => names.includes(name)));
   let follow = model.get<boolean>("follow");
   const save = () => {
-    model.set({ views: [...kept], follow });
-    if (model.comm_live !== false) model.save_changes();
+    setTraits(model, { views: [...kept], follow });
+    session.kernel.save(model);
   };
 
   const chip = (label: string, title: string, act: () => void) => {

@@ -5,9 +5,10 @@ import { h, mark, setText, svg } from "../shared/dom.ts";
 import { parseDrawing } from "../shared/drawing.ts";
 import { formatNumber, holdBack } from "../shared/fields.ts";
 import { type IconName, icon } from "../shared/icons.ts";
+import { Kernel } from "../shared/kernel.ts";
 import { announce } from "../shared/presence.ts";
 import { stepByKeys } from "../shared/stepping.ts";
-import { themeOf } from "../shared/theme.ts";
+import { themeOf, watchDress } from "../shared/theme.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { isFocused } from "../shared/writing.ts";
 import { hueOf } from "./letters.ts";
@@ -48,7 +49,7 @@ const GAP = 5;
 
 export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLElement {
   const client = Math.random().toString(36).slice(2);
-  const live = channel.comm_live !== false;
+  const kernel = Kernel.of(channel);
   const links = new Links([]);
   const cards: Card[] = [];
   const grid = h("div", { class: "fnb-cases" });
@@ -66,7 +67,7 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
     grid,
   );
   const ask = (message: Record<string, unknown>) => {
-    if (live) channel.send({ ...message, client });
+    kernel.tell({ ...message, client });
   };
   let cases: Case[] = [];
   const load = async () => {
@@ -90,8 +91,7 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
   };
   channel.on("change:cases", load);
   channel.on("change:trouble", show);
-  const dress = new MutationObserver(() => requestAnimationFrame(show));
-  dress.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
+  watchDress(() => requestAnimationFrame(show), signal);
   requestAnimationFrame(show); // in the page it has a theme
   links.listen(el, signal);
   links.watch(() => links.apply(el), signal);
@@ -99,7 +99,6 @@ export function qualifiers(channel: WidgetModel, signal: AbortSignal): HTMLEleme
   signal.addEventListener("abort", () => {
     channel.off("change:cases", load);
     channel.off("change:trouble", show);
-    dress.disconnect();
   });
   void load();
   return el;

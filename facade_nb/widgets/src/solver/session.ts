@@ -1,6 +1,8 @@
 // What all views of one trace on a page share: its pieces, the player, the links. There is one session for a channel.
 
-import { oneFor, Shared } from "../shared/shared.ts";
+import { setTraits } from "../shared/dom.ts";
+import { oneFor } from "../shared/one.ts";
+import { Shared } from "../shared/shared.ts";
 import { Alternatives } from "./alternatives.ts";
 import { Links } from "./links.ts";
 import { type Moment, visit, watchMoments } from "./moments.ts";
@@ -107,17 +109,20 @@ export class Session extends Shared {
 
   private save(values: Record<string, unknown>, name: string): void {
     if (JSON.stringify(this.channel.get(name)) === JSON.stringify(values[name])) return;
-    this.channel.set(values);
-    if (this.live) this.channel.save_changes();
+    setTraits(this.channel, values);
+    this.kernel.save();
   }
 
   private async fetch(name: string): Promise<Bytes> {
     const bytes = this.channel.get<Bytes>(name);
     if (byteLength(bytes)) return bytes;
     if (this.trouble) throw new Error(this.trouble);
-    if (!this.live) throw new Error(`This saved page has no piece “${name}”: run the notebook to see it.`);
+    if (this.kernel.presence === "saved")
+      throw new Error(`This saved page has no piece “${name}”: run the notebook to see it.`);
     const arrived = new Promise<Bytes>((resolve, reject) => {
+      const end = new AbortController();
       const finish = (act: () => void) => {
+        end.abort();
         this.channel.off(`change:${name}`, look);
         this.channel.off("change:trouble", fail);
         act();
@@ -131,8 +136,16 @@ export class Session extends Shared {
       };
       this.channel.on(`change:${name}`, look);
       this.channel.on("change:trouble", fail);
+      const ask = () => {
+        this.kernel.tell({ op: "provide", names: [name] });
+        if (this.kernel.presence === "gone") {
+          const why = `The kernel ${this.kernel.fate} before it had sent the piece “${name}”: run the cell again to see it.`;
+          finish(() => reject(new Error(why)));
+        }
+      };
+      this.kernel.watch(ask, end.signal);
+      ask();
     });
-    this.channel.send({ op: "provide", names: [name] });
     return arrived;
   }
 }

@@ -1,4 +1,4 @@
-import { h } from "../shared/dom.ts";
+import { h, setText, setTraits } from "../shared/dom.ts";
 import type { WidgetModel, WidgetView } from "../shared/types.ts";
 import type { Context } from "./common.ts";
 
@@ -31,12 +31,12 @@ export function massing({ store }: Context, model: WidgetModel, signal: AbortSig
     if (!renderer || !width || !height) return;
     const size = { _width: Math.floor(width), _height: Math.floor(height) };
     if (renderer.get("_width") === size._width && renderer.get("_height") === size._height) return;
-    renderer.set(size);
+    setTraits(renderer, size);
     const camera = renderer.get<WidgetModel>("camera");
     const aspect = size._width / size._height;
     // Python stands the camera for ASPECT; in a narrower view the angle opens so that the façade's width stays in it.
     const slope = Math.tan((FIELD * Math.PI) / 360) * Math.max(1, ASPECT / aspect);
-    camera.set({ aspect, fov: (Math.atan(slope) * 360) / Math.PI });
+    setTraits(camera, { aspect, fov: (Math.atan(slope) * 360) / Math.PI });
     // The browser's own business: Python need not know, and is not told.
   };
   // three.js keeps the bounds of a geometry it has once measured, for culling and for picking.
@@ -62,8 +62,10 @@ export function massing({ store }: Context, model: WidgetModel, signal: AbortSig
   const show = async () => {
     const reference = model.get<string | null>("renderer");
     if (!reference || view || signal.aborted) return;
-    renderer = await model.widget_manager.get_model(reference.replace("IPY_MODEL_", ""));
-    const made = await model.widget_manager.create_view(renderer);
+    const manager = model.widget_manager;
+    renderer = await manager.get_model(reference.replace("IPY_MODEL_", ""));
+    const made = await manager.create_view?.(renderer);
+    if (!made) return;
     if (signal.aborted) {
       made.remove();
       return;
@@ -89,11 +91,26 @@ export function massing({ store }: Context, model: WidgetModel, signal: AbortSig
     view?.remove();
   });
   void show();
-  if (store.live) {
-    model.send({ op: "renderer", client: store.client, here: true });
-    signal.addEventListener("abort", () => model.send({ op: "renderer", client: store.client, here: false }));
-  }
+  const ask = (here: boolean) => store.kernel.tell({ op: "renderer", client: store.client, here }, model);
+  const tell = () => {
+    if (store.kernel.presence === "gone") release(renderer);
+    if (view) return;
+    ask(true);
+    if (!model.widget_manager.create_view)
+      setText(wait, "The 3D view needs Jupyter: it cannot be shown in this application.");
+    else if (store.kernel.presence === "gone") setText(wait, "The kernel has gone before the 3D view was built.");
+  };
+  if (model.widget_manager.create_view) signal.addEventListener("abort", () => ask(false));
+  store.kernel.watch(tell, signal);
+  tell();
   return el;
+}
+
+/** pythreejs tells Python of every turn: when its kernel has gone, it can be looked around all the same. */
+function release(renderer: WidgetModel | null): void {
+  if (!renderer) return;
+  const [camera, controls] = [renderer.get<WidgetModel>("camera"), renderer.get<WidgetModel[]>("controls")];
+  for (const own of [renderer, camera, ...controls]) own.comm_live = false;
 }
 
 /** The picker listens for clicks, and an orbit ends with one: swallow those. */

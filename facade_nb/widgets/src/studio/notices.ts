@@ -10,9 +10,14 @@ export function notices(store: Store, signal: AbortSignal): { el: HTMLElement; n
     "div",
     { class: "fnb-notice", role: "alert", hidden: true },
     body,
-    button("Dismiss", "close", () => {
-      notice.hidden = true;
-    }),
+    button(
+      "Dismiss",
+      "close",
+      () => {
+        notice.hidden = true;
+      },
+      { "data-local": "" },
+    ),
   );
   const trace = h("pre", {});
   const summary = h("summary", {});

@@ -29,7 +29,7 @@ export const statusLine: MakePart = ({ store, signal }) => {
   store.watch(["status", "drafts"], show);
   store.watchQueue(() => {
     clearTimeout(timer);
-    if (el.dataset.state === "waiting") show();
+    if (!store.live || el.dataset.state === "waiting") show();
     else if (store.waiting) timer = window.setTimeout(show, PATIENCE);
   });
   signal.addEventListener("abort", () => clearTimeout(timer));
@@ -39,7 +39,10 @@ export const statusLine: MakePart = ({ store, signal }) => {
 function describe(store: Store): [state: string, sentence: string] {
   const status = store.get("status");
   const drafts = store.get("drafts");
-  if (!store.live) return ["off", "No kernel: the façade as it was saved, read only"];
+  const { presence } = store.kernel;
+  if (presence === "saved") return ["off", "No kernel: the façade as it was saved, read only"];
+  if (presence === "gone") return ["off", "The kernel has gone: the façade as it was last, read only"];
+  if (presence === "away") return ["waiting", "No connection to the kernel: read only until it is back"];
   if (store.waiting > PATIENCE) return ["waiting", "The kernel is busy; edits will follow when it answers"];
   if (status.message) return ["none", status.message];
   if (drafts.length) {

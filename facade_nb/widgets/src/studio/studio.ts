@@ -32,7 +32,7 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
 
   let massingView: HTMLElement | null = null;
   const tabs = (Object.keys(VIEWS) as View[]).map((view) => {
-    const tab = h("button", { type: "button", class: "fnb-tab" }, VIEWS[view]);
+    const tab = h("button", { type: "button", class: "fnb-tab", "data-local": true }, VIEWS[view]);
     tab.addEventListener("click", () => choose(view));
     return { view, tab };
   });
@@ -46,8 +46,8 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
     }
     if (massingView) massingView.hidden = view === "elevation";
     if (model.get("view") !== view) {
-      model.set({ view });
-      model.save_changes();
+      model.set("view", view);
+      store.kernel.save(model);
     }
   };
   const bar = toolbar(context);

@@ -30,6 +30,7 @@ export function buttons(session: Session, model: WidgetModel, steer: Steering, s
   };
   const flat = button("Straight on or in perspective", steer.turnOver);
   const lit = button("Light of the hour or plain colours", () => session.set("lit", !session.lit));
+  lit.classList.add("fnb-tex-edit");
   const name = () => {
     setText(flat, model.get<boolean>("flat") ? "Perspective" : "Straight on");
     setText(lit, session.lit ? "Plain colours" : "Light");

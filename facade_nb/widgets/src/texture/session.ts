@@ -1,6 +1,7 @@
 // What the views of one texture model on a page share: the grammar unpacked, and what was entered but is not yet answered.
 
-import { oneFor, Shared } from "../shared/shared.ts";
+import { oneFor } from "../shared/one.ts";
+import { Shared } from "../shared/shared.ts";
 import type { Fault } from "../shared/types.ts";
 import { type Bytes, byteLength, unpack } from "../solver/packing.ts";
 import { renderer } from "./renderer.ts";
@@ -94,6 +95,11 @@ export class Session extends Shared {
     return this.last === "undo" || this.last === "redo";
   }
 
+  /** Whether something was entered that Python has not answered. */
+  get waits(): boolean {
+    return this.entered().length > 0;
+  }
+
   override hold(update: () => void, signal: AbortSignal): void {
     super.hold(update, signal);
     update();
@@ -101,7 +107,8 @@ export class Session extends Shared {
 
   /** Take a value: it is shown at once, and sent at once or when the answer to what was sent before has come. */
   set(name: Entered, value: unknown): void {
-    if (this.live) {
+    if (this.kernel.presence === "saved") this.channel.set(name, value);
+    else {
       const message = { op: "set", name, value };
       // What was asked for in between is about the value before it.
       const since = this.queue.findLastIndex((queued) => queued.name === "");
@@ -109,7 +116,7 @@ export class Session extends Shared {
       if (waiting) waiting.message = message;
       else this.queue.push({ message, name });
       this.flush();
-    } else this.channel.set({ [name]: value });
+    }
     this.tell();
   }
 
@@ -122,12 +129,12 @@ export class Session extends Shared {
   }
 
   pick(point: Pair | null, ray: Triple | null = null): void {
-    this.send({ op: "pick", point, ray });
+    this.kernel.tell({ op: "pick", point, ray });
   }
 
   /** Have Python draw a still picture, now and after every change. */
   askStill(): void {
-    this.send({ op: "still" });
+    this.kernel.tell({ op: "still" });
   }
 
   look(step: number): void {
@@ -154,11 +161,29 @@ export class Session extends Shared {
     this.flying = next;
     this.last = next.message.op;
     this.seq += 1;
-    this.send({ ...next.message, client: this.client, seq: this.seq });
+    this.submit();
   }
 
-  private send(message: Record<string, unknown>): void {
-    if (this.live) this.channel.send(message);
+  /** Send what is on its way. */
+  private submit(): void {
+    if (this.flying) this.kernel.tell({ ...this.flying.message, client: this.client, seq: this.seq });
+  }
+
+  /** What sets something and has no answer, in the order in which it was entered. */
+  private entered(): Queued[] {
+    return [...(this.flying ? [this.flying] : []), ...this.queue].filter(({ name }) => name !== "");
+  }
+
+  /** After a gap what was on its way is sent again, if it was lost; when the kernel has gone, what was entered is kept. */
+  protected override kernelChanged(): void {
+    if (this.live && this.flying) {
+      if (this.kernel.received(this.client) < this.seq) this.submit();
+      else this.flying = null;
+    }
+    this.flush();
+    if (this.kernel.presence === "gone")
+      for (const { name, message } of this.entered()) this.channel.set(name, message.value);
+    super.kernelChanged();
   }
 
   private readonly onSteps = (): void => {

@@ -1,6 +1,8 @@
 // Moving about in front of the façade, with pointer, wheel and keys; a click looks into a pixel.
 
+import { setTraits } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
+import { isFocused } from "../shared/writing.ts";
 import type { Session } from "./session.ts";
 import { distanceOf, type Look, meet, sightOf, targetOf } from "./sight.ts";
 import type { Pair } from "./types.ts";
@@ -40,9 +42,9 @@ export function steering(
   const limit = (value: number, low: number, high: number) => Math.min(high, Math.max(low, value));
 
   const change = (values: Record<string, unknown>) => {
-    model.set(values);
+    setTraits(model, values);
     clearTimeout(telling);
-    telling = window.setTimeout(() => session.live && model.save_changes(), SETTLED);
+    telling = window.setTimeout(() => session.kernel.save(model), SETTLED);
   };
   const dolly = (by: number) => {
     const far = distanceOf({ ...look(), distance: 0 }, session.size, aspect());
@@ -98,7 +100,7 @@ export function steering(
   canvas.addEventListener(
     "wheel",
     (event) => {
-      if (document.activeElement !== canvas) return; // the page scrolls until the picture is chosen
+      if (!isFocused(canvas)) return; // the page scrolls until the picture is chosen
       event.preventDefault();
       event.stopPropagation();
       dolly(Math.exp(limit(event.deltaY, -400, 400) * (event.deltaMode ? 0.05 : 0.0015)));

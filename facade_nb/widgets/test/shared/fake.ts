@@ -6,7 +6,7 @@ type Listener = (...args: unknown[]) => void;
 
 export class FakeModel implements WidgetModel {
   readonly model_id = "m1";
-  readonly comm_live = true;
+  comm_live = true;
   readonly widget_manager = {} as WidgetManager;
   readonly sent: Record<string, unknown>[] = [];
   private readonly listeners = new Map<string, Set<Listener>>();
@@ -16,7 +16,8 @@ export class FakeModel implements WidgetModel {
   get<T>(name: string): T {
     return this.traits[name] as T;
   }
-  set(values: Record<string, unknown>): void {
+  set(name: string | Record<string, unknown>, value?: unknown): void {
+    const values = typeof name === "string" ? { [name]: value } : name;
     Object.assign(this.traits, values);
     for (const name of Object.keys(values)) this.emit(`change:${name}`);
   }

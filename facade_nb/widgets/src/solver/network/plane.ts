@@ -1,6 +1,6 @@
 // A canvas that can be panned and zoomed: by wheel (Ctrl, or while it has the focus), by dragging, by keys and buttons.
 
-import { h } from "../../shared/dom.ts";
+import { focused, h } from "../../shared/dom.ts";
 import { afterDrawing, cancelFrame } from "../redraw.ts";
 
 export interface Camera {
@@ -163,7 +163,7 @@ export class Plane {
       "wheel",
       (event) => {
         // A page is scrolled over the canvas, unless the reader is at work in it.
-        if (!event.ctrlKey && !event.metaKey && document.activeElement !== canvas) return;
+        if (!event.ctrlKey && !event.metaKey && focused(canvas) !== canvas) return;
         event.preventDefault();
         const box = canvas.getBoundingClientRect();
         this.zoom(Math.exp(-event.deltaY * 0.002), { x: event.clientX - box.left, y: event.clientY - box.top });

@@ -1,7 +1,7 @@
 // Alignment: the matrix as the paper draws it (Eq. 8), to scale, with sizes and errors below. A boundary can be dragged,
 // or moved by keys: then Ω and what the alignment breaks are those of the reader's own, judged in the browser.
 
-import { h, mark } from "../../shared/dom.ts";
+import { focused, h, mark } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
 import { asSolved, atPreferred, type Cuts, columnsOf, cutsOf, type Drawn, sizeIn } from "../align/matrix.ts";
 import {
@@ -113,9 +113,8 @@ class AlignmentView implements View {
     ].join();
     if (by === this.by) return;
     this.by = by;
-    const focused = this.el.contains(document.activeElement)
-      ? (document.activeElement as HTMLElement).dataset.handle
-      : undefined;
+    const active = focused(this.el);
+    const before = this.el.contains(active) ? (active as HTMLElement).dataset.handle : undefined;
     if (!paths.length) {
       const any = this.data.paths.some((path) => path.axis === axis);
       this.note.textContent = any
@@ -129,9 +128,9 @@ class AlignmentView implements View {
       ...paths.map((path) => this.section(path, axis, solved.includes(path), path.group === now)),
       legendOf(paths),
     );
-    if (!focused) return;
+    if (!before) return;
     const handles = [...this.el.querySelectorAll<HTMLElement>("[data-handle]")];
-    handles.find((own) => own.dataset.handle === focused)?.focus({ preventScroll: true });
+    handles.find((own) => own.dataset.handle === before)?.focus({ preventScroll: true });
   }
 
   private questions(): Question[] {

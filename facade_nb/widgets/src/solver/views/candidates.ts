@@ -1,7 +1,7 @@
 // Candidates: one word of each pattern under one value of each counter, and what became of each (the paper's 5.1). The
 // table sorts and filters; a candidate that is chosen is marked in all other views.
 
-import { h, mark, setText } from "../../shared/dom.ts";
+import { focused, h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
 import type { CandidateNote as Candidate } from "../alternatives.ts";
 import { AxisChoice } from "../axes.ts";
@@ -316,7 +316,7 @@ class CandidatesView implements View {
         sort,
       );
     };
-    const focused = document.activeElement?.closest(".fnb-sort")?.getAttribute("title");
+    const before = focused(this.head)?.closest(".fnb-sort")?.getAttribute("title");
     this.head.replaceChildren(
       ...this.columns.map((each) => sorter(each.name, each.label, each.title, each.name !== "fate")),
       h("span", { role: "columnheader", title: "From what it costs at least to what it costs" }, ""),
@@ -326,8 +326,8 @@ class CandidatesView implements View {
         ...patterns.map((name) => sorter(name, name, `Word of ${name}`, false)),
       ),
     );
-    if (focused)
-      this.head.querySelector<HTMLElement>(`.fnb-sort[title=${CSS.escape(focused)}]`)?.focus({ preventScroll: true });
+    if (before)
+      this.head.querySelector<HTMLElement>(`.fnb-sort[title=${CSS.escape(before)}]`)?.focus({ preventScroll: true });
   }
 
   private row(own: Candidate): HTMLElement {

@@ -5,7 +5,7 @@ import { h, mark, setText, svg } from "../../shared/dom.ts";
 import { type Box, boxOf, type Drawing, parseDrawing } from "../../shared/drawing.ts";
 import { formatNumber } from "../../shared/fields.ts";
 import { icon } from "../../shared/icons.ts";
-import { themeOf } from "../../shared/theme.ts";
+import { themeOf, watchDress } from "../../shared/theme.ts";
 import type { Alternative } from "../alternatives.ts";
 import { linked, target } from "../links.ts";
 import type { PathNote } from "../network/story.ts";
@@ -96,8 +96,7 @@ class FacadeView implements View {
       context.refresh();
     });
     this.controls = Object.keys(this.systems).length ? [toggle, this.choice()] : [toggle];
-    const observer = new MutationObserver(() => context.refresh());
-    observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
+    watchDress(() => context.refresh(), context.signal);
     const resized = new ResizeObserver(() => {
       const room = Math.round(this.sheet.clientWidth / 40) * 40;
       if (!room || room === this.room) return;
@@ -106,7 +105,6 @@ class FacadeView implements View {
     });
     resized.observe(this.sheet);
     context.signal.addEventListener("abort", () => {
-      observer.disconnect();
       resized.disconnect();
     });
     requestAnimationFrame(() => context.signal.aborted || context.refresh()); // in the page it has a theme

@@ -4,6 +4,7 @@
 
 import { h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
+import { watchDress } from "../../shared/theme.ts";
 import type { Alternative } from "../alternatives.ts";
 import { target } from "../links.ts";
 import { columnText, LeavingList, litLetters } from "../network/lists.ts";
@@ -124,12 +125,10 @@ class NetworkView implements View {
     this.quiz = new Quiz(() => [
       { prompt: "Which edge is next?", truths: () => this.truths(), single: true, from: this.tells() },
     ]);
-    const observer = new MutationObserver(() => {
+    watchDress(() => {
       this.looked = null;
       setTimeout(() => this.plane.invalidate(), 50); // when the page has its colours
-    });
-    observer.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
-    context.signal.addEventListener("abort", () => observer.disconnect());
+    }, context.signal);
     requestAnimationFrame(() => {
       this.looked = null; // in the page it has a theme
       this.plane.invalidate();
