@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
 
 from ..design.errors import NoLayout
 from .columns import Group, make_group
+from .effort import Effort
 from .ida import search_ida
 from .letters import Letter
 from .objective import Objective
@@ -120,7 +120,7 @@ def _searched(group: Group, first: str) -> Found:
     second = next(own for own in SEARCHES if own != first)
     best = Found(cut=True)
     for turn in zip(_TURNS[first], _TURNS[second], strict=True):
-        begin, check = time.monotonic(), None
+        check = Effort()
         for search, nodes in zip((first, second), turn, strict=True):
             try:
                 found = (search_ida if search == "ida" else search_best)(
@@ -132,18 +132,10 @@ def _searched(group: Group, first: str) -> Found:
                 return found
             for priced in found.ties:
                 best.offer(priced, 1)
-            check = _until(time.monotonic() + max(1.0, 2.0 * (time.monotonic() - begin)))
+            check = Effort(
+                most=max(1.0, 2.0 * check.seconds)
+            )  # as long again as the first one took, and again
     return best
-
-
-def _until(end: float) -> Callable[[], None]:
-    """The second search has about twice the time that the first one took."""
-
-    def check() -> None:
-        if time.monotonic() > end:
-            raise Stopped
-
-    return check
 
 
 def alignment_of(group: Group, priced: Priced, index: int) -> Alignment:

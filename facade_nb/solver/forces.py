@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from .qp import FREE, Solution
 from .sizing import System
+from .sums import times
 
 __all__ = ["Force", "Sizing"]
 
@@ -84,7 +85,7 @@ class Sizing:
     @cached_property
     def values(self) -> _Array:
         """What is held between the bounds, shape (n + m,): the variables, then ``rows @ x``."""
-        return np.concatenate([self.solution.x, self.system.matrix @ self.solution.x])
+        return np.concatenate([self.solution.x, times(self.system.matrix, self.solution.x)])
 
     @cached_property
     def tension(self) -> dict[str, float]:
@@ -133,7 +134,7 @@ class Sizing:
         """
         system, x, pull = self.system, self.solution.x, self.multipliers
         n = x.size
-        gradient = 2.0 * system.weight * (x - system.target) + pull[:n] + system.matrix.T @ pull[n:]
+        gradient = 2.0 * system.weight * (x - system.target) + pull[:n] + times(system.matrix.T, pull[n:])
         # a multiplier may only pull at the end that its sign speaks of
         end = np.where(pull > 0, system.upper, system.lower)
         distance = np.where(np.abs(end) < FREE, np.abs(end - self.values), FREE)

@@ -44,7 +44,7 @@ _before: Kept[Solved] = Kept(64)
 """What was found last for problems that differ in sizes, bounds and canvas only."""
 
 _REMEDIES = 0.6
-"""Seconds for trying what would help, where there is no layout; of them for one change:"""
+"""Effort (seconds, see `effort`) of trying what would help, where there is no layout; of it for one change:"""
 _REMEDY = 0.2
 
 
@@ -268,14 +268,14 @@ class _Run:
         """Why there is no layout; a trial does not ask."""
         if self.trial:
             return NoLayout("")
-        end = self.clock.seconds + _REMEDIES
+        end = self.clock.check.seconds + _REMEDIES
 
         def works(design: Design, tolerance: float | None) -> Tried | None:
-            left = end - self.clock.seconds
+            left = end - self.clock.check.seconds
             if left <= 0:
                 raise Stopped
             tolerances = self.tolerances if tolerance is None else (tolerance,)
-            clock = Clock(min(left, _REMEDY), parent=self.clock)
+            clock = Clock(None, parent=self.clock, most=min(left, _REMEDY))
             run = _Run(design, self.objective, tolerances, self.search, clock, None, trial=True)
             return run.tried(None if other else walk.problem.axis)
 
