@@ -118,7 +118,8 @@ class Sizing:
                 on = {system.variables[v]: float(-pull * row[v]) for v in np.flatnonzero(row)}
             side = "equation" if same else "upper" if pull > 0 else "lower"
             found.append(Force(self.names[c], "bound" if c < n else "row", side, pull, on))
-        return sorted(found, key=lambda force: -abs(force.multiplier))
+        # those that pull as hard come in the order of the constraints, whatever the last bits are
+        return sorted(found, key=lambda force: -round(abs(force.multiplier), 9))
 
     @property
     def primal_residual(self) -> float:
