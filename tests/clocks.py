@@ -9,8 +9,8 @@ from facade_nb.solver import clock
 
 __all__ = ["Counted", "Jumping", "install"]
 
-LOOK = 5e-5
-"""Seconds that pass from one look at the clock to the next; about what they take on a quiet machine."""
+LOOK = 5e-4
+"""Seconds that pass from one look at the clock to the next; about what they take in compiled code."""
 
 
 class Counted:
