@@ -24,6 +24,9 @@ SEARCHES = ("best", "ida")
 _TURNS: Mapping[str, Sequence[int]] = {"best": (20_000, 150_000, 1_000_000), "ida": (4_000, 30_000, 100_000)}
 """After so many partial alignments a search gives way to the other; after the last, the best so far is taken."""
 
+_PATH = 2e-4
+"""Seconds that a partial alignment takes in Python."""
+
 
 @dataclass(frozen=True, slots=True)
 class Alignment:
@@ -120,7 +123,7 @@ def _searched(group: Group, first: str) -> Found:
     second = next(own for own in SEARCHES if own != first)
     best = Found(cut=True)
     for turn in zip(_TURNS[first], _TURNS[second], strict=True):
-        check = Effort()
+        check = Effort(call=_PATH)
         for search, nodes in zip((first, second), turn, strict=True):
             try:
                 found = (search_ida if search == "ida" else search_best)(
@@ -132,9 +135,8 @@ def _searched(group: Group, first: str) -> Found:
                 return found
             for priced in found.ties:
                 best.offer(priced, 1)
-            check = Effort(
-                most=max(1.0, 2.0 * check.seconds)
-            )  # as long again as the first one took, and again
+            # the second one may take twice as long as the first one took
+            check = Effort(call=_PATH, most=max(1.0, 2.0 * check.seconds))
     return best
 
 
