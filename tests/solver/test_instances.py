@@ -223,7 +223,6 @@ class TestOfAnAxis:
         with pytest.raises(DesignError, match=f"patterns.{name}: a word would have 30,000 letters"):
             axis_words(broken, 1.0)
 
-    @pytest.mark.timeout(60)
     @pytest.mark.parametrize(
         "name", ["1000 m, three counters", "six patterns of six counters", "alternatives and a counter"]
     )

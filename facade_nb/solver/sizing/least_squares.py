@@ -8,6 +8,8 @@ import daqp
 import numpy as np
 from numpy.typing import NDArray
 
+from ..sums import times
+
 __all__ = ["FREE", "Solution", "least_squares"]
 
 FREE = 1e30
@@ -76,7 +78,7 @@ def least_squares(
     found = _solve(hessian, base, rows, lower, upper, sense, tolerance, eps_prox=1e-5, eta_prox=1e-12)
     if found is not None:
         n = weight.size
-        pull = found.multipliers[:n] + found.multipliers[n:] @ rows
+        pull = found.multipliers[:n] + times(rows.T, found.multipliers[n:])
         if np.abs(double * found.x + base + pull).max() <= _MISSED:
             return found
     return _rounds(hessian, base, rows, lower, upper, sense, tolerance, target)
