@@ -22,6 +22,15 @@ settings.register_profile(
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 
 
+@pytest.fixture(autouse=True)
+def _counted_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A time limit is a number of looks at the clock, for what is found within it must not depend on the machine."""
+    from facade_nb.solver import budget as clock
+    from tests.clocks import Counted
+
+    monkeypatch.setattr(clock, "time", Counted())
+
+
 @pytest.fixture(scope="session")
 def root() -> Path:
     """Return the root of the checkout."""

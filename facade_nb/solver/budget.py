@@ -11,6 +11,8 @@ from math import inf
 from pathlib import Path
 from typing import Literal
 
+from .effort import Effort, Stopped
+
 __all__ = ["Clock", "Progress", "Stage", "Stopped"]
 
 Stage = Literal["words", "analysis", "candidates", "alignment", "attempt", "explanation", "merging"]
@@ -39,14 +41,6 @@ _DOING: dict[Stage, str] = {
     "explanation": "finding out why there is none",
     "merging": "merging both axes into shapes",
 }
-
-
-class Stopped(Exception):
-    """The time is up, or, `asked`, the caller wants no answer any more."""
-
-    def __init__(self, asked: bool = False) -> None:
-        super().__init__()
-        self.asked = asked
 
 
 @dataclass(slots=True)
@@ -103,9 +97,13 @@ class Clock:
         Asked at every check.
     parent
         Another clock that has to let it go on as well.
+    most
+        How much effort it may take (seconds, see `effort`), which does not depend on the time.
 
     Attributes
     ----------
+    check
+        Raises `Stopped` where the search has to end, and counts.
     progress
         How far the call has come.
     asked, over, full
@@ -118,9 +116,12 @@ class Clock:
         limit: float | None,
         should_stop: Callable[[], bool] | None = None,
         parent: Clock | None = None,
+        most: float = inf,
     ) -> None:
         self._begin, self.limit, self._should_stop = time.monotonic(), limit, should_stop
-        self._parent = parent
+        self._most = most
+        self._within: Effort | None = None if parent is None else parent.check
+        self.check: Effort = Effort(self._asked, within=self._within)
         self.progress = Progress()
         self.asked = self.over = self.full = False
         self._size, self._look = (_resident(), self._begin) if parent is None else (0, inf)
@@ -134,15 +135,18 @@ class Clock:
     def allot(self, part: float) -> None:
         """From now on the search may go on until this part of the time has passed, less what a last attempt needs."""
         self._part = part
-        self._end = 0.85 * part
+        self._until(0.85 * part)
 
     def extend(self) -> None:
         """Let the last attempt begin that follows a search without an answer: it has the rest of the part.
 
         And a little memory of its own, for that of the search may not be given back yet.
         """
-        self._end = self._part
+        self._until(self._part)
         self._size = max(self._size, _resident() - MEMORY + MEMORY // 4)
+
+    def _until(self, end: float) -> None:
+        self._end, self.check.most = end, end * self._most
 
     def last_attempt(self) -> Callable[[], None]:
         """A check for what takes milliseconds, when the time is up and there is nothing yet: it has its own moment."""
@@ -156,12 +160,10 @@ class Clock:
                 self.over = True
                 raise Stopped
 
-        return check
+        return Effort(check, most=_LAST, within=self._within) if self._most < inf else check
 
-    def check(self) -> None:
-        """Raise `Stopped` where the search has to end."""
-        if self._parent is not None:
-            self._parent.check()
+    def _asked(self) -> None:
+        """Raise `Stopped` where the time is over, or the memory, or nobody wants an answer."""
         if self._should_stop is not None and self._should_stop():
             self.asked = True
             raise Stopped(asked=True)
@@ -177,7 +179,8 @@ class Clock:
 
     def close(self) -> None:
         """The call is over: what is still read of its words and networks, for a trace, may take as long as it likes."""
-        self.limit, self._should_stop, self._parent, self._look = None, None, None, inf
+        self.limit, self._should_stop, self._look, self._most = None, None, inf, inf
+        self.check.most = inf
 
     def closing(self) -> Callable[[], None]:
         """A check for what is done once the search is over: it has a moment more, whatever ended the search."""

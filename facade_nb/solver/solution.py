@@ -44,7 +44,7 @@ _before: Kept[Solved] = Kept(64)
 """What was found last for problems that differ in sizes, bounds and canvas only."""
 
 _REMEDIES = 0.6
-"""Seconds for trying what would help, where there is no layout; of them for one change:"""
+"""Effort (seconds, see `effort`) of trying what would help, where there is no layout; of it for one change:"""
 _REMEDY = 0.2
 
 
@@ -264,14 +264,14 @@ class _Run:
         """Why there is no layout; a trial does not ask."""
         if self.trial:
             return NoLayout("")
-        end = self.clock.seconds + _REMEDIES
+        end = self.clock.check.seconds + _REMEDIES
 
         def works(design: Design, tolerance: float | None) -> Tried | None:
-            left = end - self.clock.seconds
+            left = end - self.clock.check.seconds
             if left <= 0:
                 raise Stopped
             tolerances = self.tolerances if tolerance is None else (tolerance,)
-            clock = Clock(min(left, _REMEDY), parent=self.clock)
+            clock = Clock(None, parent=self.clock, most=min(left, _REMEDY))
             run = _Run(design, self.objective, tolerances, self.search, clock, None, trial=True)
             return run.tried(None if other else walk.problem.axis)
 
@@ -302,7 +302,7 @@ class _Run:
         """Both axes together, where a counter ties them: least J of both, over the values of the shared counters."""
         walks = {axis: self._walk(axis, self.tolerances[-1]) for axis in axes}
         best: Mapping[Axis, Best] | None = None
-        rank = (inf, 0, inf)
+        rank: _Rank = (inf, 0, inf, ())
         bound, complete = inf, True
         pairs = self._by_floor(walks)
         while True:
@@ -320,7 +320,9 @@ class _Run:
             bound = min(bound, x.bound + y.bound)
             if x.solved is not None and y.solved is not None:
                 deviation = x.solved.sized.deviation + y.solved.sized.deviation
-                own = (x.solved.cost + y.solved.cost, -x.solved.columns - y.solved.columns, deviation)
+                values = tuple(x.solved.candidate.counters[name] for name in self.shared)
+                columns = x.solved.columns + y.solved.columns
+                own = (x.solved.cost + y.solved.cost, -columns, deviation, values)
                 if _less(own, rank):
                     best, rank = {"x": x, "y": y}, own
             if not complete:
@@ -495,10 +497,19 @@ class _Run:
             )
 
 
-def _less(a: tuple[float, int, float], b: tuple[float, int, float]) -> bool:
-    if abs(a[0] - b[0]) > 1e-9:
+_Rank = tuple[float, int, float, tuple[int, ...]]
+"""J, minus the columns, deviation, values of the shared counters."""
+
+
+def _less(a: _Rank, b: _Rank) -> bool:
+    """In this order; costs and deviations that are all but equal are equal."""
+    if abs(a[0] - b[0]) > EPS:
         return a[0] < b[0]
-    return a[1:] < b[1:]
+    if a[1] != b[1]:
+        return a[1] < b[1]
+    if abs(a[2] - b[2]) > EPS:
+        return a[2] < b[2]
+    return a[3] < b[3]
 
 
 def _values_in(walk: AxisSearch, counter: str) -> set[int]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -11,6 +9,7 @@ from hypothesis import strategies as st
 from facade_nb.design import DesignError, Pattern, PatternError, parse
 from facade_nb.design.pattern import Alt, Concat, Count, Empty, Glyph, Mirror, Sym
 
+from ..work import calls
 from .strategies import patterns, spellings_of
 
 
@@ -243,7 +242,6 @@ def test_any_text_is_a_pattern_or_a_pattern_error(text: str) -> None:
     assert parse(str(pattern)) == pattern
 
 
-@pytest.mark.timeout(60)
 @pytest.mark.parametrize(
     ("text", "counters", "message"),
     [
@@ -272,10 +270,7 @@ def test_the_empty_word_may_be_counted_without_end() -> None:
 def test_reading_is_quick() -> None:
     texts = [f"ZYt(AB)^{{k}}C|(DE)^~2 F D(ED)^m F D(ED)^n'; t := XW^{i}" for i in range(60)]
     parse(texts[0])
-    times = []
-    for text in texts[1:]:
-        start = time.perf_counter()
-        parse(text)
-        times.append(time.perf_counter() - start)
-    assert sorted(times)[len(times) // 2] < 0.005  # about 0.5 ms; the rest is for busy machines
+    # about half a millisecond for some 2,400 calls, for each text anew
+    assert all(calls(lambda: parse(text)) < 5_000 for text in texts[1:])  # noqa: B023
+    assert calls(lambda: parse(texts[0])) < 10
     assert parse(texts[0]) is parse(texts[0])

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from time import process_time
 
 import pytest
 
@@ -17,6 +16,7 @@ from facade_nb.render.scene import build_scene
 from facade_nb.render.style import LIGHT
 from facade_nb.solver.model.layout import Layout, PlacedShape
 
+from ..work import calls
 from .houses import apartment, house
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -101,14 +101,10 @@ def test_equal_windows_are_drawn_once_and_used_often() -> None:
 
 
 def test_size_and_speed_suit_a_keystroke() -> None:
-    for layout, limit, milliseconds in ((house(), 25_000, 3), (apartment(), 150_000, 25)):
-        times = []
-        for _ in range(9):
-            start = process_time()
-            text = elevation_svg(layout)
-            times.append((process_time() - start) * 1000)
-        assert len(text.encode()) < limit
-        assert min(times) < 3 * milliseconds  # the goal, with room for a busy machine
+    # 3 and 25 ms on a quiet machine, in which some 11,000 and 44,000 calls are made
+    for layout, limit, most in ((house(), 25_000, 20_000), (apartment(), 150_000, 80_000)):
+        assert len(elevation_svg(layout).encode()) < limit
+        assert calls(lambda: elevation_svg(layout)) < most  # noqa: B023
 
 
 def test_a_projecting_box_throws_its_shadow_to_the_lower_right() -> None:

@@ -19,14 +19,14 @@ from facade_nb.solver import Objective
 from facade_nb.solver.candidates.stream import candidates
 from facade_nb.solver.model.problem import axis_problem
 from facade_nb.solver.words import instances as listing
+from facade_nb.solver.words.counter_values import Sums
 from facade_nb.solver.words.enumeration import axis_words, forget_words
 from facade_nb.solver.words.instances import instances, next_longer, ranges
 from facade_nb.solver.words.lengths import measure
-from facade_nb.solver.words.sums import Sums
 from tests.oracle.designs import make_design
 from tests.oracle.nasty import NASTY
 
-counting: Any = import_module("facade_nb.solver.words.sums")
+counting: Any = import_module("facade_nb.solver.words.counter_values")
 words: Any = import_module("facade_nb.solver.words.enumeration").words
 
 SIZES = {"A": 1.0, "B": 0.7, "C": 0.35}
@@ -267,7 +267,6 @@ class TestOfAnAxis:
         with pytest.raises(DesignError, match=f"patterns.{name}: a word would have 30,000 letters"):
             axis_words(broken, 1.0)
 
-    @pytest.mark.timeout(60)
     @pytest.mark.parametrize(
         "name", ["1000 m, three counters", "six patterns of six counters", "alternatives and a counter"]
     )

@@ -86,13 +86,13 @@ def over(number, frame):
     raise Over
 
 def interrupted(number, seconds, error):
-    solving.forget()
     threading.Timer(seconds, os.kill, (os.getpid(), number)).start()
     try:
-        solve(design, time_limit=60.0)
+        while True:  # until it comes
+            solving.forget()
+            solve(design, time_limit=None)
     except error:
         return True
-    return False
 
 handler = signal.getsignal(signal.SIGINT)
 assert all(interrupted(signal.SIGINT, 0.2 + 0.06 * k, KeyboardInterrupt) for k in range(10))

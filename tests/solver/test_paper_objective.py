@@ -209,7 +209,7 @@ class TestLargeDesigns:
                 assert group.error <= 0.5 * canvas * (len(group.columns) - 1) + 1e-9
 
     def test_the_papers_slowest_figure_is_proven(self) -> None:
-        layout = solve(gallery.load("apartment-house"), objective=Objective.paper())
+        layout = by_paper(gallery.load("apartment-house"))
         assert layout.complete and layout.x.proven and layout.y.proven
         assert layout.x.cost == pytest.approx(5.3)
 

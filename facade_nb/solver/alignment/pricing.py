@@ -22,6 +22,7 @@ from math import inf
 import numpy as np
 
 from ..model.precision import EPS
+from ..model.sums import dot
 from .elements import Option
 from .group import Group
 from .linear_programme import FREE, solve_lp
@@ -117,11 +118,15 @@ def price(groups: Sequence[Group], structure: Structure) -> Priced | None:
     pieces = programme.pieces
     if priced is None or not pieces or min(x[p] for p in pieces) >= 1e-6:
         return priced
-    spread = _spread(groups, sizes, float(np.dot(programme.cost, x)))
+    spread = _spread(groups, sizes, _cost(programme, x))
     if spread is None:
         return replace(priced, proper=False)
     measured = _measure(groups, structure, sizes, spread)
     return priced if measured is None else replace(priced, pieces=measured.pieces, unsized=measured.unsized)
+
+
+def _cost(programme: _Programme, x: np.ndarray) -> float:
+    return dot(np.array(programme.cost), x)
 
 
 class _Sizes:
@@ -287,7 +292,7 @@ def _solve_with_floor(
                 pin = ({high: 1.0, **{v: -c for v, c in linear.items()}}, constant, constant)
                 found = _solve_with_floor(groups, sizes, (*pins, pin))
                 if found is not None and (
-                    best is None or np.dot(sizes.programme.cost, found) < np.dot(sizes.programme.cost, best)
+                    best is None or _cost(sizes.programme, found) < _cost(sizes.programme, best) - EPS
                 ):
                     best = found
             return best

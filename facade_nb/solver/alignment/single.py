@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
 
 from ...design.errors import NoLayout
 from ..budget import Stopped
+from ..effort import Effort
 from ..model.letters import Letter
 from ..model.objective import Objective
 from .core.search import search_best
@@ -24,6 +24,9 @@ SEARCHES = ("best", "ida")
 
 _TURNS: Mapping[str, Sequence[int]] = {"best": (20_000, 150_000, 1_000_000), "ida": (4_000, 30_000, 100_000)}
 """After so many partial alignments a search gives way to the other; after the last, the best so far is taken."""
+
+_PATH = 2e-4
+"""Seconds that a partial alignment takes in Python."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +124,7 @@ def _searched(group: Group, first: str) -> Found:
     second = next(own for own in SEARCHES if own != first)
     best = Found(cut=True)
     for turn in zip(_TURNS[first], _TURNS[second], strict=True):
-        begin, check = time.monotonic(), None
+        check = Effort(call=_PATH)
         for search, nodes in zip((first, second), turn, strict=True):
             try:
                 found = (search_ida if search == "ida" else search_best)(
@@ -133,18 +136,9 @@ def _searched(group: Group, first: str) -> Found:
                 return found
             for priced in found.ties:
                 best.offer(priced, 1)
-            check = _until(time.monotonic() + max(1.0, 2.0 * (time.monotonic() - begin)))
+            # the second one may take twice as long as the first one took
+            check = Effort(call=_PATH, most=max(1.0, 2.0 * check.seconds))
     return best
-
-
-def _until(end: float) -> Callable[[], None]:
-    """The second search has about twice the time that the first one took."""
-
-    def check() -> None:
-        if time.monotonic() > end:
-            raise Stopped
-
-    return check
 
 
 def alignment_of(group: Group, priced: Priced, index: int) -> Alignment:

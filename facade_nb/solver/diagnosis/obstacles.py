@@ -7,8 +7,9 @@ from itertools import chain, islice
 
 from ...design.errors import NoLayout, quoted
 from ..analysis.systems import analyse
-from ..budget import Clock, Stopped
+from ..budget import Stopped
 from ..candidates.stream import CandidateStream
+from ..effort import Effort
 from ..model.problem import AxisProblem
 from ..selection.axis import AxisSearch
 from .refusal import Blame, canvas_of, is_held, names_of, refuse, remedies_of, short, tolerance
@@ -22,7 +23,7 @@ _BREAKS = {
     "C4": "attached, and no gap may open beside it",
 }
 _ASIDE = 0.3
-"""Seconds that a trial may take that only the explanation needs."""
+"""Effort (seconds) that a trial may take that only the explanation needs."""
 _LIKELY = 8
 """So many candidates are tried to see whether an axis can be aligned at all."""
 
@@ -48,7 +49,7 @@ def aligns(blame: Blame, walk: AxisSearch, unsure: bool = True) -> bool:
         walk.objective,
         walk.tolerance,
         walk.method,
-        Clock(_ASIDE, parent=blame.clock).check,
+        Effort(blame.clock.check, most=_ASIDE),
         found=dict(walk.found),
     )
     try:
@@ -111,7 +112,7 @@ def obstacle(blame: Blame, walk: AxisSearch) -> NoLayout:
 
 def _no_room(blame: Blame, walk: AxisSearch, helper: Remedies, along: str) -> NoLayout | None:
     """An unsized symbol that would have to be of no length: without it there is an alignment."""
-    problem, end = walk.problem, blame.clock.seconds + _ASIDE
+    problem, end = walk.problem, blame.clock.check.seconds + _ASIDE
     for name, pattern in problem.patterns:
         for symbol in sorted(pattern.placeholders):
             if problem.symbol[symbol].size is not None:
@@ -120,7 +121,7 @@ def _no_room(blame: Blame, walk: AxisSearch, helper: Remedies, along: str) -> No
             without = replace(problem, patterns=patterns)
             trial = AxisSearch(without, walk.objective, walk.tolerance, walk.method, walk.check)
             trial.enumerate()
-            if blame.clock.seconds > end or not aligns(blame, trial, unsure=False):
+            if blame.clock.check.seconds > end or not aligns(blame, trial, unsure=False):
                 continue
             text = (
                 f"There is no room for {quoted(symbol)} of pattern {quoted(name)} {along}: it would have to be of "

@@ -22,6 +22,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .sums import times
+
 __all__ = ["FREE", "Force", "Key", "Sizing", "Solution", "System"]
 
 _Array = NDArray[np.float64]
@@ -153,7 +155,7 @@ class Sizing:
     @cached_property
     def values(self) -> _Array:
         """What is held between the bounds, shape (n + m,): the variables, then ``rows @ x``."""
-        return np.concatenate([self.solution.x, self.system.matrix @ self.solution.x])
+        return np.concatenate([self.solution.x, times(self.system.matrix, self.solution.x)])
 
     @cached_property
     def tension(self) -> dict[str, float]:
@@ -186,7 +188,8 @@ class Sizing:
                 on = {system.variables[v]: float(-pull * row[v]) for v in np.flatnonzero(row)}
             side = "equation" if same else "upper" if pull > 0 else "lower"
             found.append(Force(self.names[c], "bound" if c < n else "row", side, pull, on))
-        return sorted(found, key=lambda force: -abs(force.multiplier))
+        # those that pull as hard come in the order of the constraints, whatever the last bits are
+        return sorted(found, key=lambda force: -round(abs(force.multiplier), 9))
 
     @property
     def primal_residual(self) -> float:
@@ -202,7 +205,7 @@ class Sizing:
         """
         system, x, pull = self.system, self.solution.x, self.multipliers
         n = x.size
-        gradient = 2.0 * system.weight * (x - system.target) + pull[:n] + system.matrix.T @ pull[n:]
+        gradient = 2.0 * system.weight * (x - system.target) + pull[:n] + times(system.matrix.T, pull[n:])
         # a multiplier may only pull at the end that its sign speaks of
         end = np.where(pull > 0, system.upper, system.lower)
         distance = np.where(np.abs(end) < FREE, np.abs(end - self.values), FREE)

@@ -6,7 +6,6 @@ axis, and what they find is sized.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from itertools import count, islice
 from math import inf
@@ -27,7 +26,7 @@ _LIKELY = {"sweep": 24, "mend": 3, "dive": 3}
 """In these ways a layout is looked for when the time is up, of so many candidates."""
 
 _LONG = 0.5
-"""When searches have taken so many seconds, candidates are swept, in this part of the time that they take:"""
+"""After so much effort of searches (seconds), candidates are swept, with this part of it:"""
 _LOOK = 0.3
 
 
@@ -95,14 +94,14 @@ class Anytime:
         spent = sum(run.spent for run in walk.runs.values())
         if spent < _LONG or self._looked > _LOOK * spent:
             return None
-        begin = time.perf_counter()
+        begin = walk.effort.seconds
         if self._others is None:
             self._others = islice(self._likely(walk), _LIKELY["sweep"])
         other = next(filter(_short, self._others), None)
         if other is not None and not other.runs:
             walk.open(other)
         solved = None if other is None else self.dive(walk, other, cost, at_once=True, sweep=True)
-        self._looked += time.perf_counter() - begin
+        self._looked += walk.effort.seconds - begin
         return solved
 
     def _likely(self, walk: AxisSearch) -> Iterator[Case]:

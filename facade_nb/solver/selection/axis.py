@@ -15,6 +15,7 @@ from ..budget import Progress, Stopped
 from ..cache import Kept
 from ..candidates.bounds import GroupKey, inputs_of, rows_of
 from ..candidates.stream import Candidate, CandidateStream, candidates
+from ..effort import SIZED, Effort
 from ..model.letters import Letter, Word
 from ..model.objective import Objective
 from ..model.precision import EPS
@@ -137,6 +138,11 @@ class AxisSearch:
     inputs: list[tuple[str, ...]] | None = None
     stream: CandidateStream | None = None
     soon: Anytime = field(default_factory=Anytime)
+    effort: Effort = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.effort = self.check if isinstance(self.check, Effort) else Effort(self.check)
+        self.check = self.effort
 
     def enumerate(self, across: Mapping[str, Range] | None = None) -> None:
         """List the words that fit; `across` is what the other axis says of counters."""
@@ -440,6 +446,7 @@ class AxisSearch:
             own = tuple(parts[g] for g in range(len(case.groups)))
             with sizing(self.trace, self.problem.axis):
                 sized = size_axis(case.groups, own, self.problem.canvas, self._symbol)
+            self.effort.add(SIZED)
             if sized is None:
                 continue
             solved = Solved(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Sequence
 from math import inf
 
@@ -16,6 +15,7 @@ from ..alignment.pricing import Priced
 from ..alignment.reference.best_first import BestFirst
 from ..alignment.reference.dives import Dives
 from ..budget import Stopped
+from ..effort import SWEPT, Effort
 from ..model.precision import EPS
 
 __all__ = ["GROWTH", "STEP", "TIES", "GroupSearch"]
@@ -29,7 +29,7 @@ GROWTH = 1.5
 _TURN = 150
 """After so many paths a search gives way to those of other candidates."""
 _SLOW = 0.03
-"""A search that takes more seconds than this is helped by sweeps; where there are placeholders, which take longer:"""
+"""A search of more effort than this (seconds) is helped by sweeps; where there are placeholders, which take longer:"""
 _SLOW_ELASTIC = 0.5
 _BUDGET = 4_000
 """Of so many partial alignments the paper's search has to come to something at first; then of four times as many."""
@@ -45,8 +45,8 @@ class GroupSearch:
     so far allows less than the next of them it goes no further than that; if it ends there with more answers than
     are kept, the search is repeated in steps. That makes an answer the same whatever was searched before.
 
-    A search that takes long is helped by sweeps, and by dives, which take as long again. `spent` is how many seconds it
-    has taken.
+    A search that takes long is helped by sweeps, and by dives, which take as long again. `spent` is its effort until
+    now: it is counted (`effort`), so that what helps when is the same every time too.
     """
 
     def __init__(
@@ -63,9 +63,14 @@ class GroupSearch:
     ) -> None:
         self.groups, self.log, self._fits, self._strain = groups, log, fits, strain
         self._plain = any(group.objective.plain for group in groups)
-        self._options = (method, nodes, check, accept)
+        self._effort = check if isinstance(check, Effort) else Effort(check)
+        self._options = (method, nodes, self._effort, accept)
         self._dives: Dives | CompiledDives | None = None
-        self._sweeps = sweeps(groups, check, fits) if accept is None and can_sweep(groups) else None
+        self._sweeps = (
+            sweeps(groups, Effort(self._effort, SWEPT), fits)
+            if accept is None and can_sweep(groups)
+            else None
+        )
         self._swept: Priced | None = None
         self._was_swept = False
         self._slow = _SLOW if all(group.stiff for group in groups) else _SLOW_ELASTIC
@@ -92,14 +97,14 @@ class GroupSearch:
         """Find the optimum, if it costs no more than `limit`; nothing above `top` is of any use."""
         if self.done or limit < self._found.bound - EPS:
             return
-        begin = time.perf_counter()
+        begin = self._effort.seconds
         if self.log is None:
             self._go_on(limit, top)
         else:
             with self.log.turn():
                 self._go_on(limit, top)
             self.log.known(self.floor, len(self.ties), self.cut)
-        self.spent += time.perf_counter() - begin
+        self.spent += self._effort.seconds - begin
         self._tidy()
 
     def expect(self, priced: Priced) -> None:
@@ -138,10 +143,11 @@ class GroupSearch:
             self._dives = dives(self.groups, self.floor, check, self._fits)
             if self._swept is not None:
                 self._dives.offer(self._swept)
-        begin, before = time.perf_counter(), self._dived
+        begin, before = self._effort.seconds, self._dived
         while not self._dives.done and (self._dived <= self.spent or (at_once and self._dives.best is None)):
+            self._effort()
             self._dives.dive()
-            self._dived = before + time.perf_counter() - begin
+            self._dived = before + self._effort.seconds - begin
 
     def _sweep(self) -> None:
         """Sweep, once."""
@@ -159,14 +165,14 @@ class GroupSearch:
         """Where sweeps have come to nothing that can be sized: make something that can of what they have come to."""
         _, _, check, _ = self._options
         if not self.done and self._was_swept and self._swept is None and self._strain is not None:
-            self._swept = mended(self.groups, self._strain, check)
+            self._swept = mended(self.groups, self._strain, Effort(check, SWEPT))
 
     def polish(self) -> Iterator[None]:
         """Make the best that is known better, bit by bit."""
         _, _, check, accept = self._options
         if self.done or accept is not None or not self._was_swept or not self.known or self._fits is None:
             return
-        for better in polished(self.groups, self.known[0], self._fits, check):
+        for better in polished(self.groups, self.known[0], self._fits, Effort(check, SWEPT)):
             self._swept = better
             yield
 

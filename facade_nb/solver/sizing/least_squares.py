@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.sizing import Solution
+from ..model.sums import times
 
 __all__ = ["least_squares"]
 
@@ -53,7 +54,7 @@ def least_squares(
     found = _solve(hessian, base, rows, lower, upper, sense, tolerance, eps_prox=1e-5, eta_prox=1e-12)
     if found is not None:
         n = weight.size
-        pull = found.multipliers[:n] + found.multipliers[n:] @ rows
+        pull = found.multipliers[:n] + times(rows.T, found.multipliers[n:])
         if np.abs(double * found.x + base + pull).max() <= _MISSED:
             return found
     return _rounds(hessian, base, rows, lower, upper, sense, tolerance, target)

@@ -25,6 +25,7 @@ from ..alignment.group import Group
 from ..alignment.pricing import Priced
 from ..model.letters import Letter
 from ..model.sizing import FREE, Key, Solution, System
+from ..model.sums import dot, times
 from .least_squares import least_squares
 
 __all__ = ["Placement", "Sized", "size_axis", "strain"]
@@ -187,7 +188,7 @@ def size_axis(
         {name: at[v] for name, v in build.size_of.items()},
         tuple([tuple([at[v] for v in own]) for own in edges]),
         tuple([tuple([tuple([(at[s], at[t]) for s, t in band]) for band in own]) for own in bounds]),
-        sqrt(float(system.weight @ (off * off))),
+        sqrt(dot(system.weight, off * off)),
         system,
         first,
         tuple(at),
@@ -211,12 +212,12 @@ def strain(
     found = least_squares(system.weight + 1e-3, system.target, system.matrix, lower, upper)
     if found is None:
         return canvas
-    values = np.concatenate([found.x, system.matrix @ found.x])
+    values = np.concatenate([found.x, times(system.matrix, found.x)])
     lower = system.lower.copy()
     sized = np.flatnonzero(system.weight > 0)
     lower[sized] = np.maximum(lower[sized], _SOME * system.target[sized])
     missed = np.maximum(0.0, lower - values) + np.maximum(0.0, values - system.upper)
-    return float(missed.sum())
+    return float(np.add.accumulate(missed)[-1])
 
 
 def _built(

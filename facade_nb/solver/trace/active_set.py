@@ -5,6 +5,11 @@ the equations and the least of the objective under them, then takes up the const
 go of those whose multiplier would turn against their side. Its answer is the same, as the objective is strictly
 convex; where some weights are zero, a small term that pulls to the last answer makes it so, and the method is run
 again from what it found until that changes nothing (the proximal-point method, as in `qp`).
+
+Often several constraints are missed by as much, or stand in the way at the same point; then the first of them is
+taken, in the order in which the system names them. The last bits of sums have no say in it: what differs by less than
+`_TINY` is equal, nothing is added up by BLAS or LAPACK (`sums`), and what is told is rounded to `PLACES` decimals of a
+metre, as the places of letters are.
 """
 
 from __future__ import annotations
@@ -16,11 +21,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.sizing import FREE
+from ..model.sums import dot, times
+from .basis import Basis
 
 __all__ = ["Run", "Step", "steps"]
 
 _Array = NDArray[np.float64]
 _TINY = 1e-9
+PLACES = 12
+"""Decimals of what is told."""
+_NOTHING = 1e-15
+"""Smaller multipliers are none; others are equal that differ by `_TINY` of the largest."""
+_DEPENDENT = 1e-8
+"""A constraint of which no larger part than this is new follows from the active ones."""
 _MOST = 500
 _RHO = 1e-3
 _PASSES = 40
@@ -80,54 +93,53 @@ class _Method:
         self.normals, self.lower, self.upper = normals, lower, upper
         self.weight, self.target, self.run = weight, target, run
         self.equal = np.nonzero(lower == upper)[0].tolist()
+        self.fixed = set(self.equal)
         self.active: list[int] = []
-        self.side: dict[int, float] = {}
+        self.side: list[float] = []
+        self.basis = Basis(target.size)
         self.multipliers = np.zeros(0)
 
     def answer(self, scale: _Array, centre: _Array) -> _Array:
         """The least under the active constraints taken as equations; sets their multipliers."""
         if not self.active:
             return centre.copy()
-        bound = np.array([self.upper[c] if self.side[c] < 0 else self.lower[c] for c in self.active])
-        own = self.normals[self.active] / scale
-        signs = np.array([self.side[c] for c in self.active])
-        moved, *_ = np.linalg.lstsq(own, bound - self.normals[self.active] @ centre, rcond=None)
-        lam, *_ = np.linalg.lstsq(own.T, moved, rcond=None)
-        self.multipliers = lam * signs
+        bound = np.where(np.array(self.side) < 0, self.upper[self.active], self.lower[self.active])
+        missed = np.array(self.side) * (bound - times(self.normals[self.active], centre))
+        moved, self.multipliers = self.basis.least(missed)
         x: _Array = centre + moved / scale
         return x
 
     def still_optimal(self, scale: _Array, centre: _Array) -> bool:
         """Whether the constraints that were active in the last pass are the right ones for this one too."""
         x = self.answer(scale, centre)
-        fixed = set(self.equal)
         own = zip(self.active, self.multipliers.tolist(), strict=True)
-        kind = all(c in fixed or value >= -_TINY for c, value in own)
+        kind = all(c in self.fixed or value >= -_TINY for c, value in own)
         return kind and self._violation(x)[0] <= _TINY
 
     def _violation(self, x: _Array) -> tuple[float, int, float]:
         """The constraint that is missed most: by how much, which, and its side (1: lower, -1: upper)."""
-        at = self.normals @ x
+        at = np.concatenate([x, times(self.normals[x.size :], x)])
         low = np.where(self.lower > -FREE, self.lower - at, -inf)
         high = np.where(self.upper < FREE, at - self.upper, -inf)
         worst = np.maximum(low, high)
         worst[self.active] = -inf
-        c = int(np.argmax(worst)) if worst.size else 0
-        missed = float(worst[c]) if worst.size else 0.0
-        return max(0.0, missed), c, 1.0 if low[c] >= high[c] else -1.0
+        missed = float(worst.max(initial=0.0))
+        # all but as much counts as much; of the two sides of one constraint only one is missed
+        c = int(np.argmax(worst >= missed - _TINY)) if worst.size else 0
+        return missed, c, 1.0 if worst.size and low[c] >= high[c] else -1.0
 
     def step(self, x: _Array, entered: tuple[int, ...], left: tuple[int, ...]) -> Step:
         """What there is to tell at x."""
-        value = float(np.sum(self.weight * (x - self.target) ** 2))
-        return Step(entered, left, len(self.active), value, self._violation(x)[0], x.copy())
+        off = x - self.target
+        told = round(dot(self.weight, off * off), PLACES), round(self._violation(x)[0], PLACES)
+        return Step(entered, left, len(self.active), *told, x.round(PLACES) + 0.0)  # no −0
 
     def solve(self, scale: _Array, centre: _Array, first: bool) -> _Array:
         """From the equations to the optimum."""
         for c in self.equal:  # those that follow from others stay outside: they hold by themselves
-            own = self.normals[[*self.active, c]] / scale
-            if np.linalg.matrix_rank(own, tol=1e-9) == len(own):
+            if self.basis.take(self.normals[c] / scale, _DEPENDENT):
                 self.active.append(c)
-                self.side[c] = 1.0
+                self.side.append(1.0)
         x = self.answer(scale, centre)
         if first:
             self.run.steps.append(self.step(x, tuple(self.active), ()))
@@ -148,36 +160,41 @@ class _Method:
         left: list[int] = []
         own = self.normals[c] * side / scale
         value = 0.0
-        fixed = set(self.equal)
-        at = x.copy()
         bound = self.lower[c] if side > 0 else self.upper[c]
+        short = side * (bound - dot(self.normals[c], x))
         while True:
-            signs = np.array([self.side[a] for a in self.active])
-            basis = (
-                (self.normals[self.active] / scale * signs[:, None])
-                if self.active
-                else np.zeros((0, own.size))
-            )
-            share = np.linalg.lstsq(basis.T, own, rcond=None)[0] if self.active else np.zeros(0)
-            step = own - basis.T @ share
-            length = float(step @ step)
-            most, leaving = inf, -1
-            for n, a in enumerate(self.active):
-                if a not in fixed and share[n] > _TINY and self.multipliers[n] / share[n] < most:
-                    most, leaving = float(self.multipliers[n] / share[n]), n
-            short = side * (bound - float(self.normals[c] @ at))
-            full = short / length if length > _TINY**2 * 100 else inf
+            new = self.basis.beyond(own, _DEPENDENT)
+            share = self.basis.share(own)
+            near = max(_NOTHING, _TINY * float(np.abs(self.multipliers).max(initial=0.0)))
+            most, leaving = self._first_in_the_way(share, near)
+            length = 0.0 if new is None else dot(new, new)
+            full = short / length if new is not None else inf
             if most == inf and full == inf:
                 return None
             go = min(most, full)
             self.multipliers = self.multipliers - go * share
             value += go
-            if full < inf:
-                at = at + go * step / scale
-            if full <= most:
+            short -= go * length
+            if full <= most + near:
+                self.basis.take(own, _DEPENDENT)
                 self.active.append(c)
-                self.side[c] = side
+                self.side.append(side)
                 self.multipliers = np.append(self.multipliers, value)
                 return left
+            self.basis.drop(leaving)
             left.append(self.active.pop(leaving))
+            del self.side[leaving]
             self.multipliers = np.delete(self.multipliers, leaving)
+
+    def _first_in_the_way(self, share: _Array, near: float) -> tuple[float, int]:
+        """How far it is until a multiplier would change its sign, and the place of that constraint among the active."""
+        ways = [
+            (float(self.multipliers[n] / share[n]), a, n)
+            for n, a in enumerate(self.active)
+            if a not in self.fixed and share[n] > _TINY
+        ]
+        if not ways:
+            return inf, -1
+        most = min(ways)[0]
+        _, leaving = min((a, n) for way, a, n in ways if way <= most + near)
+        return most, leaving

@@ -16,8 +16,8 @@ from ...design.tree import Concat, Count, Node, concatenation, spellings, walk
 from ..cache import Kept
 from ..model.letters import Letter, Word
 from ..model.precision import EPS
+from .counter_values import Sums
 from .lengths import Growth, Way, measure
-from .sums import Sums
 
 __all__ = [
     "MAX_COPIES",

@@ -6,7 +6,6 @@ import asyncio
 import gc
 import json
 import threading
-import time
 import weakref
 from collections.abc import Callable
 from dataclasses import replace
@@ -265,19 +264,25 @@ def test_designs_that_wait_are_skipped() -> None:
 
 
 def test_the_event_loop_turns_while_a_solve_is_under_way() -> None:
+    turned = threading.Event()
+    waited: list[bool] = []
+
     def slow(design: Design, **_: object) -> Layout:
-        time.sleep(0.2)
+        waited.append(turned.wait(60.0))  # for ever, if the loop stood still
         return solve(design)
 
     async def session() -> int:
         model = FacadeModel(house(), solve=slow)
         turns = 0
         while model.busy:
-            await asyncio.sleep(0.005)
+            await asyncio.sleep(0.001)
             turns += 1
+            if turns == 20:
+                turned.set()
         return turns
 
-    assert asyncio.run(session()) > 10
+    assert asyncio.run(session()) >= 20
+    assert waited == [True]
 
 
 def test_an_outcome_that_comes_after_its_loop_has_closed_waits_for_wait() -> None:

@@ -23,6 +23,7 @@ from typing import Any
 from weakref import WeakKeyDictionary, WeakSet, finalize, ref
 
 from ...budget import Stopped
+from ...effort import ALIGNED, Effort, spend
 from ...model.precision import EPS
 from ..elements import Option
 from ..found import Found
@@ -42,6 +43,8 @@ _LARGE = 64 * 2**20
 _MOST = 2**30
 """No instance may grow beyond so many bytes; the clock stops a search long before."""
 _UNLIMITED = float(2**53)
+_PER_SECOND = 4e8
+"""So much work, as it counts it, is done in a second of a usual machine."""
 
 _BAD_FILE = 8
 _ENDED, _PAUSED, _LEFT, _PRICE = range(4)
@@ -137,7 +140,7 @@ class _Core:
         self._functions[name](self._store)
 
     def _answer(self) -> tuple[float, ...]:
-        return _BOX[5].unpack_from(self._memory.get_buffer_ptr(self._store, 40, self._box))
+        return _BOX[6].unpack_from(self._memory.get_buffer_ptr(self._store, 48, self._box))
 
     def _starved(self) -> bool:
         """Whether it has come to an end as there was no memory left."""
@@ -147,7 +150,11 @@ class _Core:
         """Call what may take long, and read its answer; what `check` raises meanwhile is raised afterwards."""
         import wasmtime
 
-        self._check, self._raised, self.busy, self.told = check, None, True, ()
+        effort = check if isinstance(check, Effort) else None
+        if effort is not None and effort.left < inf:
+            self._call("allow", max(0.0, effort.left) * _PER_SECOND)
+        self._raised, self.busy, self.told = None, True, ()
+        self._check = check if effort is None else effort.look
         try:
             with self._deferred:
                 self._call(name, *arguments)
@@ -159,9 +166,13 @@ class _Core:
         finally:
             self._check, self.busy = None, False
         raised, self._raised = self._raised, None
-        self.told = self._answer()
+        *told, work = self._answer()
+        self.told = tuple(told)
+        spend(check, work / _PER_SECOND)
         if raised is not None:
             raise raised
+        if effort is not None and effort.left < 0:
+            raise Stopped
         return self.told
 
     def _asked(self) -> int:
@@ -355,6 +366,7 @@ class CompiledSearch:
                 structure = _structure(self.groups, self._core.integers(self._structure))
                 expected = self.expected
                 known = expected is not None and expected.structure == structure
+                spend(self.check, ALIGNED)
                 item = expected if known else price(self.groups, structure)
                 if item is not None and (self.accept is None or self.accept(item)):
                     found.offer(item, self.keep)
@@ -421,6 +433,7 @@ class CompiledDives:
         status, limit, _, structure, _ = self._ask("dives_dive", self.best is not None)
         if status != _PRICE:
             return False
+        spend(self.check, ALIGNED)
         priced = price(self.groups, _structure(self.groups, self._core.integers(structure)))
         if (
             priced is None

@@ -1,5 +1,6 @@
 // The alignment search of facade_nb in WebAssembly: what Python calls. Built by `make core`.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -15,10 +16,19 @@ extern "C" __attribute__((import_module("host"), import_name("check"))) int host
 
 bool stopped = false;
 
+namespace {
+
+double spent = 0.0;  // work since it was last told
+double allowed = HUGE_VAL;  // and how much there may be until then
+
+}  // namespace
+
 bool check(unsigned work) {
   constexpr unsigned kOften = 400000;  // about every millisecond or two
   static unsigned done = 0;
   done += work;
+  spent += work;
+  if (spent > allowed) stopped = true;
   if (!stopped && done > kOften) {
     done = 0;
     stopped = host_check() != 0;
@@ -61,20 +71,29 @@ std::vector<Group*> groups_of(double n) {
   return groups;
 }
 
-/// Status, bound, nodes, and a structure that has left the queue.
+/// How much was done, which does not depend on when the host was asked.
+void tell_work() {
+  box[5] = spent;
+  spent = 0.0;
+  allowed = HUGE_VAL;
+}
+
+/// Status, bound, nodes, and a structure that has left the queue; work.
 void answer(Search& search, Status status) {
   box[0] = status;
   box[1] = search.bound;
   box[2] = search.nodes;
   box[3] = status == kLeft ? number(spell(search.network, search.asked())) : 0.0;
+  tell_work();
 }
 
-/// Status, limit, whether it is done, and a structure to be priced.
+/// Status, limit, whether it is done, and a structure to be priced; work.
 void answer(Dives& dives, Status status) {
   box[0] = status;
   box[1] = dives.limit;
   box[2] = dives.done;
   box[3] = status == kPrice ? number(spell(dives.network, dives.asked())) : 0.0;
+  tell_work();
 }
 
 }  // namespace
@@ -102,6 +121,9 @@ EXPORT(numbers_at) void numbers_at() {
 
 // → its number
 EXPORT(group_new) void group_new() { box[0] = number(Group::read(numbers.data())); }
+
+// How much work there may be until the next answer
+EXPORT(allow) void allow() { allowed = box[0]; }
 
 // How many groups, structures to keep, most nodes, nodes in a turn, whether Python judges → its number, and as `answer`
 EXPORT(search_new) void search_new() {

@@ -18,6 +18,7 @@ class Seen {
     }
     int equals = 0;
     for (const Path* other = known; other != nullptr; other = other->next) {
+      check(40);
       const int verdict = beats(*other, path);
       if (verdict > 0) return true;
       equals += verdict == 0;
@@ -25,6 +26,7 @@ class Seen {
     if (equals >= keep_) return true;
     Path** at = &known;
     while (*at != nullptr) {
+      check(40);
       Path& other = **at;
       other.dropped = other.dropped || beats(path, other) > 0;
       if (other.dropped)

@@ -92,6 +92,7 @@ class Network {
     if (stopped) return;
     for (const Edge* edge = begin; edge < end; ++edge) {
       if (sizable && group.unsizable(edge->column)) continue;
+      if (check(300)) return;
       const Arena::Mark before = arena.mark();
       Path* child = arena.room<Path>(1);
       *child = {};

@@ -386,7 +386,7 @@ class Pricer {
           std::vector<Programme::Constraint> more = pins;
           more.push_back({less(top.high, term.terms), term.constant, term.constant});
           std::vector<double> found = solve_with_floor(std::move(more));
-          if (!found.empty() && (best.empty() || objective(found) < objective(best))) best = std::move(found);
+          if (!found.empty() && (best.empty() || objective(found) < objective(best) - kEps)) best = std::move(found);
         }
         return best;
       }

@@ -122,7 +122,7 @@ class Meeting:
             if child.trail and self._beyond(side, child):
                 continue
             self.found.nodes += 1
-            if self.check is not None and not self.found.nodes & 31:
+            if self.check is not None:
                 self.check()
             if self.found.nodes >= self.nodes:
                 self.found.cut = True

@@ -20,6 +20,7 @@ from math import inf
 
 import numpy as np
 
+from ...model.sums import dot
 from ..elements import Option
 from ..group import Group
 from ..linear_programme import FREE, solve_lp
@@ -57,7 +58,7 @@ class Relaxation:
         self._build(half)
         x = self._solve()
         self._x = x
-        self.value = inf if x is None else self._constant + float(np.dot(self._cost, x))
+        self.value = inf if x is None else self._constant + dot(np.array(self._cost), x)
 
     def positive(self) -> float:
         """The same where every piece has to be longer than nothing."""
@@ -69,7 +70,7 @@ class Relaxation:
         for p in self._pieces:
             self._low[p] = _SHORTEST
         x = self._solve()
-        return inf if x is None else self._constant + float(np.dot(self._cost, x))
+        return inf if x is None else self._constant + dot(np.array(self._cost), x)
 
     def _variable(self, low: float = 0.0, high: float = FREE, cost: float = 0.0) -> int:
         self._low.append(low)

@@ -110,7 +110,7 @@ class BestFirst:
             if item.dropped or (late and found.best is not None and found.best.proper):
                 continue
             found.nodes += 1
-            if self.check is not None and not found.nodes & 31:
+            if self.check is not None:
                 self.check()
             if found.nodes >= self.nodes:
                 found.cut = self.done = True

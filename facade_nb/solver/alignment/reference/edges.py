@@ -112,7 +112,7 @@ class Maker:
             return
         if self.check is not None:
             self.calls += 1
-            if not self.calls & 255:
+            if not self.calls & 7:
                 self.check()
         if len(self.made) >= self.most:
             return

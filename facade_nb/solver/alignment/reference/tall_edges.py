@@ -126,7 +126,7 @@ class _Stepper(Maker):
             return
         if self.check is not None:
             self.calls += 1
-            if not self.calls & 255:
+            if not self.calls & 7:
                 self.check()
         if (not hit and not hits[n]) or len(self.made) >= self.enough:
             return

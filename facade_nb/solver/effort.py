@@ -1,0 +1,95 @@
+"""How much a search has done, in seconds of a usual machine: counted, not measured.
+
+What a search tries next, what helps it, and when it gives up trying what would help, depends on how long something
+has taken. If a clock told that, two runs of one design would differ, in their traces if not in their answers, and on a
+busy machine more than elsewhere. So the places at which the time limit is looked at count what they stand for, and the
+compiled search says how much it has done. Only the caller's own time limit is told by the clock (`budget`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import inf
+
+__all__ = ["ALIGNED", "SIZED", "SWEPT", "Effort", "Stopped", "spend"]
+
+_CALL = 5e-5
+"""What is done between two looks at the clock takes so many seconds, about; in sweeps:"""
+SWEPT = 6e-4
+ALIGNED = 3e-4
+"""It takes so many to price an alignment in Python, and to size one:"""
+SIZED = 1e-3
+
+
+class Stopped(Exception):
+    """The time is up, or, `asked`, the caller wants no answer any more."""
+
+    def __init__(self, asked: bool = False) -> None:
+        super().__init__()
+        self.asked = asked
+
+
+class Effort:
+    """A check that counts: what is handed to searches as their `check`.
+
+    Parameters
+    ----------
+    check
+        What is asked whether to go on; where that is an `Effort` as well, it counts what is done here.
+    within
+        Another one that counts it, and is asked too.
+    call
+        Seconds that each call stands for.
+    most
+        After so many seconds it raises `Stopped`.
+
+    Attributes
+    ----------
+    seconds
+        Until now.
+    """
+
+    __slots__ = ("_above", "_ask", "_call", "most", "seconds")
+
+    def __init__(
+        self,
+        check: Callable[[], None] | None = None,
+        call: float = _CALL,
+        most: float = inf,
+        within: Effort | None = None,
+    ) -> None:
+        self._above = check if isinstance(check, Effort) else within
+        self._ask = None if isinstance(check, Effort) else check
+        self._call, self.most, self.seconds = call, most, 0.0
+
+    def __call__(self) -> None:
+        """Count a call, and ask."""
+        self.add(self._call)
+        self.look()
+
+    def add(self, seconds: float) -> None:
+        """Count what was done without a call."""
+        self.seconds += seconds
+        if self._above is not None:
+            self._above.add(seconds)
+
+    def look(self) -> None:
+        """Ask whether to go on, and count nothing."""
+        if self.seconds > self.most:
+            raise Stopped
+        if self._above is not None:
+            self._above.look()
+        if self._ask is not None:
+            self._ask()
+
+    @property
+    def left(self) -> float:
+        """So much may still be done."""
+        own = self.most - self.seconds
+        return own if self._above is None else min(own, self._above.left)
+
+
+def spend(check: Callable[[], None] | None, seconds: float) -> None:
+    """Count what was done, if somebody counts."""
+    if isinstance(check, Effort):
+        check.add(seconds)
