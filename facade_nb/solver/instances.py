@@ -46,7 +46,7 @@ _MAX_TOTAL = 400_000
 _WAY = ""
 """In tables of counters: the choice of alternatives. No counter has that name."""
 
-_ways: Kept[tuple[list[Way] | None]] = Kept(50_000)
+_ways: Kept[tuple[list[Way] | None]] = Kept(20_000)
 """Measures of patterns asked for last, weighed by their choices of alternatives."""
 
 SymbolOf = Callable[[str], Symbol]

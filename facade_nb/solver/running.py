@@ -61,6 +61,7 @@ class GroupSearch:
         self.groups, self.log, self._fits, self._strain = groups, log, fits, strain
         self._plain = any(group.objective.plain for group in groups)
         self._options = (method, nodes, check, accept)
+        self._first: BestFirst | CompiledSearch | None = None
         self._dives: Dives | CompiledDives | None = None
         self._sweeps = sweeps(groups, check, fits) if accept is None and can_sweep(groups) else None
         self._swept: Priced | None = None
@@ -75,7 +76,7 @@ class GroupSearch:
 
     def _begin(self) -> None:
         method, nodes, check, accept = self._options
-        self._first: BestFirst | CompiledSearch | None = best_first(
+        self._first = best_first(
             self.groups, keep=TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_TURN
         )
         self._ida = method == "ida"

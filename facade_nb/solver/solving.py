@@ -18,7 +18,7 @@ from .assembling import axis_layout, axis_warnings
 from .axis import AxisSearch, Best, Solved, forget_groups
 from .clock import Clock
 from .columns import EPS
-from .compiled import start_afresh
+from .compiled import Session, session, start_afresh
 from .failure import explain, ran_out
 from .instances import Range, ranges
 from .keeping import Kept
@@ -37,11 +37,19 @@ __all__ = ["TOLERANCES", "forget", "solve"]
 TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
 """Fractions of the canvas; the paper's schedule, and, by its last, what the default objective works within."""
 
-_cache: Kept[dict[Axis, tuple[AxisSearch, Best]]] = Kept(64)
-"""Answers of axes asked for last; of both together, where a counter ties them."""
+_cache: Kept[dict[Axis, tuple[AxisSearch, Best]]] = Kept(32_000_000)
+"""Answers of axes asked for last; of both together, where a counter ties them; weighed by their bytes."""
 
-_before: Kept[Solved] = Kept(64)
-"""What was found last for problems that differ in sizes, bounds and canvas only."""
+_before: Kept[Solved] = Kept(16_000_000)
+"""What was found last for problems that differ in sizes, bounds and canvas only; likewise."""
+
+_ANSWER = 500_000
+"""Bytes as which an answer counts at least: no more than 64 are kept."""
+
+_SLOWLY = (
+    "There was no memory for the compiled search; the search in Python took its place, which takes longer and finds "
+    "the same."
+)
 
 _REMEDIES = 0.6
 """Seconds for trying what would help, where there is no layout; of them for one change:"""
@@ -109,15 +117,16 @@ def solve(
     clock = Clock(time_limit, should_stop)
     try:
         if design.stack:
-            run = _Run(design, objective or Objective(), tuple(tolerances), search, clock, log)
-            layout = run.layout()
+            layout = _solved(design, objective or Objective(), tuple(tolerances), search, clock, log)
         else:
             layout = Layout(design.name, design.canvas, design=design)
     except NoLayout as error:
         if log is not None:
             log.finish(error=error)
             error.trace = log.trace()
-        raise
+        # an error that is kept, as the last one in a notebook is, does not keep the whole search
+        error.__context__ = None
+        raise error.with_traceback(None) from None
     finally:
         clock.close()
     if log is None:
@@ -132,6 +141,26 @@ def forget() -> None:
     _before.clear()
     forget_groups()
     forget_words()
+
+
+def _solved(
+    design: Design,
+    objective: Objective,
+    tolerances: tuple[float, ...],
+    search: str,
+    clock: Clock,
+    log: Recorder | None,
+) -> Layout:
+    """The layout. When it is there, or there is none, nothing is left of what was searched."""
+    with session() as compiled:
+        run = _Run(design, objective, tolerances, search, clock, log)
+        try:
+            return run.layout(compiled)
+        except (Stopped, MemoryError) as stop:
+            clock.full = clock.full or not isinstance(stop, Stopped) or stop.full
+            raise ran_out(design, clock, list(run.problems.values())) from None
+        finally:
+            run.close()
 
 
 class _Run:
@@ -154,15 +183,27 @@ class _Run:
         used = [{name for name, _ in self.problems[axis].counters} for axis in AXES]
         self.shared = sorted(used[0] & used[1])
         self.analysed: set[Axis] = set()
+        self.walks: list[AxisSearch] = []
 
-    def layout(self) -> Layout:
-        return self._assemble(self._solved(AXES))
+    def layout(self, compiled: Session) -> Layout:
+        layout = self._assemble(self._solved(AXES))
+        if compiled.without:
+            layout = replace(layout, warnings=(*layout.warnings, _SLOWLY))
+        return layout
+
+    def close(self) -> None:
+        """Let go of all that was searched, except by a trace, which is still to be read."""
+        if self.trace is None:
+            for walk in self.walks:
+                walk.forget()
+        self.walks.clear()
 
     def _solved(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
         """The best of some axes; of both, where a counter ties them."""
         try:
             return self._found(axes)
-        except Stopped:
+        except Stopped as stop:
+            self.clock.full = self.clock.full or stop.full
             raise ran_out(self.design, self.clock, list(self.problems.values())) from None
 
     def _found(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
@@ -185,12 +226,14 @@ class _Run:
         if known is None:
             known = find(axes)
             if not self.trial:
+                weight = 0.0
                 for walk, best in known.values():
                     walk.forget()
                     for group in best.solved.groups if best.solved else ():
-                        group.edges.clear()
+                        group.forget()
+                    weight += best.solved.weight if best.solved else 0.0
                 if all(best.complete for _, best in known.values()):
-                    _cache.put(key, known)
+                    _cache.put(key, known, max(_ANSWER, weight))
         return known
 
     def _axis(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
@@ -221,12 +264,13 @@ class _Run:
                 other = adopted(walk, before)
                 best.solved = other if other is not None and other.beats(best.solved) else best.solved
         if best.solved is not None and not self.trial:
-            _before.put(key, best.solved)
+            _before.put(key, best.solved, max(_ANSWER / 2, best.solved.weight))
         return best
 
     def _best(self, walk: AxisSearch, cap: float = inf) -> Best:
         with stage(self.trace, walk.problem.axis, "search"):
             best = walk.best(cap)
+            self.clock.full = self.clock.full or best.full
             if self.trace is not None:
                 self.trace.judged(walk)
         return best
@@ -243,6 +287,7 @@ class _Run:
             self.clock.extend,
             self.clock.progress,
         )
+        self.walks.append(walk)
         self.clock.progress.at("words", axis)
         self._analyse(problem)
         with stage(self.trace, axis, "words"):
@@ -277,7 +322,10 @@ class _Run:
             tolerances = self.tolerances if tolerance is None else (tolerance,)
             clock = Clock(min(left, _REMEDY), parent=self.clock)
             run = _Run(design, self.objective, tolerances, self.search, clock, None, trial=True)
-            return run.tried(None if other else walk.problem.axis)
+            try:
+                return run.tried(None if other else walk.problem.axis)
+            finally:
+                run.close()
 
         return explain(Blame(self.design, walk, best, self.clock, self.tolerances, works, other, self.shared))
 
@@ -320,6 +368,8 @@ class _Run:
                 break
             x = self._best(side_x, rank[0] - side_y.floor)
             y = self._best(side_y, rank[0] - x.cost) if x.solved else Best(bound=side_y.floor)
+            side_x.leave()
+            side_y.leave()
             complete = complete and x.complete and y.complete
             bound = min(bound, x.bound + y.bound)
             if x.solved is not None and y.solved is not None:
@@ -388,6 +438,8 @@ class _Run:
                 for side_x, side_y in self._pairs(walks):
                     x = self._first_aligned(side_x)
                     y = self._first_aligned(side_y) if x else None
+                    side_x.leave()
+                    side_y.leave()
                     if x is not None and y is not None:
                         return {"x": (walks["x"], x), "y": (walks["y"], y)}
                 continue

@@ -20,8 +20,10 @@ from .problem import AxisProblem
 
 __all__ = ["axis_words", "forget_words", "words"]
 
-_kept: Kept[tuple[Instances, float]] = Kept(4_000_000)
-"""Words of patterns asked for last, and how much is opaque in one of them at most; weighed by their letters."""
+_kept: Kept[tuple[Instances, float]] = Kept(32_000_000)
+"""Words of patterns asked for last, and how much is opaque in one of them at most; weighed by their bytes."""
+_LETTER, _WORD = 8, 500
+"""Bytes that a letter takes in a word, and a word without letters."""
 _ranges: Kept[dict[str, Range]] = Kept(1_000)
 """What patterns say of counters."""
 
@@ -97,7 +99,7 @@ def axis_words(
             except DesignError as error:
                 raise DesignError(Fault(f"patterns.{name}", str(error))) from None
             known = own, max((_opaque(word) for word in own.words), default=0.0)
-            _kept.put(key, known, 10 + sum(map(len, own.words)))
+            _kept.put(key, known, _WORD + sum(_WORD + _LETTER * len(word) for word in own.words))
         found[name], opaque[name] = known
     return found
 
