@@ -101,6 +101,8 @@ class Best:
     unsizable: bool = False
     full: bool = False
     """It was cut short for want of memory."""
+    whole: bool = True
+    """No word was left out; else nothing is proven of the first candidate that aligns, in lexicographic order."""
 
     @property
     def cost(self) -> float:
@@ -288,7 +290,9 @@ class AxisSearch:
                 solved = self._turn(case, limit, top)
                 heappop(queue)
                 best.unsizable = best.unsizable or case.unsizable
-                best.complete = best.complete and not any(run.cut for run in case.runs)
+                if any(run.cut for run in case.runs):
+                    best.complete = False
+                    best.bound = min(best.bound, case.floor)
                 if solved is not None:
                     best.bound = min(best.bound, case.floor)
                     # what a dive came upon is no better than others that cost the same
@@ -312,10 +316,16 @@ class AxisSearch:
             best.complete, best.full = False, True
         if not best.complete:
             best.solved = self.soon.hasty(self, best.solved)
-        best.bound = min(best.bound, floor, self._left_out())
+        best.bound = min(best.bound, floor, self.left_out)
         return best
 
-    def _left_out(self) -> float:
+    @property
+    def whole(self) -> bool:
+        """No word was left out."""
+        return all(found.left == inf for found in self.found.values())
+
+    @property
+    def left_out(self) -> float:
         """No candidate with a word that was left out, for there are too many, costs less than this."""
         bound = inf
         for _, names in self.problem.groups:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, islice
+from math import inf
 
 from ..design.errors import NoLayout, Suggestion
 from ..design.model import Axis, Design
@@ -21,6 +22,9 @@ from .words import axis_words
 
 __all__ = ["explain", "ran_out"]
 
+_SURE = ("analysis", "letters", "time", "memory", "stop")
+"""What does not depend on which words there are, or says itself that some were left out."""
+
 
 def explain(blame: Blame) -> NoLayout:
     """The reason why a search found nothing, and what would help."""
@@ -31,7 +35,13 @@ def explain(blame: Blame) -> NoLayout:
     clock.allot(1.0)
     clock.extend()
     try:
-        return _explain(blame)
+        reason = _explain(blame)
+        sides = [blame.walk, *([blame.other] if blame.other else [])]
+        names = [name for side in sides for name, found in side.found.items() if found.left < inf]
+        if names and reason.constraint not in _SURE:
+            plural = "patterns" if len(names) > 1 else "pattern"
+            reason.message += f" Some words of {plural} {names_of(names)} were left out; one of them may do."
+        return reason
     except Stopped:
         if clock.asked:
             return ran_out(blame.design, clock, [problem])

@@ -10,6 +10,7 @@ from .columns import EPS, Group
 from .compiled import CompiledDives, CompiledSearch, best_first, dives
 from .dive import Dives
 from .ida import search_ida
+from .lone import lone
 from .pricing import Priced
 from .search import BestFirst, Found, Stopped
 from .sweeping import can_sweep, mended, polished, sweeps
@@ -69,10 +70,13 @@ class GroupSearch:
         self._slow = _SLOW if all(group.stiff for group in groups) else _SLOW_ELASTIC
         self.spent = self._dived = 0.0
         self._again = False
-        if known is None:
-            self._begin()
-        else:
+        alone = lone(groups) if known is None and accept is None and log is None else None
+        if known is not None:
             self._found, self.done = Found(*known), True
+        elif alone is not None:
+            self._found, self.done = alone, True
+        else:
+            self._begin()
 
     def _begin(self) -> None:
         method, nodes, check, accept = self._options

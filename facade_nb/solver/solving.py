@@ -14,7 +14,7 @@ from ..design.errors import DesignError, Fault, NoLayout
 from ..design.model import AXES, Axis, Design
 from .adopting import adopted, upper_bound
 from .analysis import analyse
-from .assembling import axis_layout, axis_warnings
+from .assembling import axis_layout, axis_warnings, cut_warnings
 from .axis import AxisSearch, Best, Solved, forget_groups
 from .clock import Clock
 from .columns import EPS
@@ -357,6 +357,7 @@ class _Run:
         rank = (inf, 0, inf)
         bound, complete = inf, True
         pairs = self._by_floor(walks)
+        left = min(walk.left_out for walk in walks.values())
         while True:
             try:
                 floor, side_x, side_y = next(pairs, (inf, None, None))
@@ -378,7 +379,9 @@ class _Run:
                 if _less(own, rank):
                     best, rank = {"x": x, "y": y}, own
             if not complete:
+                bound = min(bound, floor)  # the others, which come later, cost no less
                 break
+        bound = min(bound, left)
         if best is None:
             raise self._failure(walks["x"], Best(complete=complete), walks["y"])
         gap = max(0.0, rank[0] - bound)
@@ -460,7 +463,7 @@ class _Run:
     def _first_aligned(self, walk: AxisSearch) -> Best | None:
         """The first candidate, in lexicographic order, that aligns and can be sized."""
         progress, axis = self.clock.progress, walk.problem.axis
-        whole = all(found.left == inf for found in walk.found.values())
+        whole = walk.whole
         complete = True
         with stage(self.trace, axis, "search"):
             for n, candidate in enumerate(walk.in_order(), 1):
@@ -471,7 +474,7 @@ class _Run:
                     self.trace.tried(walk, case)
                 complete = complete and not any(run.cut for run in case.runs)
                 if solved is not None:
-                    return Best(solved, solved.cost if whole and complete else 0.0, complete)
+                    return Best(solved, solved.cost if whole and complete else 0.0, complete, whole=whole)
         return None
 
     def _first_unless_over(self, walk: AxisSearch) -> tuple[Best | None, bool]:
@@ -511,6 +514,8 @@ class _Run:
             axes[axis] = axis_layout(self.design, walk.problem, best, answer)
             complete = complete and best.complete
             warnings += axis_warnings(walk, answer)
+            if not axes[axis].proven:
+                warnings += cut_warnings(walk, best, self.clock)
             if self.trace is not None:
                 self.trace.answer(walk, answer, axes[axis], best.complete)
         with stage(self.trace, "", "merging"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
@@ -13,7 +14,7 @@ from ..design.model import Counter, Symbol
 from ..design.pattern import parse
 from .clock import Progress
 from .columns import EPS
-from .instances import Instances, Range, forget_measures, instances, ranges
+from .instances import MAX_COPIES, Instances, Range, forget_measures, instances, ranges
 from .keeping import Kept
 from .letters import Word
 from .problem import AxisProblem
@@ -166,7 +167,8 @@ def words(
 
     Returns
     -------
-    Words in lexicographic order of counter values, alternatives, and sampled sizes.
+    Words in lexicographic order of counter values, alternatives, and sampled sizes. A counter that repeats only letters
+    without a size is tried up to 16 unless it has a bound; a `UserWarning` says so.
 
     Raises
     ------
@@ -210,6 +212,12 @@ def words(
         canvas + tolerance,
         low=canvas - tolerance,
     )
+    if found.endless and found.left < inf:
+        names = ", ".join(map(repr, found.endless))
+        warnings.warn(
+            f"Counter {names} repeats nothing that has a size; it was tried up to {MAX_COPIES} only.",
+            stacklevel=2,
+        )
     kept: list[Word] = []
     for word in found.words:
         unsized = list(dict.fromkeys(a.symbol for a in word.letters if a.size is None))
