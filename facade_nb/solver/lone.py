@@ -17,12 +17,14 @@ __all__ = ["lone"]
 
 
 def lone(groups: Sequence[Group]) -> Found | None:
-    """What any search finds for one group of one word, all of whose letters are opaque and have a size; else None."""
+    """What any search finds for one group of one word, all of whose letters are solid; None for other groups."""
     if len(groups) != 1 or len(groups[0].bands) != 1:
         return None
     (group,), (band,) = groups, groups[0].bands
-    if not band.letters or not all(a.opaque and not a.transparent and a.size for a in band.letters):
+    if not band.letters or not all(a.size and not a.transparent for a in band.letters):
         return None
+    if band.soft and (not group.waived or any(a.unoccludable for a in band.letters)):
+        return None if group.waived else Found(bound=inf)  # nothing can stand behind it (C1)
     if abs(band.rest_min[0] - group.canvas) > group.tolerance + EPS:
         return Found(bound=inf)
     columns: list[tuple[Option, ...]] = []

@@ -129,7 +129,7 @@ class GroupSearch:
         With `sweep` by sweeps alone, where they are possible.
         """
         _, _, check, accept = self._options
-        if self.done or accept is not None:
+        if self._settled or accept is not None:
             return
         able = self._sweeps is not None or self._was_swept
         if at_once or self.slow:
@@ -160,13 +160,13 @@ class GroupSearch:
     def mend(self) -> None:
         """Where sweeps have come to nothing that can be sized: make something that can of what they have come to."""
         _, _, check, _ = self._options
-        if not self.done and self._was_swept and self._swept is None and self._strain is not None:
+        if not self._settled and self._was_swept and self._swept is None and self._strain is not None:
             self._swept = mended(self.groups, self._strain, check)
 
     def polish(self) -> Iterator[None]:
         """Make the best that is known better, bit by bit."""
         _, _, check, accept = self._options
-        if self.done or accept is not None or not self._was_swept or not self.known or self._fits is None:
+        if self._settled or accept is not None or not self._was_swept or not self.known or self._fits is None:
             return
         for better in polished(self.groups, self.known[0], self._fits, check):
             self._swept = better
@@ -271,6 +271,11 @@ class GroupSearch:
     def cut(self) -> bool:
         """It gave up."""
         return self._found.cut
+
+    @property
+    def _settled(self) -> bool:
+        """Nothing better can be found."""
+        return self.done and not self.cut
 
 
 def _in_order(priced: Priced) -> tuple[tuple[tuple[tuple[int, ...], ...], ...], ...]:

@@ -184,6 +184,7 @@ class _Run:
         self.shared = sorted(used[0] & used[1])
         self.analysed: set[Axis] = set()
         self.walks: list[AxisSearch] = []
+        self.undecided = self.left_out = False
 
     def layout(self, compiled: Session) -> Layout:
         layout = self._assemble(self._solved(AXES))
@@ -433,6 +434,7 @@ class _Run:
 
     def _by_tolerance(self, axes: Sequence[Axis] = AXES) -> dict[Axis, tuple[AxisSearch, Best]]:
         """The paper's schedule: the first candidate, in lexicographic order, that aligns at the least tolerance."""
+        self.undecided = self.left_out = False
         out: dict[Axis, tuple[AxisSearch, Best]] = {}
         walks: dict[Axis, AxisSearch] = {}
         for tolerance in self.tolerances:
@@ -458,13 +460,13 @@ class _Run:
             if len(out) == len(axes):
                 return out
         failed = next(axis for axis in axes if axis not in out)
-        raise self._failure(walks[failed], Best(), walks["y"] if self.shared else None)
+        best = Best(complete=not self.undecided)
+        raise self._failure(walks[failed], best, walks["y"] if self.shared else None)
 
     def _first_aligned(self, walk: AxisSearch) -> Best | None:
         """The first candidate, in lexicographic order, that aligns and can be sized."""
         progress, axis = self.clock.progress, walk.problem.axis
-        whole = walk.whole
-        complete = True
+        self.left_out = self.left_out or not walk.whole
         with stage(self.trace, axis, "search"):
             for n, candidate in enumerate(walk.in_order(), 1):
                 progress.at("alignment", axis, candidate=n, of=n)
@@ -472,9 +474,11 @@ class _Run:
                 solved = walk.solve(case)
                 if self.trace is not None:
                     self.trace.tried(walk, case)
-                complete = complete and not any(run.cut for run in case.runs)
+                self.undecided = self.undecided or any(run.cut for run in case.runs)
                 if solved is not None:
-                    return Best(solved, solved.cost if whole and complete else 0.0, complete, whole=whole)
+                    sure = not (self.left_out or self.undecided)  # of lesser tolerances too
+                    bound = solved.cost if sure else 0.0
+                    return Best(solved, bound, not self.undecided, whole=not self.left_out)
         return None
 
     def _first_unless_over(self, walk: AxisSearch) -> tuple[Best | None, bool]:
