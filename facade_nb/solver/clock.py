@@ -121,7 +121,7 @@ class Clock:
         self.progress = Progress()
         self.asked = self.over = self.full = False
         self._start, self._look = (_resident(), self._begin) if parent is None else (0, inf)
-        self._size = self._start - min(_left.bytes, MEMORY // 2)
+        self._size = self._start - min(_left.bytes, max(0, MEMORY // 2))
         self.allot(1.0)
 
     @property

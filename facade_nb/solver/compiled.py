@@ -111,6 +111,8 @@ class _Core:
     def __init__(self) -> None:
         import wasmtime
 
+        self._store: Any = None
+        self.busy = self.broken = self.closed = False
         try:
             self._make()
         except (wasmtime.WasmtimeError, MemoryError, OSError) as error:
@@ -120,8 +122,6 @@ class _Core:
     def _make(self) -> None:
         import wasmtime
 
-        self._store: Any = None
-        self.busy = self.broken = self.closed = False
         engine, module = _module()
         self._store = wasmtime.Store(engine)
         self._store.set_limits(memory_size=_MOST)
