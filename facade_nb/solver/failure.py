@@ -22,6 +22,8 @@ from .words import axis_words
 
 __all__ = ["explain", "ran_out"]
 
+_CANDIDATES = 20_000
+"""Of so many candidates the values of counters are compared."""
 _SURE = ("analysis", "letters", "time", "memory", "stop")
 """What does not depend on which words there are, or says itself that some were left out."""
 
@@ -101,9 +103,10 @@ def _explain(blame: Blame) -> NoLayout:
         if reason is not None:
             return reason
     if other is not None:
-        values = {side.problem.axis: _values(side, blame.shared) for side in sides}
+        found = {side.problem.axis: _values(side, blame.shared) for side in sides}
+        values = {axis: own for axis, (own, _) in found.items()}
         if not values["x"] & values["y"]:
-            return _tied(blame, values)
+            return _tied(blame, values, all(whole for _, whole in found.values()))
         walk = next((side for side in (walk, other) if not aligns(blame, side)), walk)
     return obstacle(blame, one_group(blame, walk))
 
@@ -281,11 +284,13 @@ def _balance(
     yield from helper.size(dict.fromkeys(name for words in per_pattern for name in _heaviest(words[-1:])))
 
 
-def _tied(blame: Blame, values: Mapping[Axis, set[tuple[int, ...]]]) -> NoLayout:
+def _tied(blame: Blame, values: Mapping[Axis, set[tuple[int, ...]]], whole: bool) -> NoLayout:
+    """`whole`: these are all values that there are."""
     names = names_of(blame.shared)
+    known = "" if whole else f", as far as the first {_CANDIDATES:,} candidates say"
     text = (
         f"{'Counters' if len(blame.shared) > 1 else 'Counter'} {names} is used both across and up, and no value fits "
-        f"both: across it can be {_list(values['x'])}, up {_list(values['y'])}."
+        f"both{known}: across it can be {_list(values['x'])}, up {_list(values['y'])}."
     )
     across, up = remedies_of(blame, "x"), remedies_of(blame, "y")
     better = chain(across.counters(blame.shared), up.canvas(), across.canvas())
@@ -294,8 +299,11 @@ def _tied(blame: Blame, values: Mapping[Axis, set[tuple[int, ...]]]) -> NoLayout
     return refusal
 
 
-def _values(walk: AxisSearch, names: Sequence[str]) -> set[tuple[int, ...]]:
-    return {tuple(c.counters[n] for n in names) for c in islice(walk.in_order(), 200)}
+def _values(walk: AxisSearch, names: Sequence[str]) -> tuple[set[tuple[int, ...]], bool]:
+    """Values of counters of the first candidates, and whether these are all."""
+    order = walk.in_order()
+    values = {tuple(c.counters[n] for n in names) for c in islice(order, _CANDIDATES)}
+    return values, next(order, None) is None
 
 
 def _list(values: set[tuple[int, ...]]) -> str:

@@ -18,6 +18,7 @@ from facade_nb.solver import (
     alignment,
     axis,
     counting,
+    failure,
     instances,
     sizing,
     solving,
@@ -239,6 +240,17 @@ class TestInstances:
         assert found.left == pytest.approx(0.0, abs=0.1)
         found = self.of("A^.k", 12.0, A=0.001)  # a mirrored copy shares its only letter
         assert any(len(word) == 12_000 for word in found.words)
+
+
+def test_values_of_some_candidates_only_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    one = design({"A": 1.0, "P": 0.5}, {"a": "A^k", "u": "P^k"}, [("a", "g", "u", "g")], 4.0, 9.0)
+    with pytest.raises(NoLayout, match="and no value fits both: across it can be 2, 3, 4, 5, 6, up"):
+        solve(one)
+    monkeypatch.setattr(failure, "_CANDIDATES", 1)
+    with pytest.raises(
+        NoLayout, match="no value fits both, as far as the first 1 candidates say: across it can be 2"
+    ):
+        solve(one)
 
 
 class TestLists:
