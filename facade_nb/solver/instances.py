@@ -355,7 +355,7 @@ def _spelled(
             last, seen = values, set()
         try:
             word = speller.word(ways[way].pattern, dict(zip(names, values, strict=True)))
-        except DesignError:  # a reflection is refused before it is known which letters it shares
+        except DesignError:  # what stands in it and is replaced by nothing counts while it is made
             if refused is None:
                 raise
             refused((size, way))
