@@ -230,6 +230,11 @@ class Band:
             one = self._single[position, index] = next(self._make(position, index))
         return one
 
+    def forget(self) -> None:
+        """Let go of the elements; they are made again where they are asked for."""
+        self._options.clear()
+        self._single.clear()
+
     def alike(self, position: Position, other: Option) -> Option | None:
         """The element here that has the same letters and ends at the same place as one of another band; or None."""
         for k, one in enumerate(self._make(position)):
@@ -367,6 +372,12 @@ class Group:
     """Groups with the same identity are aligned and sized alike."""
     edges: dict[Any, Any] = field(default_factory=dict)
     """Edges of the network already made, by node (see `network.edges`)."""
+
+    def forget(self) -> None:
+        """Let go of what can be made again: edges, and elements that no structure has taken."""
+        self.edges.clear()
+        for band in self.bands:
+            band.forget()
 
     @property
     def start(self) -> tuple[Position, ...]:

@@ -8,9 +8,11 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from ...design.errors import NoLayout
+from ..lone import lone
 from ..model.letters import Letter
 from ..model.objective import Objective
 from .columns import Group, make_group
+from .core.binding import session
 from .paper.ida import search_ida
 from .pricing import Priced
 from .reference.best_first import Found, Stopped
@@ -40,12 +42,16 @@ class Alignment:
         J under the objective; Ω under the paper's.
     width
         W = Σ_j of the largest row size.
+    proven, gap
+        Whether no alignment costs less; else the cost minus what each costs at least, as far as that is known.
     """
 
     columns: tuple[tuple[Element, ...], ...]
     error: float
     cost: float
     width: float
+    proven: bool = True
+    gap: float = 0.0
 
     def __str__(self) -> str:
         return " | ".join("/".join(" ".join(map(str, e)) or "ε" for e in column) for column in self.columns)
@@ -80,7 +86,7 @@ def align(
     Returns
     -------
     The alignment, or None where the constraints and the tolerance leave none. Where neither search has come to an end
-    after a million partial alignments, it is the best so far.
+    after a million partial alignments, it is the best so far, and not `proven`.
 
     Raises
     ------
@@ -104,7 +110,8 @@ def align(
     group = make_group(
         rows, canvas, tolerance, Objective.paper() if objective is None else objective, cuts=cuts
     )
-    found = _searched(group, search)
+    with session():
+        found = lone([group]) or _searched(group, search)
     if found.cut and found.best is None:
         letters = " and ".join(str(len(word)) for word in dict.fromkeys(map(tuple, rows)))
         raise NoLayout(
@@ -112,7 +119,10 @@ def align(
             "shorter words, a smaller tolerance, or Objective(), which is not degenerate, would do.",
             constraint="memory",
         )
-    return None if found.best is None else alignment_of(group, found.best, 0)
+    if found.best is None:
+        return None
+    best = alignment_of(group, found.best, 0)
+    return replace(best, proven=False, gap=max(0.0, found.best.cost - found.bound)) if found.cut else best
 
 
 def _searched(group: Group, first: str) -> Found:
@@ -130,6 +140,7 @@ def _searched(group: Group, first: str) -> Found:
                 found = Found(cut=True)
             if not found.cut:
                 return found
+            best.bound = max(best.bound, found.bound)
             for priced in found.ties:
                 best.offer(priced, 1)
             check = _until(time.monotonic() + max(1.0, 2.0 * (time.monotonic() - begin)))

@@ -34,11 +34,11 @@ _GRID = 1e10
 
 
 class Stopped(Exception):
-    """The time is up, or, `asked`, the caller wants no answer any more."""
+    """The time is up; or there is no more memory, `full`; or, `asked`, the caller wants no answer any more."""
 
-    def __init__(self, asked: bool = False) -> None:
+    def __init__(self, asked: bool = False, full: bool = False) -> None:
         super().__init__()
-        self.asked = asked
+        self.asked, self.full = asked, full
 
 
 @dataclass(slots=True)
