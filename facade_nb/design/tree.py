@@ -302,9 +302,10 @@ def _repeat(base: Spelling, mode: str, count: int) -> Spelling:
 
     Pivot letters, shared by a copy and its mirror image, come from the copy and are not mirrored.
     """
-    check_room(len(base) * abs(count) * (2 if mode else 1))
     w = mirrored(base) if count < 0 else base
     k = abs(count) if w else 1  # ε repeated is ε: a huge count of it costs nothing
+    shared = {".": k, ":": k - 1, "@": 2 * k - 1}.get(mode, 0)
+    check_room(len(base) * k * (2 if mode else 1) - shared)
     if not mode:
         return w * k
     v = mirrored(w)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import ctypes
+import gc
 import os
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
@@ -24,7 +27,7 @@ _LAST = 0.5
 """Seconds that the last attempt may take."""
 
 MEMORY = 400_000_000
-"""Bytes by which the process may grow during a search."""
+"""Bytes by which the process may grow during a search; what earlier ones have left counts, up to a half of it."""
 
 _LOOK = 0.02
 """Seconds between two looks at the memory."""
@@ -124,7 +127,8 @@ class Clock:
         self.check: Effort = Effort(self._asked, within=self._within)
         self.progress = Progress()
         self.asked = self.over = self.full = False
-        self._size, self._look = (_resident(), self._begin) if parent is None else (0, inf)
+        self._start, self._look = (_resident(), self._begin) if parent is None else (0, inf)
+        self._size = self._start - min(_left.bytes, max(0, MEMORY // 2))
         self.allot(1.0)
 
     @property
@@ -175,12 +179,15 @@ class Clock:
             self._look = now + _LOOK
             if _resident() - self._size > MEMORY:
                 self.full = True
-                raise Stopped
+                raise Stopped(full=True)
 
     def close(self) -> None:
         """The call is over: what is still read of its words and networks, for a trace, may take as long as it likes."""
+        if self._start:
+            _left.note(self._start)
         self.limit, self._should_stop, self._look, self._most = None, None, inf, inf
         self.check.most = inf
+        self._start = 0
 
     def closing(self) -> Callable[[], None]:
         """A check for what is done once the search is over: it has a moment more, whatever ended the search."""
@@ -200,6 +207,34 @@ class Clock:
                 raise Stopped
 
         return check
+
+
+class _Left:
+    """How much more memory the process has than it would have without the calls until now, about.
+
+    Without it each call would count from where the last one has left off, and a hundred of them could take anything.
+    """
+
+    def __init__(self) -> None:
+        self.bytes = 0
+
+    def note(self, start: int) -> None:
+        """A call is over that began at some size of the process."""
+        left = self.bytes + _resident() - start
+        if left > MEMORY // 4:
+            _give_back()
+            left = self.bytes + _resident() - start
+        self.bytes = max(0, left)
+
+
+_left = _Left()
+
+
+def _give_back() -> None:
+    """Have the system get back what is free."""
+    gc.collect()
+    with suppress(AttributeError, OSError, TypeError):  # only the C library of Linux has it
+        ctypes.CDLL(None).malloc_trim(0)
 
 
 def _resident() -> int:

@@ -15,6 +15,8 @@ _Value = TypeVar("_Value")
 class Kept(Generic[_Value]):
     """The answers that were asked for last, up to a total weight. Threads may share it.
 
+    What can be large is weighed by the bytes that it takes, about.
+
     Attributes
     ----------
     hits, misses

@@ -22,11 +22,11 @@ SIZED = 1e-3
 
 
 class Stopped(Exception):
-    """The time is up, or, `asked`, the caller wants no answer any more."""
+    """The time is up; or there is no more memory, `full`; or, `asked`, the caller wants no answer any more."""
 
-    def __init__(self, asked: bool = False) -> None:
+    def __init__(self, asked: bool = False, full: bool = False) -> None:
         super().__init__()
-        self.asked = asked
+        self.asked, self.full = asked, full
 
 
 class Effort:

@@ -13,9 +13,9 @@ from math import inf
 from ..design.errors import DesignError, NoLayout
 from ..design.limits import range_faults
 from ..design.model import AXES, Axis, Design
-from .alignment.core.binding import start_afresh
+from .alignment.core.binding import Session, session, start_afresh
 from .analysis.systems import analyse
-from .assembly.axes import axis_layout, axis_warnings
+from .assembly.axes import axis_layout, axis_warnings, cut_warnings
 from .assembly.shapes import find_holes, hole_warnings, merge
 from .budget import Clock, Stopped
 from .cache import Kept
@@ -37,11 +37,19 @@ __all__ = ["TOLERANCES", "forget", "solve"]
 TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
 """Fractions of the canvas; the paper's schedule, and, by its last, what the default objective works within."""
 
-_cache: Kept[dict[Axis, tuple[AxisSearch, Best]]] = Kept(64)
-"""Answers of axes asked for last; of both together, where a counter ties them."""
+_cache: Kept[dict[Axis, tuple[AxisSearch, Best]]] = Kept(32_000_000)
+"""Answers of axes asked for last; of both together, where a counter ties them; weighed by their bytes."""
 
-_before: Kept[Solved] = Kept(64)
-"""What was found last for problems that differ in sizes, bounds and canvas only."""
+_before: Kept[Solved] = Kept(16_000_000)
+"""What was found last for problems that differ in sizes, bounds and canvas only; likewise."""
+
+_ANSWER = 500_000
+"""Bytes as which an answer counts at least: no more than 64 are kept."""
+
+_SLOWLY = (
+    "There was no memory for the compiled search; the search in Python took its place, which takes longer and finds "
+    "the same."
+)
 
 _REMEDIES = 0.6
 """Effort (seconds, see `effort`) of trying what would help, where there is no layout; of it for one change:"""
@@ -105,15 +113,16 @@ def solve(
     clock = Clock(time_limit, should_stop)
     try:
         if design.stack:
-            run = _Run(design, objective or Objective(), tuple(tolerances), search, clock, log)
-            layout = run.layout()
+            layout = _solved(design, objective or Objective(), tuple(tolerances), search, clock, log)
         else:
             layout = Layout(design.name, design.canvas, design=design)
     except NoLayout as error:
         if log is not None:
             log.finish(error=error)
             error.trace = log.trace()
-        raise
+        # an error that is kept, as the last one in a notebook is, does not keep the whole search
+        error.__context__ = None
+        raise error.with_traceback(None) from None
     finally:
         clock.close()
     if log is None:
@@ -128,6 +137,26 @@ def forget() -> None:
     _before.clear()
     forget_groups()
     forget_words()
+
+
+def _solved(
+    design: Design,
+    objective: Objective,
+    tolerances: tuple[float, ...],
+    search: str,
+    clock: Clock,
+    log: Recorder | None,
+) -> Layout:
+    """The layout. When it is there, or there is none, nothing is left of what was searched."""
+    with session() as compiled:
+        run = _Run(design, objective, tolerances, search, clock, log)
+        try:
+            return run.layout(compiled)
+        except (Stopped, MemoryError) as stop:
+            clock.full = clock.full or not isinstance(stop, Stopped) or stop.full
+            raise ran_out(design, clock, list(run.problems.values())) from None
+        finally:
+            run.close()
 
 
 class _Run:
@@ -150,15 +179,28 @@ class _Run:
         used = [{name for name, _ in self.problems[axis].counters} for axis in AXES]
         self.shared = sorted(used[0] & used[1])
         self.analysed: set[Axis] = set()
+        self.walks: list[AxisSearch] = []
+        self.undecided = self.left_out = False
 
-    def layout(self) -> Layout:
-        return self._assemble(self._solved(AXES))
+    def layout(self, compiled: Session) -> Layout:
+        layout = self._assemble(self._solved(AXES))
+        if compiled.without:
+            layout = replace(layout, warnings=(*layout.warnings, _SLOWLY))
+        return layout
+
+    def close(self) -> None:
+        """Let go of all that was searched, except by a trace, which is still to be read."""
+        if self.trace is None:
+            for walk in self.walks:
+                walk.forget()
+        self.walks.clear()
 
     def _solved(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
         """The best of some axes; of both, where a counter ties them."""
         try:
             return self._found(axes)
-        except Stopped:
+        except Stopped as stop:
+            self.clock.full = self.clock.full or stop.full
             raise ran_out(self.design, self.clock, list(self.problems.values())) from None
 
     def _found(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
@@ -181,12 +223,14 @@ class _Run:
         if known is None:
             known = find(axes)
             if not self.trial:
+                weight = 0.0
                 for walk, best in known.values():
                     walk.forget()
                     for group in best.solved.groups if best.solved else ():
-                        group.edges.clear()
+                        group.forget()
+                    weight += best.solved.weight if best.solved else 0.0
                 if all(best.complete for _, best in known.values()):
-                    _cache.put(key, known)
+                    _cache.put(key, known, max(_ANSWER, weight))
         return known
 
     def _axis(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
@@ -217,12 +261,13 @@ class _Run:
                 other = adopted(walk, before)
                 best.solved = other if other is not None and other.beats(best.solved) else best.solved
         if best.solved is not None and not self.trial:
-            _before.put(key, best.solved)
+            _before.put(key, best.solved, max(_ANSWER / 2, best.solved.weight))
         return best
 
     def _best(self, walk: AxisSearch, cap: float = inf) -> Best:
         with stage(self.trace, walk.problem.axis, "search"):
             best = walk.best(cap)
+            self.clock.full = self.clock.full or best.full
             if self.trace is not None:
                 self.trace.judged(walk)
         return best
@@ -239,6 +284,7 @@ class _Run:
             self.clock.extend,
             self.clock.progress,
         )
+        self.walks.append(walk)
         self.clock.progress.at("words", axis)
         self._analyse(problem)
         with stage(self.trace, axis, "words"):
@@ -273,7 +319,10 @@ class _Run:
             tolerances = self.tolerances if tolerance is None else (tolerance,)
             clock = Clock(None, parent=self.clock, most=min(left, _REMEDY))
             run = _Run(design, self.objective, tolerances, self.search, clock, None, trial=True)
-            return run.tried(None if other else walk.problem.axis)
+            try:
+                return run.tried(None if other else walk.problem.axis)
+            finally:
+                run.close()
 
         return explain(Blame(self.design, walk, best, self.clock, self.tolerances, works, other, self.shared))
 
@@ -305,6 +354,7 @@ class _Run:
         rank: _Rank = (inf, 0, inf, ())
         bound, complete = inf, True
         pairs = self._by_floor(walks)
+        left = min(walk.left_out for walk in walks.values())
         while True:
             try:
                 floor, side_x, side_y = next(pairs, (inf, None, None))
@@ -316,6 +366,8 @@ class _Run:
                 break
             x = self._best(side_x, rank[0] - side_y.floor)
             y = self._best(side_y, rank[0] - x.cost) if x.solved else Best(bound=side_y.floor)
+            side_x.leave()
+            side_y.leave()
             complete = complete and x.complete and y.complete
             bound = min(bound, x.bound + y.bound)
             if x.solved is not None and y.solved is not None:
@@ -326,7 +378,9 @@ class _Run:
                 if _less(own, rank):
                     best, rank = {"x": x, "y": y}, own
             if not complete:
+                bound = min(bound, floor)  # the others, which come later, cost no less
                 break
+        bound = min(bound, left)
         if best is None:
             raise self._failure(walks["x"], Best(complete=complete), walks["y"])
         gap = max(0.0, rank[0] - bound)
@@ -378,6 +432,7 @@ class _Run:
 
     def _by_tolerance(self, axes: Sequence[Axis] = AXES) -> dict[Axis, tuple[AxisSearch, Best]]:
         """The paper's schedule: the first candidate, in lexicographic order, that aligns at the least tolerance."""
+        self.undecided = self.left_out = False
         out: dict[Axis, tuple[AxisSearch, Best]] = {}
         walks: dict[Axis, AxisSearch] = {}
         for tolerance in self.tolerances:
@@ -386,6 +441,8 @@ class _Run:
                 for side_x, side_y in self._pairs(walks):
                     x = self._first_aligned(side_x)
                     y = self._first_aligned(side_y) if x else None
+                    side_x.leave()
+                    side_y.leave()
                     if x is not None and y is not None:
                         return {"x": (walks["x"], x), "y": (walks["y"], y)}
                 continue
@@ -401,13 +458,13 @@ class _Run:
             if len(out) == len(axes):
                 return out
         failed = next(axis for axis in axes if axis not in out)
-        raise self._failure(walks[failed], Best(), walks["y"] if self.shared else None)
+        best = Best(complete=not self.undecided)
+        raise self._failure(walks[failed], best, walks["y"] if self.shared else None)
 
     def _first_aligned(self, walk: AxisSearch) -> Best | None:
         """The first candidate, in lexicographic order, that aligns and can be sized."""
         progress, axis = self.clock.progress, walk.problem.axis
-        whole = all(found.left == inf for found in walk.found.values())
-        complete = True
+        self.left_out = self.left_out or not walk.whole
         with stage(self.trace, axis, "search"):
             for n, candidate in enumerate(walk.in_order(), 1):
                 progress.at("alignment", axis, candidate=n, of=n)
@@ -415,9 +472,11 @@ class _Run:
                 solved = walk.solve(case)
                 if self.trace is not None:
                     self.trace.tried(walk, case)
-                complete = complete and not any(run.cut for run in case.runs)
+                self.undecided = self.undecided or any(run.cut for run in case.runs)
                 if solved is not None:
-                    return Best(solved, solved.cost if whole and complete else 0.0, complete)
+                    sure = not (self.left_out or self.undecided)  # of lesser tolerances too
+                    bound = solved.cost if sure else 0.0
+                    return Best(solved, bound, not self.undecided, whole=not self.left_out)
         return None
 
     def _first_unless_over(self, walk: AxisSearch) -> tuple[Best | None, bool]:
@@ -457,6 +516,8 @@ class _Run:
             axes[axis] = axis_layout(self.design, walk.problem, best, answer)
             complete = complete and best.complete
             warnings += axis_warnings(walk, answer)
+            if not axes[axis].proven:
+                warnings += cut_warnings(walk, best, self.clock)
             if self.trace is not None:
                 self.trace.answer(walk, answer, axes[axis], best.complete)
         with stage(self.trace, "", "merging"):

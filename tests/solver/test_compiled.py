@@ -279,7 +279,9 @@ class TestControl:
         core = compiled._core()
         assert compiled.start_afresh()
         assert compiled._core() is not core
-        search.advance(0.01)  # what is there already can still be used
+        with pytest.raises(Stopped) as stopped:
+            search.advance(inf)  # what was there until then is gone, at once
+        assert stopped.value.full
 
 
 class TestUnsizable:

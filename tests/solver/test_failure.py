@@ -251,7 +251,7 @@ class TestMore:
     def test_letters_too_small_for_the_canvas(self) -> None:
         error = refused(design({"A": 0.001}, {"a": "A^k"}, ["a"], 1000.0))
         assert str(error).startswith(
-            "Pattern 'a' would need words of more than 2,000 letters to fill the canvas, which is 1000 m wide; "
+            "Pattern 'a' would need words of more than 20,000 letters to fill the canvas, which is 1000 m wide; "
             "no word may have more."
         )
         assert (error.constraint, error.symbols, error.counters) == ("letters", ("A",), ("k",))

@@ -186,30 +186,42 @@ class TestTimeLimit:
         """A million combinations of counters are not all kept."""
         tracemalloc.start()
         try:
-            solve(design(SIZES, {"a": SIX}, ["a"], 6.0), time_limit=5.0)
+            solve(design(SIZES, {"a": SIX}, ["a"], 6.0), time_limit=None)
             _, peak = tracemalloc.get_traced_memory()
         finally:
             tracemalloc.stop()
         assert peak < 200e6
 
     def test_the_process_does_not_grow(self) -> None:
-        """Designs that would take gigabytes; each is given up when the process has grown by 400 MB."""
+        """Designs that would take gigabytes; each is given up when the process has grown by so much.
+
+        The work is counted, in checks, and not timed; a look is taken at each of them.
+        """
         code = """
 import resource
-from facade_nb import NoLayout, solve
-from tests.clocks import install
-install()
+from facade_nb import NoLayout, gallery, solve
+from facade_nb.solver import budget as clock
+from tests.oracle.designs import design
 from tests.oracle.nasty import NASTY
-for name in ("words of thousands of letters", "1000 m, three counters", "alternatives and a counter"):
+solve(gallery.load("figure-7"))
+rows = {"a": "A(BA)^k", "b": "A C^l"}
+long = design({"A": 1.0, "B": 0.8, "C": 1.8}, rows, ["a", "b"], 1801.0)
+names = ("words of thousands of letters", "1000 m, three counters", "alternatives and a counter")
+clock.MEMORY, clock._LOOK = 20_000_000, 0.0
+begin = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+ended = []
+for one in (long, *(NASTY[name] for name in names), long):
+    checks = iter(range(12_000))
     try:
-        solve(NASTY[name], time_limit=1.0)
+        solve(one, time_limit=None, should_stop=lambda: next(checks, None) is None)
     except NoLayout as error:
-        assert str(error)
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
+        ended.append(error.constraint)
+assert ended.count("memory") >= 2, ended
+print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - begin) // 1024)
 """
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
         assert done.returncode == 0, done.stderr
-        assert int(done.stdout) < 900
+        assert int(done.stdout) < 150
 
     def test_a_search_is_given_up_that_takes_too_much(self, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(clock, "MEMORY", -1)

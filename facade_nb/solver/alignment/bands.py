@@ -157,6 +157,11 @@ class Band:
             one = self._single[position, index] = next(self._make(position, index))
         return one
 
+    def forget(self) -> None:
+        """Let go of the elements; they are made again where they are asked for."""
+        self._options.clear()
+        self._single.clear()
+
     def alike(self, position: Position, other: Option) -> Option | None:
         """The element here that has the same letters and ends at the same place as one of another band; or None."""
         for k, one in enumerate(self._make(position)):

@@ -66,6 +66,12 @@ class Group:
     edges: dict[Any, Any] = field(default_factory=dict)
     """Edges of the network already made, by node (see `reference.edges`)."""
 
+    def forget(self) -> None:
+        """Let go of what can be made again: edges, and elements that no structure has taken."""
+        self.edges.clear()
+        for band in self.bands:
+            band.forget()
+
     @property
     def by_empty(self) -> float:
         """What a metre of a column costs that is empty in one band."""

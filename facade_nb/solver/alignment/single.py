@@ -11,9 +11,11 @@ from ..budget import Stopped
 from ..effort import Effort
 from ..model.letters import Letter
 from ..model.objective import Objective
+from .core.binding import session
 from .core.search import search_best
 from .found import Found
 from .group import Group, make_group
+from .lone import lone
 from .paper.ida import search_ida
 from .pricing import Priced
 
@@ -44,12 +46,16 @@ class Alignment:
         J under the objective; Ω under the paper's.
     width
         W = Σ_j of the largest row size.
+    proven, gap
+        Whether no alignment costs less; else the cost minus what each costs at least, as far as that is known.
     """
 
     columns: tuple[tuple[Element, ...], ...]
     error: float
     cost: float
     width: float
+    proven: bool = True
+    gap: float = 0.0
 
     def __str__(self) -> str:
         return " | ".join("/".join(" ".join(map(str, e)) or "ε" for e in column) for column in self.columns)
@@ -84,7 +90,7 @@ def align(
     Returns
     -------
     The alignment, or None where the constraints and the tolerance leave none. Where neither search has come to an end
-    after a million partial alignments, it is the best so far.
+    after a million partial alignments, it is the best so far, and not `proven`.
 
     Raises
     ------
@@ -108,7 +114,8 @@ def align(
     group = make_group(
         rows, canvas, tolerance, Objective.paper() if objective is None else objective, cuts=cuts
     )
-    found = _searched(group, search)
+    with session():
+        found = lone([group]) or _searched(group, search)
     if found.cut and found.best is None:
         letters = " and ".join(str(len(word)) for word in dict.fromkeys(map(tuple, rows)))
         raise NoLayout(
@@ -116,7 +123,10 @@ def align(
             "shorter words, a smaller tolerance, or Objective(), which is not degenerate, would do.",
             constraint="memory",
         )
-    return None if found.best is None else alignment_of(group, found.best, 0)
+    if found.best is None:
+        return None
+    best = alignment_of(group, found.best, 0)
+    return replace(best, proven=False, gap=max(0.0, found.best.cost - found.bound)) if found.cut else best
 
 
 def _searched(group: Group, first: str) -> Found:
@@ -134,6 +144,7 @@ def _searched(group: Group, first: str) -> Found:
                 found = Found(cut=True)
             if not found.cut:
                 return found
+            best.bound = max(best.bound, found.bound)
             for priced in found.ties:
                 best.offer(priced, 1)
             # the second one may take twice as long as the first one took

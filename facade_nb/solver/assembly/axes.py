@@ -6,13 +6,15 @@ from collections.abc import Iterator
 from math import inf
 
 from ...design.model import Design
+from ..budget import Clock
 from ..model.layout import AxisLayout, GroupLayout, PlacedLetter, RowLayout
 from ..model.letters import Letter
 from ..model.problem import AxisProblem
 from ..model.sizing import Sizing
 from ..selection.axis import AxisSearch, Best, Solved
+from ..words.instances import MAX_SPELLED
 
-__all__ = ["axis_layout", "axis_warnings"]
+__all__ = ["axis_layout", "axis_warnings", "cut_warnings"]
 
 
 def axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solved) -> AxisLayout:
@@ -39,7 +41,7 @@ def axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solved
         ]
         groups[name] = GroupLayout(priced.omegas[k], answer.sized.boundaries[g], tuple(rows))
     gap = max(0.0, answer.cost - best.bound) if best.bound < inf else 0.0
-    proven = best.complete and gap <= 1e-6
+    proven = best.complete and best.whole and gap <= 1e-6
     return AxisLayout(
         answer.cost,
         0.0 if proven else gap,
@@ -69,3 +71,28 @@ def axis_warnings(walk: AxisSearch, answer: Solved) -> Iterator[str]:
                 f"Counter {counter!r} in pattern {name!r} repeats nothing that has a size; "
                 f"it was tried up to {answer.candidate.counters.get(counter, 0)} only."
             )
+
+
+def cut_warnings(walk: AxisSearch, best: Best, clock: Clock) -> Iterator[str]:
+    """What was left out, so that an answer is not proven to be the best."""
+    axis = walk.problem.axis
+    if not best.complete:
+        if clock.asked:
+            reason = "it was stopped"
+        elif clock.full:
+            reason = "it took too much memory"
+        elif clock.over:
+            reason = "the time was over"
+        else:
+            reason = "there are too many alignments"
+        yield f"The search on {axis} was cut short, as {reason}: there may be a better layout."
+    for name, found in walk.found.items():
+        if found.left == inf:
+            continue
+        what = (
+            f"words of more than {MAX_SPELLED:,} letters were left out"
+            if found.clipped
+            else "some words were left out, for there are too many"
+        )
+        miss = f"; they miss the canvas by {found.left:.3g} m or more" if found.left > 0 else ""
+        yield f"Pattern {name!r} on {axis}: {what}{miss}; one of them may be better."

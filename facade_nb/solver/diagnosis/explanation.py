@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, islice
+from math import inf
 
 from ...design.errors import NoLayout, Suggestion, quoted
 from ...design.model import Axis, Design
@@ -20,6 +21,11 @@ from .remedies import Remedies, nice, size_of
 
 __all__ = ["explain", "ran_out"]
 
+_CANDIDATES = 20_000
+"""Of so many candidates the values of counters are compared."""
+_SURE = ("analysis", "letters", "time", "memory", "stop")
+"""What does not depend on which words there are, or says itself that some were left out."""
+
 
 def explain(blame: Blame) -> NoLayout:
     """The reason why a search found nothing, and what would help."""
@@ -30,7 +36,13 @@ def explain(blame: Blame) -> NoLayout:
     clock.allot(1.0)
     clock.extend()
     try:
-        return _explain(blame)
+        reason = _explain(blame)
+        sides = [blame.walk, *([blame.other] if blame.other else [])]
+        names = [name for side in sides for name, found in side.found.items() if found.left < inf]
+        if names and reason.constraint not in _SURE:
+            plural = "patterns" if len(names) > 1 else "pattern"
+            reason.message += f" Some words of {plural} {names_of(names)} were left out; one of them may do."
+        return reason
     except Stopped:
         if clock.asked:
             return ran_out(blame.design, clock, [problem])
@@ -90,9 +102,10 @@ def _explain(blame: Blame) -> NoLayout:
         if reason is not None:
             return reason
     if other is not None:
-        values = {side.problem.axis: _values(side, blame.shared) for side in sides}
+        found = {side.problem.axis: _values(side, blame.shared) for side in sides}
+        values = {axis: own for axis, (own, _) in found.items()}
         if not values["x"] & values["y"]:
-            return _tied(blame, values)
+            return _tied(blame, values, all(whole for _, whole in found.values()))
         walk = next((side for side in (walk, other) if not aligns(blame, side)), walk)
     return obstacle(blame, one_group(blame, walk))
 
@@ -315,11 +328,13 @@ def _balance(
     yield from helper.size(dict.fromkeys(name for words in per_pattern for name in _heaviest(words[-1:])))
 
 
-def _tied(blame: Blame, values: Mapping[Axis, set[tuple[int, ...]]]) -> NoLayout:
+def _tied(blame: Blame, values: Mapping[Axis, set[tuple[int, ...]]], whole: bool) -> NoLayout:
+    """`whole`: these are all values that there are."""
     names = names_of(blame.shared)
+    known = "" if whole else f", as far as the first {_CANDIDATES:,} candidates say"
     text = (
         f"{'Counters' if len(blame.shared) > 1 else 'Counter'} {names} is used both across and up, and no value fits "
-        f"both: across it can be {_list(values['x'])}, up {_list(values['y'])}."
+        f"both{known}: across it can be {_list(values['x'])}, up {_list(values['y'])}."
     )
     across, up = remedies_of(blame, "x"), remedies_of(blame, "y")
     better = chain(across.counters(blame.shared), up.canvas(), across.canvas())
@@ -328,8 +343,11 @@ def _tied(blame: Blame, values: Mapping[Axis, set[tuple[int, ...]]]) -> NoLayout
     return refusal
 
 
-def _values(walk: AxisSearch, names: Sequence[str]) -> set[tuple[int, ...]]:
-    return {tuple(c.counters[n] for n in names) for c in islice(walk.in_order(), 200)}
+def _values(walk: AxisSearch, names: Sequence[str]) -> tuple[set[tuple[int, ...]], bool]:
+    """Values of counters of the first candidates, and whether these are all."""
+    order = walk.in_order()
+    values = {tuple(c.counters[n] for n in names) for c in islice(order, _CANDIDATES)}
+    return values, next(order, None) is None
 
 
 def _list(values: set[tuple[int, ...]]) -> str:

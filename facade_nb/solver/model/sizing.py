@@ -227,6 +227,10 @@ def _spelled(key: Key) -> str:
             return " + ".join(map(_placed, rest[1:])) + f" = |{rest[0]}|"
         case "extent":
             return f"extent of {rest[0]} = |{rest[0]}|"
+        case "column":
+            return f"{rest[0]}:{rest[2]}: row {rest[1]} = the first row"
+        case "canvas":
+            return f"{rest[0]}: columns = canvas"
     name = _placed(rest)
     match kind:
         case "piece":

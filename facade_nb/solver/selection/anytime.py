@@ -44,14 +44,25 @@ class Anytime:
         self._extra: list[Case] = []
         self._looked = 0.0
 
+    def forget(self) -> None:
+        """Let go of all that has been looked at."""
+        for case in self._extra:
+            for group in case.groups:
+                group.forget()
+            case.runs.clear()
+        self._extra.clear()
+        self._others = self._further = None
+
     def hasty(self, walk: AxisSearch, best: Solved | None) -> Solved | None:
         """The best layout that can soon be had of the likeliest candidates, for when the time is up."""
         if walk.extend is not None:
             walk.extend()
         if start_afresh():
-            for case in walk.cases:
-                for run in case.runs:
-                    run.give_up()
+            for run in (
+                *walk.runs.values(),
+                *(own for case in (*walk.cases, *self._extra) for own in case.runs),
+            ):
+                run.give_up()
         try:
             for way, most in _LIKELY.items():
                 for case in islice(self._likely(walk), most):
@@ -71,7 +82,7 @@ class Anytime:
                     break
             for better in self._polished(walk, best):
                 best = better
-        except Stopped:
+        except (Stopped, MemoryError):
             pass  # what was found until now is all there is
         return best
 

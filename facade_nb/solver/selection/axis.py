@@ -32,8 +32,10 @@ __all__ = ["AxisSearch", "Best", "Case", "Solved", "forget_groups"]
 _NODES = 1_000_000
 """A search of more paths gives up; under the paper's objective, and where structures are refused, of fewer."""
 
-_kept: Kept[tuple[list[Priced], float]] = Kept(512)
-"""What has been found for groups, so that those that an edit leaves alone are not searched again."""
+_kept: Kept[tuple[list[Priced], float]] = Kept(24_000_000)
+"""What has been found for groups, so that those that an edit leaves alone are not searched again; in bytes."""
+_ELEMENT, _BAND_LETTER = 500, 150
+"""Bytes that an element of a structure takes, and a letter of a band."""
 
 
 def forget_groups() -> None:
@@ -60,6 +62,18 @@ class Solved:
     cost: float
     columns: int
 
+    @property
+    def weight(self) -> float:
+        """Bytes that it takes, about."""
+        system = self.sized.system
+        letters = sum(len(band.letters) for group in self.groups for band in group.bands)
+        return (
+            _BAND_LETTER * letters
+            + sum({id(priced): _weight(priced) for priced, _ in self.parts}.values())
+            + system.matrix.nbytes
+            + 200 * len(system.lower)
+        )
+
     def beats(self, other: Solved | None) -> bool:
         """Least cost, then most columns, then least deviation, then the first by counters and words."""
         if other is None or self.cost < other.cost - EPS:
@@ -73,6 +87,11 @@ class Solved:
         return self.candidate.rank < other.candidate.rank
 
 
+def _weight(priced: Priced) -> float:
+    """Bytes that a structure takes, about."""
+    return _ELEMENT + _ELEMENT * sum(len(column) for columns in priced.structure for column in columns)
+
+
 @dataclass(slots=True)
 class Best:
     """The best of some candidates: what was found, what is proven, and whether the search was cut short."""
@@ -81,6 +100,10 @@ class Best:
     bound: float = inf
     complete: bool = True
     unsizable: bool = False
+    full: bool = False
+    """It was cut short for want of memory."""
+    whole: bool = True
+    """No word was left out; else nothing is proven of the first candidate that aligns, in lexicographic order."""
 
     @property
     def cost(self) -> float:
@@ -206,14 +229,26 @@ class AxisSearch:
         """Let go of what only searching needs, so that a kept answer is small, and keep what groups have in common."""
         for key, run in self.runs.items():
             if run.done and not run.cut:
-                _kept.put(self._known_as(key), (run.ties, run.floor))
-        for case in self.cases:
-            for group in case.groups:
-                group.edges.clear()
-        self.cases.clear()
+                letters = sum(len(band.letters) for group in run.groups for band in group.bands)
+                weight = _BAND_LETTER * (1 + letters) + sum(map(_weight, run.ties))
+                _kept.put(self._known_as(key), (run.ties, run.floor), weight)
+            for group in run.groups:
+                group.forget()
+        self.leave()
         self.runs.clear()
         self.rows.clear()
         self.by_words.clear()
+        # of the words, what is said about them is enough
+        self.found.update({name: replace(own, words=()) for name, own in self.found.items()})
+
+    def leave(self) -> None:
+        """Let go of its candidates, so that nothing refers to itself and waits for the garbage collector."""
+        for case in self.cases:
+            for group in case.groups:
+                group.forget()
+            case.runs.clear()
+        self.cases.clear()
+        self.soon.forget()
         self.soon = Anytime()
         self.stream = None
 
@@ -261,7 +296,9 @@ class AxisSearch:
                 solved = self._turn(case, limit, top)
                 heappop(queue)
                 best.unsizable = best.unsizable or case.unsizable
-                best.complete = best.complete and not any(run.cut for run in case.runs)
+                if any(run.cut for run in case.runs):
+                    best.complete = False
+                    best.bound = min(best.bound, case.floor)
                 if solved is not None:
                     best.bound = min(best.bound, case.floor)
                     # what a dive came upon is no better than others that cost the same
@@ -280,12 +317,21 @@ class AxisSearch:
             if stop.asked:
                 best.bound = min(best.bound, floor)
                 return best
+            best.full = stop.full
+        except MemoryError:
+            best.complete, best.full = False, True
         if not best.complete:
             best.solved = self.soon.hasty(self, best.solved)
-        best.bound = min(best.bound, floor, self._left_out())
+        best.bound = min(best.bound, floor, self.left_out)
         return best
 
-    def _left_out(self) -> float:
+    @property
+    def whole(self) -> bool:
+        """No word was left out."""
+        return all(found.left == inf for found in self.found.values())
+
+    @property
+    def left_out(self) -> float:
         """No candidate with a word that was left out, for there are too many, costs less than this."""
         bound = inf
         for _, names in self.problem.groups:
@@ -391,20 +437,22 @@ class AxisSearch:
             names = [self.problem.groups[g][0] for g in cluster]
             log = self.trace.walk(self.problem.axis, names, groups, self.method)
 
+        problem, symbol = self.problem, self._symbol  # a search does not refer to this, which refers to it
+
         def fits(priced: Priced) -> bool:
             parts = tuple((priced, k) for k in range(len(groups)))
-            return size_axis(groups, parts, self.problem.canvas, self._symbol) is not None
+            return size_axis(groups, parts, problem.canvas, symbol) is not None
 
         def strained(priced: Priced) -> float:
             parts = tuple((priced, k) for k in range(len(groups)))
-            return (
-                0.0 if fits(priced) else max(1e-9, strain(groups, parts, self.problem.canvas, self._symbol))
-            )
+            return 0.0 if fits(priced) else max(1e-9, strain(groups, parts, problem.canvas, symbol))
 
         return GroupSearch(groups, self.method, nodes, self.check, accept, log, known, fits, strained)
 
-    def _symbol(self, name: str) -> Symbol:
-        return self.problem.symbol.get(name) or Symbol(name)
+    @property
+    def _symbol(self) -> Callable[[str], Symbol]:
+        symbols = self.problem.symbol
+        return lambda name: symbols.get(name) or Symbol(name)
 
     def _known_as(self, key: object) -> object:
         return key, self.problem.canvas, self.tolerance, self.objective, self.method

@@ -9,6 +9,7 @@ from ..alignment.core.binding import CompiledDives, CompiledSearch, best_first, 
 from ..alignment.found import Found
 from ..alignment.group import Group
 from ..alignment.heuristic.local_search import can_sweep, mended, polished, sweeps
+from ..alignment.lone import lone
 from ..alignment.observer import NetworkObserver
 from ..alignment.paper.ida import search_ida
 from ..alignment.pricing import Priced
@@ -65,6 +66,7 @@ class GroupSearch:
         self._plain = any(group.objective.plain for group in groups)
         self._effort = check if isinstance(check, Effort) else Effort(check)
         self._options = (method, nodes, self._effort, accept)
+        self._first: BestFirst | CompiledSearch | None = None
         self._dives: Dives | CompiledDives | None = None
         self._sweeps = (
             sweeps(groups, Effort(self._effort, SWEPT), fits)
@@ -76,14 +78,17 @@ class GroupSearch:
         self._slow = _SLOW if all(group.stiff for group in groups) else _SLOW_ELASTIC
         self.spent = self._dived = 0.0
         self._again = False
-        if known is None:
-            self._begin()
-        else:
+        alone = lone(groups) if known is None and accept is None and log is None else None
+        if known is not None:
             self._found, self.done = Found(*known), True
+        elif alone is not None:
+            self._found, self.done = alone, True
+        else:
+            self._begin()
 
     def _begin(self) -> None:
         method, nodes, check, accept = self._options
-        self._first: BestFirst | CompiledSearch | None = best_first(
+        self._first = best_first(
             self.groups, keep=TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_TURN
         )
         self._ida = method == "ida"
@@ -132,7 +137,7 @@ class GroupSearch:
         With `sweep` by sweeps alone, where they are possible.
         """
         _, _, check, accept = self._options
-        if self.done or accept is not None:
+        if self._settled or accept is not None:
             return
         able = self._sweeps is not None or self._was_swept
         if at_once or self.slow:
@@ -164,13 +169,13 @@ class GroupSearch:
     def mend(self) -> None:
         """Where sweeps have come to nothing that can be sized: make something that can of what they have come to."""
         _, _, check, _ = self._options
-        if not self.done and self._was_swept and self._swept is None and self._strain is not None:
+        if not self._settled and self._was_swept and self._swept is None and self._strain is not None:
             self._swept = mended(self.groups, self._strain, Effort(check, SWEPT))
 
     def polish(self) -> Iterator[None]:
         """Make the best that is known better, bit by bit."""
         _, _, check, accept = self._options
-        if self.done or accept is not None or not self._was_swept or not self.known or self._fits is None:
+        if self._settled or accept is not None or not self._was_swept or not self.known or self._fits is None:
             return
         for better in polished(self.groups, self.known[0], self._fits, Effort(check, SWEPT)):
             self._swept = better
@@ -275,6 +280,11 @@ class GroupSearch:
     def cut(self) -> bool:
         """It gave up."""
         return self._found.cut
+
+    @property
+    def _settled(self) -> bool:
+        """Nothing better can be found."""
+        return self.done and not self.cut
 
 
 def _in_order(priced: Priced) -> tuple[tuple[tuple[tuple[int, ...], ...], ...], ...]:

@@ -23,6 +23,7 @@ import numpy as np
 from ...design.model import Symbol
 from ..alignment.group import Group
 from ..alignment.pricing import Priced
+from ..budget import Stopped
 from ..model.letters import Letter
 from ..model.sizing import FREE, Key, Solution, System
 from ..model.sums import dot, times
@@ -32,6 +33,12 @@ __all__ = ["Placement", "Sized", "size_axis", "strain"]
 
 _Place = tuple[int, int, int, int]
 """Group, row, column, and place in the element."""
+
+LONG = 1000
+"""With more letters than this only sizes are variables, where all else follows from them."""
+
+_CELLS = 12_000_000
+"""Most numbers in the matrices of a system: a solver for small ones would take minutes, and memory."""
 
 _SOME = 0.1
 """A part of its size that a letter should have."""
@@ -127,15 +134,17 @@ class _Builder:
     def system(self) -> System:
         """The matrices."""
         n, m, k, e = len(self.keys), len(self.by), len(self.lengths), len(self.equations)
+        if n * (n + m + k + e) > _CELLS:
+            raise Stopped(full=True)
         variables = np.array(self.variables).reshape(n, 5)
         lower, upper = np.zeros(n + m + k + e), np.zeros(n + m + k + e)
         lower[:n], upper[:n] = variables[:, 0], variables[:, 1]
         lower[n : n + m], upper[n : n + m] = self.by, FREE
         matrix = np.zeros((m + k + e, n))
         cells, first = matrix.reshape(-1), np.arange(0, (m + k) * n, n)  # of each row
-        cells[np.add(first, [*self.greater, *self.ends])] = 1.0
-        cells[np.add(first, [*self.less, *self.starts])] = -1.0
-        cells[np.add(first[m:], self.lengths)] = -1.0
+        cells[np.add(first, _numbers([*self.greater, *self.ends]))] = 1.0
+        cells[np.add(first, _numbers([*self.less, *self.starts]))] = -1.0
+        cells[np.add(first[m:], _numbers(self.lengths))] = -1.0
         for row, terms in enumerate(self.equations, m + k):
             for v, coefficient in terms.items():
                 matrix[row, v] = coefficient
@@ -174,7 +183,10 @@ def size_axis(
     -------
     The sized axis, or None where the constraints contradict each other.
     """
-    build, edges, bounds = _built(groups, parts, canvas, symbol)
+    long = _are_long(groups, parts)
+    build, edges, bounds = (
+        _of_sizes(groups, parts, canvas, symbol) if long else _built(groups, parts, canvas, symbol)
+    )
     system = build.system()
     first = least_squares(system.weight, system.target, system.matrix, system.lower, system.upper)
     if first is None:
@@ -184,15 +196,111 @@ def size_axis(
     n = x.size
     at = np.minimum(np.maximum(x.round(12), system.lower[:n]), system.upper[:n]).tolist()
     off = first.x - system.target
+    sizes = {name: at[v] for name, v in build.size_of.items()}
+    if long:
+        boundaries, placements = _laid_out(groups, parts, canvas, sizes)
+    else:
+        boundaries = tuple([tuple([at[v] for v in own]) for own in edges])
+        placements = tuple(
+            [tuple([tuple([(at[s], at[t]) for s, t in band]) for band in own]) for own in bounds]
+        )
     return Sized(
-        {name: at[v] for name, v in build.size_of.items()},
-        tuple([tuple([at[v] for v in own]) for own in edges]),
-        tuple([tuple([tuple([(at[s], at[t]) for s, t in band]) for band in own]) for own in bounds]),
+        sizes,
+        boundaries,
+        placements,
         sqrt(dot(system.weight, off * off)),
         system,
         first,
         tuple(at),
     )
+
+
+def _are_long(groups: Sequence[Group], parts: Sequence[tuple[Priced, int]]) -> bool:
+    """Whether there are so many letters that only sizes are to be variables, and all else follows from these.
+
+    That is so where each letter stands in one column as a whole, is opaque, and is no part of a content.
+    """
+    if sum(len(band.letters) for group in groups for band in group.bands) <= LONG:
+        return False
+    return all(
+        all(letter.opaque and not letter.transparent for letter in band.letters)
+        and not any(origin is not None for origins in band.origins for origin in origins)
+        for group in groups
+        for band in group.bands
+    )
+
+
+def _of_sizes(
+    groups: Sequence[Group],
+    parts: Sequence[tuple[Priced, int]],
+    canvas: float,
+    symbol: Callable[[str], Symbol],
+) -> tuple[_Builder, list[list[int]], list[list[list[tuple[int, int]]]]]:
+    """Sizes and the canvas alone: the rows of a column are equally wide, and the columns fill the canvas."""
+    letters = sum(len(band.letters) + 1 for group in groups for band in group.bands)
+    build = _Builder(canvas, symbol, min(1e-3, 0.01 * canvas / max(1, letters)))
+    whole = build.variable((":", 0, 1), canvas, canvas, canvas)
+    seen: set[frozenset[tuple[int, float]]] = set()
+    for g, (group, (priced, k)) in enumerate(zip(groups, parts, strict=True)):
+        total: dict[int, float] = {whole: -1.0}
+        for j, column in enumerate(priced.structure[k]):
+            first: dict[int, float] | None = None
+            for b, (band, option) in enumerate(zip(group.bands, column, strict=True)):
+                if option.empty:
+                    continue
+                own: dict[int, float] = {}
+                for i in option.letters:
+                    letter = band.letters[i]
+                    z = build.size_of.get(letter.symbol)
+                    if z is None:
+                        z = build.size(letter.symbol, letter.size or 0.0)
+                    own[z] = own.get(z, 0.0) + 1.0
+                if first is None:
+                    first = own
+                    for z, times in own.items():
+                        total[z] = total.get(z, 0.0) + times
+                    continue
+                less = {z: own.get(z, 0.0) - first.get(z, 0.0) for z in {**first, **own}}
+                terms = {z: times for z, times in less.items() if times}
+                one = frozenset(terms.items())
+                if terms and one not in seen:
+                    seen.add(one)
+                    build.equation(("column", g, b, j), terms)
+        one = frozenset(total.items())
+        if one not in seen:
+            seen.add(one)
+            build.equation(("canvas", g), total)
+    return build, [], []
+
+
+def _laid_out(
+    groups: Sequence[Group], parts: Sequence[tuple[Priced, int]], canvas: float, sizes: Mapping[str, float]
+) -> tuple[tuple[tuple[float, ...], ...], tuple[Placement, ...]]:
+    """Boundaries of columns, and of letters, that follow from the sizes."""
+    boundaries: list[tuple[float, ...]] = []
+    placements: list[Placement] = []
+    for group, (priced, k) in zip(groups, parts, strict=True):
+        columns = priced.structure[k]
+        at = [0.0]
+        for column in columns:
+            b = next(b for b, option in enumerate(column) if not option.empty)
+            letters = group.bands[b].letters
+            at.append(at[-1] + sum(sizes[letters[i].symbol] for i in column[b].letters))
+        at = [round(own, 12) for own in at]
+        at[-1] = canvas
+        boundaries.append(tuple(at))
+        rows: list[tuple[tuple[float, float], ...]] = []
+        for b, band in enumerate(group.bands):
+            own: list[tuple[float, float]] = []
+            for j, column in enumerate(columns):
+                start, final = at[j], len(column[b].letters) - 1
+                for n, i in enumerate(column[b].letters):
+                    end = at[j + 1] if n == final else round(start + sizes[band.letters[i].symbol], 12)
+                    own.append((start, end))
+                    start = end
+            rows.append(tuple(own))
+        placements.append(tuple(rows))
+    return tuple(boundaries), tuple(placements)
 
 
 def strain(
@@ -239,6 +347,10 @@ def _built(
         if z is not None:
             build.equation(("extent", name), {**terms, z: terms.get(z, 0.0) - 1.0})
     return build, edges, bounds
+
+
+def _numbers(numbers: Sequence[int]) -> np.ndarray:
+    return np.asarray(numbers, dtype=np.intp)  # also where there is none
 
 
 def _settle(system: System, x: np.ndarray) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
@@ -18,12 +19,14 @@ from ..cache import Kept
 from ..model.letters import Word
 from ..model.precision import EPS
 from ..model.problem import AxisProblem
-from .instances import Instances, Range, forget_measures, instances, ranges
+from .instances import MAX_COPIES, Instances, Range, forget_measures, instances, ranges
 
 __all__ = ["axis_words", "forget_words", "words"]
 
-_kept: Kept[tuple[Instances, float]] = Kept(4_000_000)
-"""Words of patterns asked for last, and how much is opaque in one of them at most; weighed by their letters."""
+_kept: Kept[tuple[Instances, float]] = Kept(32_000_000)
+"""Words of patterns asked for last, and how much is opaque in one of them at most; weighed by their bytes."""
+_LETTER, _WORD = 8, 500
+"""Bytes that a letter takes in a word, and a word without letters."""
 _MAX_SAMPLES = 1_000_000
 """Most words that sampled sizes make of one."""
 _SPAN = f"sizes lie between {LEAST_LENGTH:f} and {MOST_LENGTH:,.0f}"
@@ -102,7 +105,7 @@ def axis_words(
             except DesignError as error:
                 raise DesignError(Fault(f"patterns.{name}", str(error))) from None
             known = own, max((_opaque(word) for word in own.words), default=0.0)
-            _kept.put(key, known, 10 + sum(map(len, own.words)))
+            _kept.put(key, known, _WORD + sum(_WORD + _LETTER * len(word) for word in own.words))
         found[name], opaque[name] = known
     return found
 
@@ -169,7 +172,8 @@ def words(
 
     Returns
     -------
-    Words in lexicographic order of counter values, alternatives, and sampled sizes.
+    Words in lexicographic order of counter values, alternatives, and sampled sizes. A counter that repeats only letters
+    without a size is tried up to 16 unless it has a bound; a `UserWarning` says so.
 
     Raises
     ------
@@ -219,6 +223,12 @@ def words(
         canvas + tolerance,
         low=canvas - tolerance,
     )
+    if found.endless and found.left < inf:
+        names = ", ".join(map(repr, found.endless))
+        warnings.warn(
+            f"Counter {names} repeats nothing that has a size; it was tried up to {MAX_COPIES} only.",
+            stacklevel=2,
+        )
     kept: list[Word] = []
     for word in found.words:
         unsized = list(dict.fromkeys(a.symbol for a in word.letters if a.size is None))

@@ -12,12 +12,12 @@ from ...design.errors import DesignError
 from ...design.limits import nearest_zero
 from ...design.model import Counter, Symbol
 from ...design.pattern import Pattern
-from ...design.tree import Concat, Count, Node, concatenation, spellings, walk
+from ...design.tree import MAX_LETTERS, Concat, Count, Node, check_room, concatenation, spellings, walk
 from ..cache import Kept
 from ..model.letters import Letter, Word
 from ..model.precision import EPS
 from .counter_values import Sums
-from .lengths import Growth, Way, measure
+from .lengths import TOO_MANY, Growth, Way, measure
 
 __all__ = [
     "MAX_COPIES",
@@ -37,8 +37,8 @@ MAX_COPIES = 16
 MAX_WORDS = 2000
 """A pattern with three counters or more is left with about so many words, those nearest to the canvas."""
 
-MAX_SPELLED = 2000
-"""Most letters of a word that a counter makes long: far beyond any façade. More could not be aligned or sized."""
+MAX_SPELLED = MAX_LETTERS
+"""Most letters of a word that a counter makes long."""
 
 _MAX_FEW = 20_000
 """So many for one or two counters."""
@@ -49,7 +49,7 @@ _MAX_TOTAL = 400_000
 _WAY = ""
 """In tables of counters: the choice of alternatives. No counter has that name."""
 
-_ways: Kept[tuple[list[Way] | None]] = Kept(50_000)
+_ways: Kept[tuple[list[Way] | None]] = Kept(20_000)
 """Measures of patterns asked for last, weighed by their choices of alternatives."""
 
 SymbolOf = Callable[[str], Symbol]
@@ -76,7 +76,8 @@ class Instances:
     endless
         Counters that repeat nothing with a size, cut off at `MAX_COPIES`.
     left
-        Words that were left out, as there are too many, miss the canvas by at least so many metres.
+        Words that were left out, as there are too many, or as they have too many letters, miss the canvas by at least
+        so many metres; one with an unsized letter, which takes what is left, may miss it by nothing.
     clipped
         Counters that would go on, if a word could have more letters than `MAX_SPELLED`.
     """
@@ -117,7 +118,7 @@ def instances(
     ways = _measured(pattern, symbol, check)
     speller = _Speller(symbol)
     if ways is None:
-        return _one_by_one(pattern, speller, counter, limit, low, check)
+        return _one_by_one(pattern, speller, counter, limit, low, check, canvas is not None)
     zero = {name: nearest_zero(counter(name)) for name in pattern.counters}
     shortest = min(ways, key=lambda way: way.measure.at(zero))
     letters = inf if canvas is None else MAX_SPELLED
@@ -134,7 +135,7 @@ def instances(
             found, _ = sums.within(least - EPS, limit + 1e-7)
         else:
             found, missed = sums.nearest(canvas, least - EPS, _MAX_FEW if few else MAX_WORDS)
-            left = min(left, missed)
+            left = min(left, _by(missed, kind.open), _by(max(0.0, kind.missed - canvas), kind.open))
         chosen += [
             (size, tuple(values[name] for name in pattern.counters), values[_WAY]) for size, values in found
         ]
@@ -142,10 +143,20 @@ def instances(
         chosen, missed = _few_letters(chosen, canvas, ways, pattern.counters)
         left = min(left, missed)
     free = set.intersection(*(kind.endless for kind in kinds))
+    refused: list[tuple[float, int]] = []
+    chosen.sort(key=lambda own: own[1:])
+    words = tuple(
+        _spelled(
+            chosen, ways, pattern.counters, speller, limit, check, None if canvas is None else refused.append
+        )
+    )
+    if canvas is None:
+        left = 0.0 if any(kind.missed < inf for kind in kinds) else inf
+    else:
+        for size, way in refused:
+            left = min(left, _by(abs(size - canvas), ways[way].measure.open))
     return Instances(
-        tuple(
-            _spelled(sorted(chosen, key=lambda own: own[1:]), ways, pattern.counters, speller, limit, check)
-        ),
+        words,
         speller.word(shortest.pattern, zero),
         tuple(sorted(free)),
         left,
@@ -246,6 +257,11 @@ def _reaches_spelled(
         yield max(longer) + 2.0 * EPS
 
 
+def _by(missed: float, is_open: bool) -> float:
+    """By how much words that were left out miss the canvas, where their sized letters do by so much."""
+    return 0.0 if is_open and missed < inf else missed
+
+
 def ranges(
     pattern: Pattern, symbol: SymbolOf, counter: CounterOf, limit: float, check: Check | None = None
 ) -> dict[str, Range]:
@@ -262,6 +278,7 @@ def ranges(
         tables = [kind.tables[name] for kind in kinds if kind.tables[name]]
         if tables and not any(name in kind.free for kind in kinds):
             values = [value for table in tables for value, _ in table]
+            values += [value for kind in kinds for value in kind.cut_at.get(name, ())]
             found[name] = min(values), max(values)
     return found
 
@@ -298,6 +315,10 @@ class _Kind:
         Those of them that were cut off.
     clipped
         Counters at which a word would have too many letters.
+    cut_at
+        Per counter: its first values that were left out.
+    missed
+        The least size of a word that was left out therefore, metres.
     """
 
     def __init__(
@@ -314,6 +335,8 @@ class _Kind:
         self.free: set[str] = set()
         self.endless: set[str] = set()
         self.clipped: set[str] = set()
+        self.cut_at: dict[str, list[int]] = {}
+        self.missed = inf
         self._zero, self._counter, self._common = zero, counter, common
         growth = ways[0][1].measure.growth
         self._growth = {name: growth.get(name, Growth()) for name in zero}
@@ -323,16 +346,23 @@ class _Kind:
         fewest = min(way.measure.letters for _, way in ways) + sum(letters.values())
         self.tables: dict[str, list[tuple[int, float]]] = {
             name: self._values(
-                name, limit - least + own[name], max(0.0, most - fewest) + letters[name], check
+                name,
+                limit - least + own[name],
+                max(0.0, most - fewest) + letters[name],
+                least - own[name],
+                check,
             )
             for name in zero
         }
         self.tables[_WAY] = [(n, way.measure.size) for n, way in ways]
         if least > limit + EPS:
             self.tables = {name: [] for name in self.tables}
+            self.missed = inf
 
-    def _values(self, name: str, room: float, letters: float, check: Check | None) -> list[tuple[int, float]]:
-        """The values of a counter that leave room, in order."""
+    def _values(
+        self, name: str, room: float, letters: float, others: float, check: Check | None
+    ) -> list[tuple[int, float]]:
+        """The values of a counter that leave room, in order; the rest of the shortest word measures `others`."""
         bounds, growth, zero = self._counter(name), self._growth[name], self._zero[name]
         low, high = self._common.get(name, (-inf, inf))
         found: list[tuple[int, float]] = []
@@ -340,19 +370,25 @@ class _Kind:
             value = zero if step == 1 else zero - 1
             end = bounds.max if step == 1 else bounds.min
             free = self._still(growth, zero, step)
-            while _inside(bounds, value) and growth.size(value) <= room + EPS:
+            while _inside(bounds, value) and (size := growth.at_least(value)) <= room + EPS:
                 if check is not None:
                     check()
+                if name in self._common and (value > high if step == 1 else value < low):
+                    break  # nor have others words there
                 if growth.length(value) > letters:
                     self.clipped.add(name)
+                    self.cut_at.setdefault(name, []).append(value)
+                    self.missed = min(self.missed, others + size)
                     break
+                if growth.length(value) >= TOO_MANY:
+                    check_room(MAX_LETTERS + 1)
                 if free:
                     self.free.add(name)
-                    tried = abs(value - zero)
-                    known = name in self._common and low <= value <= high
-                    if tried >= MAX_COPIES and not known and (end is None or abs(end - value) > MAX_COPIES):
-                        if name not in self._common:
-                            self.endless.add(name)
+                    far = end is None or abs(end - value) > MAX_COPIES
+                    if name not in self._common and abs(value - zero) >= MAX_COPIES and far:
+                        self.endless.add(name)
+                        if growth.length(value) > growth.length(zero):
+                            self.missed = -inf
                         break
                 if low <= value <= high:
                     found.append((value, growth.size(value)))
@@ -388,7 +424,7 @@ def _few_letters(
         long = letters > max(MAX_SPELLED, own.letters)
         full = full or (not long and bool(kept) and total + letters > _MAX_TOTAL)
         if long or full:
-            left = min(left, abs(size - canvas))
+            left = min(left, _by(abs(size - canvas), own.open))
         else:
             kept.append(one)
             total += letters
@@ -402,8 +438,9 @@ def _spelled(
     speller: _Speller,
     limit: float,
     check: Check | None,
+    refused: Callable[[tuple[float, int]], None] | None,
 ) -> Iterator[Word]:
-    """The words of values and choices, equal ones once."""
+    """The words of values and choices, equal ones once; size and choice of those with too many letters go elsewhere."""
     last: tuple[int, ...] | None = None
     seen: set[tuple[tuple[str, bool, bool], ...]] = set()
     for size, values, way in chosen:
@@ -411,7 +448,13 @@ def _spelled(
             check()
         if values != last:
             last, seen = values, set()
-        word = speller.word(ways[way].pattern, dict(zip(names, values, strict=True)))
+        try:
+            word = speller.word(ways[way].pattern, dict(zip(names, values, strict=True)))
+        except DesignError:  # what stands in it and is replaced by nothing counts while it is made
+            if refused is None:
+                raise
+            refused((size, way))
+            continue
         if size > limit - 1e-6 and word.size > limit + EPS:
             continue  # sums of floats are not the same in every order
         if len(ways) > 1:
@@ -496,12 +539,22 @@ class _Letters(dict[tuple[object, ...], Letter]):
 
 
 def _one_by_one(
-    pattern: Pattern, speller: _Speller, counter: CounterOf, limit: float, low: float, check: Check | None
+    pattern: Pattern,
+    speller: _Speller,
+    counter: CounterOf,
+    limit: float,
+    low: float,
+    check: Check | None,
+    bounded: bool,
 ) -> Instances:
-    """Words of a pattern that cannot be measured beforehand, by spelling all of them out."""
+    """Words of a pattern that cannot be measured beforehand, by spelling all of them out.
+
+    Where the number of letters is `bounded`, what has more is left out; else it is refused.
+    """
     names = pattern.counters
     zero = {name: nearest_zero(counter(name)) for name in names}
     endless: set[str] = set()
+    clipped: set[str] = set()
     found: list[Word] = []
 
     def fitting(name: str, values: Mapping[str, int]) -> list[int]:
@@ -514,15 +567,20 @@ def _one_by_one(
             while _inside(bounds, value):
                 if check is not None:
                     check()
-                sizes = sorted(w.size for w in speller.words(pattern, {**rest, **values, name: value}))
+                try:
+                    sizes = sorted(w.size for w in speller.words(pattern, {**rest, **values, name: value}))
+                except DesignError:
+                    if not bounded or value == zero[name]:
+                        raise
+                    clipped.add(name)
+                    break
                 inside = [size for size in sizes if size <= limit + EPS]
                 if not inside:
                     break
                 still = still + 1 if inside == before else 0
                 end = bounds.max if step == 1 else bounds.min
                 if still >= MAX_COPIES and (end is None or abs(end - value) > MAX_COPIES):
-                    if len(inside) == len(sizes):
-                        endless.add(name)
+                    endless.add(name)
                     break
                 fits.append(value)
                 before = inside
@@ -542,7 +600,8 @@ def _one_by_one(
     shortest = min(speller.words(pattern, zero), key=lambda word: word.size)
     if shortest.size <= limit + EPS:
         descend(0, {})
-    return Instances(tuple(found), shortest, tuple(sorted(endless)))
+    left = 0.0 if endless or clipped else inf
+    return Instances(tuple(found), shortest, tuple(sorted(endless)), left, tuple(sorted(clipped)))
 
 
 def _inside(bounds: Counter, value: int) -> bool:

@@ -15,10 +15,10 @@ from ...design.errors import DesignError
 from ...design.pattern import Alt, Concat, Count, Empty, Mirror, Node, Pattern, Sym
 from ...design.tree import spellings
 
-__all__ = ["Growth", "Measure", "Way", "measure"]
+__all__ = ["TOO_MANY", "Growth", "Measure", "Way", "measure"]
 
 
-_TOO_MANY = 1e18
+TOO_MANY = 1e18
 """Letters, and metres, of a word that would have more letters than there may be."""
 
 
@@ -39,6 +39,13 @@ class Growth(NamedTuple):
         if value > 0:
             return self.first + (value - 1) * self.more
         return self.back_first + (-value - 1) * self.back_more if value else 0.0
+
+    def at_least(self, value: int) -> float:
+        """Metres at a value of the counter, or at least so many where the word has too many letters to be measured."""
+        if self.length(value) < TOO_MANY:
+            return self.size(value)
+        first, letters = (self.first, self.letters) if value > 0 else (self.back_first, self.back_letters)
+        return 0.9 * abs(value) * first if letters < TOO_MANY else 0.0
 
     def length(self, value: int) -> float:
         """Letters at a value of the counter."""
@@ -166,7 +173,7 @@ class _Measurer:
         except DesignError:
             if not values:
                 raise
-            return _TOO_MANY, _TOO_MANY
+            return TOO_MANY, TOO_MANY
         tally: dict[str, int] = {}
         for symbol, _ in word:
             tally[symbol] = tally.get(symbol, 0) + 1

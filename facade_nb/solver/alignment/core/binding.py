@@ -5,16 +5,21 @@
 same decisions in the same order, and tests hold it to that: as many paths, the same structures. It finds what a
 structure costs, but not its sizes: each one that could be among the best is priced again in Python.
 
-A trace is made by the search in Python. Where there is no wasmtime (in a browser, say) that is used for everything.
+A trace is made by the search in Python. Where there is no wasmtime (in a browser, say), or no room for an instance,
+that is used for everything.
+
+A `session` has an instance of its own, made when it is first needed and closed when the session ends, whatever still
+refers to it then: nothing waits for the garbage collector. `solve` and `align` are sessions.
 """
 
 from __future__ import annotations
 
 import atexit
+import gc
 import threading
 from array import array
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from functools import cache
 from math import inf
 from pathlib import Path as File
@@ -35,13 +40,24 @@ from ..reference.dives import Dives
 from ..reference.network import ceiling
 from .signals import Deferred
 
-__all__ = ["CompiledDives", "CompiledSearch", "available", "best_first", "dives", "start_afresh"]
+__all__ = [
+    "CompiledDives",
+    "CompiledSearch",
+    "Session",
+    "available",
+    "best_first",
+    "dives",
+    "session",
+    "start_afresh",
+]
 
 _MODULE = File(__file__).parent / "core.wasm"
 _LARGE = 64 * 2**20
 """An instance whose memory has grown to so many bytes is let go of once nothing is left in it."""
-_MOST = 2**30
-"""No instance may grow beyond so many bytes; the clock stops a search long before."""
+_MOST = 2**29
+"""So many bytes of addresses are reserved for an instance, and it may not grow beyond; the clock stops it before."""
+_GUARD = 2**16
+"""Addresses in front of which and behind which nothing may be."""
 _UNLIMITED = float(2**53)
 _PER_SECOND = 4e8
 """So much work, as it counts it, is done in a second of a usual machine."""
@@ -70,6 +86,14 @@ def _module() -> tuple[Any, Any]:
     import wasmtime
 
     config = wasmtime.Config()
+    # By default gigabytes are reserved for each instance, so that no access need be checked. Each is, with less; which
+    # costs nothing that can be measured as long as what a processor reads ahead in vain may be anything: here it may,
+    # for all code and data are our own.
+    config.memory_reservation = _MOST
+    config.memory_reservation_for_growth = 0
+    config.memory_guard_size = _GUARD
+    config.memory_may_move = False
+    config.cranelift_flag_set("enable_heap_access_spectre_mitigation", "false")
     with suppress(
         wasmtime.WasmtimeError
     ):  # no place for a cache: then it takes a fifth of a second in each process
@@ -78,14 +102,35 @@ def _module() -> tuple[Any, Any]:
     return engine, wasmtime.Module.from_file(engine, str(_MODULE))
 
 
+class _NoRoom(Exception):
+    """There is no memory for an instance."""
+
+
 class _Core:
-    """One instance of the module, used by one thread."""
+    """One instance of the module, used by one thread.
+
+    Raises
+    ------
+    _NoRoom
+        Where no memory can be had.
+    """
 
     def __init__(self) -> None:
         import wasmtime
 
+        self._store: Any = None
+        self.busy = self.broken = self.closed = False
+        try:
+            self._make()
+        except (wasmtime.WasmtimeError, MemoryError, OSError) as error:
+            self.close()
+            raise _NoRoom from error
+
+    def _make(self) -> None:
+        import wasmtime
+
         engine, module = _module()
-        self._store: Any = wasmtime.Store(engine)
+        self._store = wasmtime.Store(engine)
         self._store.set_limits(memory_size=_MOST)
         linker = wasmtime.Linker(engine)
         me = ref(self)  # wasmtime keeps what it may call until the store is gone
@@ -109,7 +154,6 @@ class _Core:
         self._groups: WeakKeyDictionary[Group, float] = WeakKeyDictionary()
         self._alive: set[tuple[int, float]] = set()
         self._dead: list[tuple[int, float]] = []
-        self.busy = self.broken = False
         self.told: tuple[float, ...] = ()
         self._deferred = Deferred()
         self._room = self._at = 0
@@ -118,8 +162,11 @@ class _Core:
         _cores.add(self)
 
     def close(self) -> None:
-        """Let go of everything, while wasmtime can still do so."""
-        self._store.close()
+        """Let go of everything at once; what still refers to it comes to an end where it is gone on with."""
+        if not self.closed:
+            self.closed = self.broken = True
+            if self._store is not None:
+                self._store.close()
 
     @property
     def size(self) -> int:
@@ -127,10 +174,15 @@ class _Core:
         return int(self._memory.data_len(self._store))
 
     @property
+    def empty(self) -> bool:
+        """Nothing is left in it."""
+        self._bury()
+        return not self._alive
+
+    @property
     def large(self) -> bool:
         """It takes much memory, and nothing is left in it."""
-        self._bury()
-        return not self._alive and self.size > _LARGE
+        return self.empty and self.size > _LARGE
 
     def _call(self, name: str, *arguments: float) -> None:
         """Call a function, its arguments in the box: to wasmtime each parameter and result takes microseconds."""
@@ -150,6 +202,9 @@ class _Core:
         """Call what may take long, and read its answer; what `check` raises meanwhile is raised afterwards."""
         import wasmtime
 
+        if self.closed:
+            self.told = ()
+            raise Stopped(full=True)
         effort = check if isinstance(check, Effort) else None
         if effort is not None and effort.left < inf:
             self._call("allow", max(0.0, effort.left) * _PER_SECOND)
@@ -162,7 +217,7 @@ class _Core:
             self.broken = True
             if not self._starved():
                 raise
-            raise Stopped from None  # out of memory before anybody looked
+            raise Stopped(full=True) from None  # out of memory before anybody looked
         finally:
             self._check, self.busy = None, False
         raised, self._raised = self._raised, None
@@ -266,8 +321,71 @@ def _told(group: Group, symbols: dict[str, int]) -> array[float]:
     return out
 
 
-_local = threading.local()
+class Session:
+    """What one call of the solver has of the compiled search.
+
+    Attributes
+    ----------
+    without
+        There was no room for an instance at some time, and the search in Python took its place.
+    """
+
+    def __init__(self) -> None:
+        self.core: _Core | None = None
+        self.without = False
+
+    def get(self) -> _Core:
+        """Its instance, which has room."""
+        core = self.core
+        if core is not None and core.busy:
+            return _made()  # `check` searches something itself
+        if core is None or core.broken or core.large:
+            self.core = None
+            if core is not None:
+                core.close()
+            core = self.core = _made()
+        return core
+
+    def close(self) -> None:
+        """Let go of its instance."""
+        core, self.core = self.core, None
+        if core is not None and not core.busy:
+            core.close()
+
+
+class _Local(threading.local):
+    """What a thread has: its sessions, the last one first; below them one that ends with the thread."""
+
+    def __init__(self) -> None:
+        self.sessions = [Session()]
+
+
+_local = _Local()
 _cores: WeakSet[_Core] = WeakSet()
+
+
+@contextmanager
+def session() -> Iterator[Session]:
+    """Let go of all that is compiled when the block ends."""
+    own = Session()
+    _local.sessions.append(own)
+    try:
+        yield own
+    finally:
+        _local.sessions.remove(own)
+        own.close()
+
+
+def _made() -> _Core:
+    """A new instance. Where there is no room, what nobody needs any more is let go of first."""
+    try:
+        return _Core()
+    except _NoRoom:
+        gc.collect()
+        idle = _local.sessions[0].core
+        if idle is not None and not idle.busy and idle.empty:
+            _local.sessions[0].close()
+        return _Core()
 
 
 @atexit.register
@@ -281,24 +399,20 @@ def _close() -> None:
 
 
 def _core() -> _Core:
-    """The instance of this thread."""
-    core: _Core | None = getattr(_local, "core", None)
-    if core is not None and core.busy:
-        return _Core()  # `should_stop` solves something itself
-    if core is None or core.broken or core.large:
-        core = _local.core = _Core()
-    return core
+    """The instance of this thread's session."""
+    return _local.sessions[-1].get()
 
 
 def start_afresh() -> bool:
-    """Have the next searches of this thread begin with little memory, if those until now have taken much; whether so.
+    """Have the next searches begin with little memory, if those until now have taken much; whether so.
 
-    The memory is given back when the last of them is gone.
+    That of the searches until now is given back at once: they cannot be gone on with.
     """
-    core: _Core | None = getattr(_local, "core", None)
-    if core is None or (not core.broken and core.size <= _LARGE):
+    own = _local.sessions[-1]
+    core = own.core
+    if core is None or core.busy or (not core.broken and core.size <= _LARGE):
         return False
-    _local.core = None
+    own.close()
     return True
 
 
@@ -451,12 +565,20 @@ class CompiledDives:
         self._ask("dives_found", priced.cost)
 
 
+def _may_be_compiled() -> bool:
+    """Where there was no room for an instance there will be none until the session ends."""
+    return available() and not _local.sessions[-1].without
+
+
 def best_first(
     groups: Sequence[Group], *, log: PathObserver | None = None, **options: Any
 ) -> BestFirst | CompiledSearch:
     """The search to be used: the compiled one where there is one and nobody wants to know what it does."""
-    if log is None and available():
-        return CompiledSearch(groups, **options)
+    if log is None and _may_be_compiled():
+        try:
+            return CompiledSearch(groups, **options)
+        except _NoRoom:
+            _local.sessions[-1].without = True
     return BestFirst(groups, log=log, **options)
 
 
@@ -467,4 +589,9 @@ def dives(
     accept: Callable[[Priced], bool] | None = None,
 ) -> Dives | CompiledDives:
     """The dives to be used."""
-    return (CompiledDives if available() else Dives)(groups, least, check, accept)
+    if _may_be_compiled():
+        try:
+            return CompiledDives(groups, least, check, accept)
+        except _NoRoom:
+            _local.sessions[-1].without = True
+    return Dives(groups, least, check, accept)
