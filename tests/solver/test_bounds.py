@@ -19,8 +19,8 @@ from facade_nb.solver.alignment.reference.best_first import search
 from facade_nb.solver.diagnosis import explanation as failure
 from facade_nb.solver.selection import axis
 from facade_nb.solver.sizing import system as sizing
+from facade_nb.solver.words import counter_values as counting
 from facade_nb.solver.words import instances
-from facade_nb.solver.words import sums as counting
 from tests.oracle.designs import design, make_design
 
 PLAIN = Objective.paper()

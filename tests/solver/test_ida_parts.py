@@ -156,7 +156,7 @@ def _allowed(group: Group, options: Sequence[Option], owed: bool) -> bool:
     filling = [o for o in sized if group.objective.plain or not o.soft]
     if not filling and len(sized) == len(present):
         filling = sized
-    largest = max((o.size or 0.0 for o in sized), default=0.0)
+    largest = max((o.least if o.size is None else o.size for o in present), default=0.0)
     least = min((o.size or 0.0 for o in filling), default=largest)
     return max(0.0, largest - least) <= group.tolerance + EPS
 
@@ -219,7 +219,7 @@ class TestBounds:
         assert tight > 60 and programmes > 5
 
     def test_programme_knows_of_lengths(self) -> None:
-        """f, and the beginning of g, beside A: f is 1 m longer, but the column costs nothing by itself."""
+        """f, and the beginning of g, beside A: f alone is 1 m longer, which column and programme know alike."""
         group = group_of(("f:2 g:1", "A:1 B:2"), 3.0, 2.0, Objective())
         side = Ends([group], None).forward
         (child,) = [
@@ -229,7 +229,7 @@ class TestBounds:
             and [o.letters for o in half.column.options] == [(0, 1), (0,)]
             and not half.column.options[0].ends
         ]
-        assert child.column is not None and child.column.cost == 0.0
+        assert child.column is not None and child.column.cost == 1.0
         assert Relaxation(side, child).value >= 1.0
 
     def test_stretch(self) -> None:

@@ -22,7 +22,7 @@ from facade_nb.solver import budget as clock
 from facade_nb.solver import solution as solving
 from facade_nb.solver.model.sums import dot, times
 from facade_nb.solver.sizing.least_squares import least_squares
-from facade_nb.solver.trace import activeset
+from facade_nb.solver.trace import active_set as activeset
 from tests.clocks import Jumping
 from tests.oracle.designs import design
 

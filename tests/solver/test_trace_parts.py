@@ -356,7 +356,7 @@ class TestWords:
         assert told["A t"] == ("A",) and told["B t"] == ("B",)
 
     def test_many(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        from facade_nb.solver.trace import spelled
+        from facade_nb.solver.trace import word_events as spelled
 
         monkeypatch.setattr(spelled, "WORDS", 3)
         monkeypatch.setattr(spelled, "DROPPED", 2)

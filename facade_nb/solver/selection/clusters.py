@@ -10,7 +10,7 @@ from ..alignment.found import Found
 from ..alignment.group import Group
 from ..alignment.heuristic.local_search import can_sweep, mended, polished, sweeps
 from ..alignment.lone import lone
-from ..alignment.observer import NetworkObserver
+from ..alignment.observer import NetworkObserver, Observer
 from ..alignment.paper.ida import search_ida
 from ..alignment.pricing import Priced
 from ..alignment.reference.best_first import BestFirst
@@ -34,6 +34,8 @@ _SLOW = 0.03
 _SLOW_ELASTIC = 0.5
 _BUDGET = 4_000
 """Of so many partial alignments the paper's search has to come to something at first; then of four times as many."""
+_TOLD = 200
+"""A word that stands alone is searched like others where somebody watches, if it has no more letters."""
 _LONG = 3_000
 """A search of more paths than this is a long one, and dives help it."""
 
@@ -78,7 +80,8 @@ class GroupSearch:
         self._slow = _SLOW if all(group.stiff for group in groups) else _SLOW_ELASTIC
         self.spent = self._dived = 0.0
         self._again = False
-        alone = lone(groups) if known is None and accept is None and log is None else None
+        told = log is not None and sum(len(band.letters) for group in groups for band in group.bands) <= _TOLD
+        alone = lone(groups) if known is None and accept is None and not told else None
         if known is not None:
             self._found, self.done = Found(*known), True
         elif alone is not None:
@@ -235,13 +238,13 @@ class GroupSearch:
         else:
             budget = _BUDGET if self.log is None else inf  # a trace would tell everything again
             while not self.done:
-                self._found = self._paper(limit, budget)
+                self._found = self._paper(limit, budget, self.log)
                 if budget >= self._options[1] or not self._found.cut:
                     self.done = bool(self._found.ties) or self._found.bound == inf or self._found.cut
                     return
                 budget *= 4
 
-    def _paper(self, limit: float, budget: float) -> Found:
+    def _paper(self, limit: float, budget: float, observer: Observer | None) -> Found:
         """What the paper's search finds, of at most so many partial alignments."""
         _, nodes, check, accept = self._options
         return search_ida(
@@ -251,15 +254,16 @@ class GroupSearch:
             nodes=int(min(nodes, budget)),
             check=check,
             accept=accept,
-            observer=self.log,
+            observer=observer,
         )
 
     def _otherwise(self) -> None:
-        """Under the paper's objective bounds say little; where best first gets lost, its own search may not."""
-        if self.log is not None:
-            return
+        """Under the paper's objective bounds say little; where best first gets lost, its own search may not.
+
+        Nobody is told of it: a network has the steps of one search.
+        """
         first, self._first = self._found, None
-        other = self._paper(inf, _BUDGET)
+        other = self._paper(inf, _BUDGET, None)
         better = other.best is not None and (first.best is None or other.best.cost < first.best.cost)
         if better or not other.cut:
             other.nodes += first.nodes
