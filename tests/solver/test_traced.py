@@ -71,12 +71,12 @@ def test_what_rescues_a_search_rescues_a_traced_one(monkeypatch: pytest.MonkeyPa
     def counted(self: GroupSearch) -> None:
         nonlocal rescues
         otherwise(self)
-        rescues += self.log is not None and not self.cut
+        rescues += self.log is not None and bool(self._found.ties)
 
-    monkeypatch.setattr(axis, "_NODES", 1_000)
+    monkeypatch.setattr(axis, "_NODES", 10_000)
     monkeypatch.setattr(GroupSearch, "_otherwise", counted)
-    for seed in range(12):
+    for seed in range(20):
         one = make_design(9_500 + seed)
         plain, traced = (answer(one, objective=OBJECTIVES["paper"], trace=trace) for trace in (False, True))
         assert plain == traced
-    assert rescues >= 1, rescues
+    assert rescues >= 1
