@@ -1,13 +1,17 @@
-"""Answers that are kept for the next time they are asked for."""
+"""All that the solver keeps between calls: one cache, with one `clear`.
+
+What is kept never changes an answer; it only comes sooner. Each store has a limit of its own, and what was not asked
+for the longest time goes first. Threads may share it.
+"""
 
 from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Hashable
 from threading import Lock
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
-__all__ = ["Kept"]
+__all__ = ["CACHE", "Cache", "Kept"]
 
 _Value = TypeVar("_Value")
 
@@ -62,3 +66,43 @@ class Kept(Generic[_Value]):
             self._known.clear()
             self._weight = 0.0
             self.hits = self.misses = 0
+
+
+class Cache:
+    """What is kept, by what it is.
+
+    The stores that can be large are weighed by bytes, 104 MB in all: a hub gives its users 1 to 2 GB.
+
+    Attributes
+    ----------
+    answers
+        Answers of an axis, or of both where a counter ties them, by all that they depend on (`solution`).
+    earlier
+        What was found last for problems that differ in sizes, bounds and canvas only (`solution`).
+    groups
+        The best structures of a group and its bound, so that groups that an edit leaves alone are not searched again
+        (`selection.axis`).
+    words
+        The words of a pattern, and how much is opaque in one of them at most (`words.enumeration`).
+    ranges
+        What patterns say of counters (`words.enumeration`); an entry is a few numbers.
+    lengths
+        How long words of a pattern are, by alternative (`words.instances`); weighed by the alternatives.
+    """
+
+    def __init__(self) -> None:
+        self.answers: Kept[Any] = Kept(32_000_000)
+        self.earlier: Kept[Any] = Kept(16_000_000)
+        self.groups: Kept[Any] = Kept(24_000_000)
+        self.words: Kept[Any] = Kept(32_000_000)
+        self.ranges: Kept[dict[str, tuple[int, int]]] = Kept(1_000)
+        self.lengths: Kept[Any] = Kept(20_000)
+
+    def clear(self) -> None:
+        """Let go of all."""
+        for own in (self.answers, self.earlier, self.groups, self.words, self.ranges, self.lengths):
+            own.clear()
+
+
+CACHE = Cache()
+"""The one of this process."""

@@ -18,7 +18,7 @@ from .analysis.systems import analyse
 from .assembly.axes import axis_layout, axis_warnings, cut_warnings
 from .assembly.shapes import find_holes, hole_warnings, merge
 from .budget import Clock, Stopped
-from .cache import Kept
+from .cache import CACHE
 from .diagnosis.explanation import explain, ran_out
 from .diagnosis.refusal import Blame
 from .diagnosis.remedies import Tried
@@ -26,22 +26,15 @@ from .model.layout import AxisLayout, Layout, PlacedShape, Rect
 from .model.objective import Objective
 from .model.precision import EPS
 from .model.problem import AxisProblem, axis_problem
-from .selection.axis import AxisSearch, Best, Solved, forget_groups
+from .selection.axis import AxisSearch, Best, Solved
 from .selection.warm_start import adopted, upper_bound
 from .trace import Recorder, stage
-from .words.enumeration import forget_words
 from .words.instances import Range, ranges
 
 __all__ = ["TOLERANCES", "forget", "solve"]
 
 TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
 """Fractions of the canvas; the paper's schedule, and, by its last, what the default objective works within."""
-
-_cache: Kept[dict[Axis, tuple[AxisSearch, Best]]] = Kept(32_000_000)
-"""Answers of axes asked for last; of both together, where a counter ties them; weighed by their bytes."""
-
-_before: Kept[Solved] = Kept(16_000_000)
-"""What was found last for problems that differ in sizes, bounds and canvas only; likewise."""
 
 _ANSWER = 500_000
 """Bytes as which an answer counts at least: no more than 64 are kept."""
@@ -133,10 +126,7 @@ def solve(
 
 def forget() -> None:
     """Let go of all that is kept for what an edit leaves alone: answers of axes and groups, words of patterns."""
-    _cache.clear()
-    _before.clear()
-    forget_groups()
-    forget_words()
+    CACHE.clear()
 
 
 def _solved(
@@ -219,7 +209,7 @@ class _Run:
         if self.trace is not None:
             return find(axes)
         key = (tuple(self.problems[axis] for axis in axes), self.objective, self.tolerances, self.search)
-        known = _cache.get(key)
+        known: dict[Axis, tuple[AxisSearch, Best]] | None = CACHE.answers.get(key)
         if known is None:
             known = find(axes)
             if not self.trial:
@@ -230,7 +220,7 @@ class _Run:
                         group.forget()
                     weight += best.solved.weight if best.solved else 0.0
                 if all(best.complete for _, best in known.values()):
-                    _cache.put(key, known, max(_ANSWER, weight))
+                    CACHE.answers.put(key, known, max(_ANSWER, weight))
         return known
 
     def _axis(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
@@ -248,7 +238,7 @@ class _Run:
             return self._best(walk)
         problem = walk.problem
         key = (problem.axis, problem.groups, problem.patterns, self.objective)
-        before = _before.get(key)
+        before: Solved | None = CACHE.earlier.get(key)
         cap = inf
         with suppress(Stopped):  # then there is no time for the search either, which knows what to do
             cap = inf if before is None else upper_bound(walk, before)
@@ -261,7 +251,7 @@ class _Run:
                 other = adopted(walk, before)
                 best.solved = other if other is not None and other.beats(best.solved) else best.solved
         if best.solved is not None and not self.trial:
-            _before.put(key, best.solved, max(_ANSWER / 2, best.solved.weight))
+            CACHE.earlier.put(key, best.solved, max(_ANSWER / 2, best.solved.weight))
         return best
 
     def _best(self, walk: AxisSearch, cap: float = inf) -> Best:

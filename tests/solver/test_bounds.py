@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from types import ModuleType
 
 import pytest
-from facade_nb.solver.lone import lone
 
 from facade_nb import Design, Layout, NoLayout, solve
 from facade_nb.design import Counter, Symbol, parse
@@ -15,7 +14,8 @@ from facade_nb.design.tree import MAX_LETTERS
 from facade_nb.solver import Letter, Objective, align, words
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment import single as alignment
-from facade_nb.solver.alignment.reference.best_first import search
+from facade_nb.solver.alignment.core.search import search_best as search
+from facade_nb.solver.alignment.lone import lone
 from facade_nb.solver.diagnosis import explanation as failure
 from facade_nb.solver.selection import axis
 from facade_nb.solver.sizing import system as sizing

@@ -15,7 +15,7 @@ from facade_nb.design import edit
 from facade_nb.design.model import AXES
 from facade_nb.solver import Objective
 from facade_nb.solver import solution as solving
-from facade_nb.solver.cache import Kept
+from facade_nb.solver.cache import CACHE, Kept
 from facade_nb.solver.selection import clusters as running
 from facade_nb.solver.selection.axis import Best
 from tests.oracle.designs import CONTENT, CONTROL, SOLID, design, make_design
@@ -316,11 +316,11 @@ class TestReuse:
         monkeypatch.setattr(solving, "_REMEDIES", 6.0)
         monkeypatch.setattr(solving, "_REMEDY", 3.0)
         solve(self.ONE)
-        before = len(solving._cache)
+        before = len(CACHE.answers)
         with pytest.raises(NoLayout) as caught:
             solve(edit.with_counter(self.ONE, "k", value=30))
         assert caught.value.suggestions
-        assert len(solving._cache) == before
+        assert len(CACHE.answers) == before
 
     def test_from_several_threads(self) -> None:
         """Two studios in one kernel share what is kept."""

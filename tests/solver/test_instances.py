@@ -16,11 +16,12 @@ from facade_nb.design import Counter, DesignError, Pattern, Symbol, parse
 from facade_nb.design.model import AXES
 from facade_nb.design.pattern import Concat, Count, Sym
 from facade_nb.solver import Objective
+from facade_nb.solver.cache import CACHE
 from facade_nb.solver.candidates.stream import candidates
 from facade_nb.solver.model.problem import axis_problem
 from facade_nb.solver.words import instances as listing
 from facade_nb.solver.words.counter_values import Sums
-from facade_nb.solver.words.enumeration import axis_words, forget_words
+from facade_nb.solver.words.enumeration import axis_words
 from facade_nb.solver.words.instances import instances, next_longer, ranges
 from facade_nb.solver.words.lengths import measure
 from tests.oracle.designs import make_design
@@ -243,7 +244,7 @@ class TestOfAnAxis:
                 ).words
                 for name, p in problem.patterns
             }
-            forget_words()
+            CACHE.clear()
             few = {name: own.words for name, own in axis_words(problem, tolerance).items()}
             assert all(len(few[name]) <= len(every[name]) for name in few)
 
@@ -272,7 +273,7 @@ class TestOfAnAxis:
     )
     def test_of_what_nobody_could_list(self, name: str) -> None:
         problem = axis_problem(NASTY[name], "x")
-        forget_words()
+        CACHE.clear()
         for own in axis_words(problem, 0.5 * problem.canvas).values():
             assert own.words and own.left < inf
             assert sum(map(len, own.words)) <= 400_000

@@ -22,6 +22,7 @@ from facade_nb.solver.alignment.core import binding as compiled
 from facade_nb.solver.analysis.systems import analyse
 from facade_nb.solver.assembly.shapes import merge
 from facade_nb.solver.budget import Clock, Stopped
+from facade_nb.solver.cache import CACHE
 from facade_nb.solver.model.problem import axis_problem
 from facade_nb.solver.selection.axis import AxisSearch
 from facade_nb.solver.words.instances import instances
@@ -236,7 +237,7 @@ print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - begin) // 1024)
         one = design({"A": 1.0}, {"a": "A^k"}, ["a"])
         for n in range(150):
             solve(edit.with_canvas(one, width=4.0 + n / 100))
-        assert len(solving._cache) <= 64
+        assert len(CACHE.answers) <= 64
 
 
 class TestClock:

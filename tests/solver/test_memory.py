@@ -13,7 +13,6 @@ from typing import Any
 from weakref import WeakSet
 
 import pytest
-from facade_nb.solver.alignment.columns import Group, make_group
 
 from facade_nb import NoLayout, gallery, solve
 from facade_nb.design import edit
@@ -21,12 +20,10 @@ from facade_nb.solver import Letter, Objective, align
 from facade_nb.solver import budget as clock
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment.core import binding as compiled
-from facade_nb.solver.alignment.reference.best_first import Stopped
-from facade_nb.solver.budget import Clock
-from facade_nb.solver.cache import Kept
-from facade_nb.solver.selection import axis
+from facade_nb.solver.alignment.group import Group, make_group
+from facade_nb.solver.budget import Clock, Stopped
+from facade_nb.solver.cache import CACHE, Kept
 from facade_nb.solver.selection import clusters as running
-from facade_nb.solver.words.enumeration import _kept as kept_words
 from tests.oracle.designs import design
 
 
@@ -252,10 +249,10 @@ class TestKept:
     @pytest.fixture
     def caches(self) -> dict[str, Kept[Any]]:
         return {
-            "answers": solving._cache,
-            "before": solving._before,
-            "groups": axis._kept,
-            "words": kept_words,
+            "answers": CACHE.answers,
+            "before": CACHE.earlier,
+            "groups": CACHE.groups,
+            "words": CACHE.words,
         }
 
     def test_is_weighed_by_what_it_takes(self, caches: dict[str, Kept[Any]]) -> None:
@@ -273,7 +270,7 @@ class TestKept:
 
     def test_answers_keep_no_words(self) -> None:
         solve(gallery.load("teaser"))
-        for known, _ in solving._cache._known.values():
+        for known, _ in CACHE.answers._known.values():
             for walk, best in known.values():
                 assert all(found.words == () for found in walk.found.values())
                 assert not walk.runs and not walk.cases

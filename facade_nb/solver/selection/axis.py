@@ -12,7 +12,7 @@ from ...design.model import Symbol
 from ..alignment.group import Group, lone_unsized, make_group
 from ..alignment.pricing import Priced
 from ..budget import Progress, Stopped
-from ..cache import Kept
+from ..cache import CACHE
 from ..candidates.bounds import GroupKey, inputs_of, rows_of
 from ..candidates.stream import Candidate, CandidateStream, candidates
 from ..effort import SIZED, Effort
@@ -27,20 +27,13 @@ from .anytime import Anytime
 from .clusters import GROWTH, STEP, TIES, GroupSearch
 from .observer import AxisObserver, sizing
 
-__all__ = ["AxisSearch", "Best", "Case", "Solved", "forget_groups"]
+__all__ = ["AxisSearch", "Best", "Case", "Solved"]
 
 _NODES = 1_000_000
 """A search of more paths gives up; under the paper's objective, and where structures are refused, of fewer."""
 
-_kept: Kept[tuple[list[Priced], float]] = Kept(24_000_000)
-"""What has been found for groups, so that those that an edit leaves alone are not searched again; in bytes."""
 _ELEMENT, _BAND_LETTER = 500, 150
 """Bytes that an element of a structure takes, and a letter of a band."""
-
-
-def forget_groups() -> None:
-    """Let go of all that is kept for unchanged groups."""
-    _kept.clear()
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,7 +224,7 @@ class AxisSearch:
             if run.done and not run.cut:
                 letters = sum(len(band.letters) for group in run.groups for band in group.bands)
                 weight = _BAND_LETTER * (1 + letters) + sum(map(_weight, run.ties))
-                _kept.put(self._known_as(key), (run.ties, run.floor), weight)
+                CACHE.groups.put(self._known_as(key), (run.ties, run.floor), weight)
             for group in run.groups:
                 group.forget()
         self.leave()
@@ -419,7 +412,7 @@ class AxisSearch:
             key = tuple(group.identity for group in groups)
             run = self.runs.get(key)
             if run is None:
-                known = _kept.get(self._known_as(key)) if self.trace is None else None
+                known = CACHE.groups.get(self._known_as(key)) if self.trace is None else None
                 run = self.runs[key] = self._run(groups, None, cluster, known)
             self.by_words[words] = run
         return run

@@ -15,30 +15,19 @@ from ...design.limits import LEAST_LENGTH, MOST_COUNT, MOST_LENGTH
 from ...design.model import Counter, Symbol
 from ...design.pattern import parse
 from ..budget import Progress
-from ..cache import Kept
+from ..cache import CACHE
 from ..model.letters import Word
 from ..model.precision import EPS
 from ..model.problem import AxisProblem
-from .instances import MAX_COPIES, Instances, Range, forget_measures, instances, ranges
+from .instances import MAX_COPIES, Instances, Range, instances, ranges
 
-__all__ = ["axis_words", "forget_words", "words"]
+__all__ = ["axis_words", "words"]
 
-_kept: Kept[tuple[Instances, float]] = Kept(32_000_000)
-"""Words of patterns asked for last, and how much is opaque in one of them at most; weighed by their bytes."""
 _LETTER, _WORD = 8, 500
 """Bytes that a letter takes in a word, and a word without letters."""
 _MAX_SAMPLES = 1_000_000
 """Most words that sampled sizes make of one."""
 _SPAN = f"sizes lie between {LEAST_LENGTH:f} and {MOST_LENGTH:,.0f}"
-_ranges: Kept[dict[str, Range]] = Kept(1_000)
-"""What patterns say of counters."""
-
-
-def forget_words() -> None:
-    """Let go of all words that are kept for unchanged patterns."""
-    _kept.clear()
-    _ranges.clear()
-    forget_measures()
 
 
 def axis_words(
@@ -89,7 +78,7 @@ def axis_words(
             low,
             tuple(own_common.items()),
         )
-        known = _kept.get(key)
+        known: tuple[Instances, float] | None = CACHE.words.get(key)
         if known is None:
             try:
                 own = instances(
@@ -105,7 +94,7 @@ def axis_words(
             except DesignError as error:
                 raise DesignError(Fault(f"patterns.{name}", str(error))) from None
             known = own, max((_opaque(word) for word in own.words), default=0.0)
-            _kept.put(key, known, _WORD + sum(_WORD + _LETTER * len(word) for word in own.words))
+            CACHE.words.put(key, known, _WORD + sum(_WORD + _LETTER * len(word) for word in own.words))
         found[name], opaque[name] = known
     return found
 
@@ -125,12 +114,12 @@ def _common(
                 tuple([counters[c] for c in pattern.counters]),
                 limit,
             )
-            known = _ranges.get(key)
+            known = CACHE.ranges.get(key)
             if known is None:
                 known = ranges(
                     pattern, lambda s: symbols.get(s) or Symbol(s), lambda c: counters[c], limit, check
                 )
-                _ranges.put(key, known)
+                CACHE.ranges.put(key, known)
             own = known
             for c in shared & own.keys():
                 low, high = found.get(c, own[c])

@@ -13,7 +13,7 @@ from ...design.limits import nearest_zero
 from ...design.model import Counter, Symbol
 from ...design.pattern import Pattern
 from ...design.tree import MAX_LETTERS, Concat, Count, Node, check_room, concatenation, spellings, walk
-from ..cache import Kept
+from ..cache import CACHE
 from ..model.letters import Letter, Word
 from ..model.precision import EPS
 from .counter_values import Sums
@@ -25,7 +25,6 @@ __all__ = [
     "MAX_WORDS",
     "Instances",
     "Range",
-    "forget_measures",
     "instances",
     "next_longer",
     "ranges",
@@ -49,18 +48,10 @@ _MAX_TOTAL = 400_000
 _WAY = ""
 """In tables of counters: the choice of alternatives. No counter has that name."""
 
-_ways: Kept[tuple[list[Way] | None]] = Kept(20_000)
-"""Measures of patterns asked for last, weighed by their choices of alternatives."""
-
 SymbolOf = Callable[[str], Symbol]
 CounterOf = Callable[[str], Counter]
 Check = Callable[[], None]
 Range = tuple[int, int]
-
-
-def forget_measures() -> None:
-    """Let go of all measures that are kept for unchanged patterns."""
-    _ways.clear()
 
 
 @dataclass(frozen=True, slots=True)
@@ -286,10 +277,10 @@ def ranges(
 def _measured(pattern: Pattern, symbol: SymbolOf, check: Check | None) -> list[Way] | None:
     """What `measure` says, kept for the next time the sizes are the same."""
     key = (pattern, tuple(symbol(name).size for name in pattern.symbols))
-    known = _ways.get(key)
+    known: tuple[list[Way] | None] | None = CACHE.lengths.get(key)
     if known is None:
         known = (measure(pattern, lambda name: symbol(name).size, check),)
-        _ways.put(key, known, len(known[0] or ()) + 1)
+        CACHE.lengths.put(key, known, len(known[0] or ()) + 1)
     return known[0]
 
 
