@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 from ..model.letters import Letter
 from ..model.objective import Objective
@@ -63,12 +62,9 @@ class Group:
     """Per band: what it and the reference cost each other; None for the reference itself."""
     identity: object = None
     """Groups with the same identity are aligned and sized alike."""
-    edges: dict[Any, Any] = field(default_factory=dict)
-    """Edges of the network already made, by node (see `reference.edges`)."""
 
     def forget(self) -> None:
-        """Let go of what can be made again: edges, and elements that no structure has taken."""
-        self.edges.clear()
+        """Let go of what can be made again: elements that no structure has taken."""
         for band in self.bands:
             band.forget()
 

@@ -16,6 +16,7 @@ from .core.search import search_best
 from .found import Found
 from .group import Group, make_group
 from .lone import lone
+from .paper.deepening import Ends
 from .paper.ida import search_ida
 from .pricing import Priced
 
@@ -133,13 +134,16 @@ def _searched(group: Group, first: str) -> Found:
     """What one of the searches finds first, as they take turns; or the best that both have come upon."""
     second = next(own for own in SEARCHES if own != first)
     best = Found(cut=True)
+    ends: Ends | None = None
     for turn in zip(_TURNS[first], _TURNS[second], strict=True):
         check = Effort(call=_PATH)
         for search, nodes in zip((first, second), turn, strict=True):
             try:
-                found = (search_ida if search == "ida" else search_best)(
-                    [group], keep=1, nodes=nodes, check=check
-                )
+                if search == "ida":
+                    ends = ends or Ends([group], check)
+                    found = search_ida([group], keep=1, nodes=nodes, check=check, ends=ends)
+                else:
+                    found = search_best([group], keep=1, nodes=nodes, check=check)
             except Stopped:  # out of memory, or time
                 found = Found(cut=True)
             if not found.cut:

@@ -11,6 +11,7 @@ from ..alignment.group import Group
 from ..alignment.heuristic.local_search import can_sweep, mended, polished, sweeps
 from ..alignment.lone import lone
 from ..alignment.observer import NetworkObserver, Observer
+from ..alignment.paper.deepening import Ends
 from ..alignment.paper.ida import search_ida
 from ..alignment.pricing import Priced
 from ..alignment.reference.best_first import BestFirst
@@ -70,6 +71,7 @@ class GroupSearch:
         self._options = (method, nodes, self._effort, accept)
         self._first: BestFirst | CompiledSearch | None = None
         self._dives: Dives | CompiledDives | None = None
+        self._ends: Ends | None = None
         self._sweeps = (
             sweeps(groups, Effort(self._effort, SWEPT), fits)
             if accept is None and can_sweep(groups)
@@ -122,7 +124,7 @@ class GroupSearch:
 
     def _tidy(self) -> None:
         if self.done:
-            self._first = self._dives = None  # they take much memory
+            self._first = self._dives = self._ends = None  # they take much memory
 
     @property
     def long(self) -> bool:
@@ -188,7 +190,7 @@ class GroupSearch:
         """Let go of the search, but not of what it has found."""
         if not self.done:
             self._swept = next(iter(self.known), None)
-            self._first = self._dives = None
+            self._first = self._dives = self._ends = None
 
     @property
     def known(self) -> list[Priced]:
@@ -247,6 +249,8 @@ class GroupSearch:
     def _paper(self, limit: float, budget: float, observer: Observer | None) -> Found:
         """What the paper's search finds, of at most so many partial alignments."""
         _, nodes, check, accept = self._options
+        if self._ends is None and observer is None:
+            self._ends = Ends(self.groups, check)
         return search_ida(
             self.groups,
             cap=limit,
@@ -255,6 +259,7 @@ class GroupSearch:
             check=check,
             accept=accept,
             observer=observer,
+            ends=self._ends,
         )
 
     def _otherwise(self) -> None:

@@ -342,8 +342,6 @@ class Recorder:
         for walk in self.walks.values():
             if walk.number not in told:
                 walk.forget()
-            for group in walk.groups:
-                group.edges.clear()
 
     def _aligned(self, axis: str) -> set[int]:
         """The networks of the cheapest candidates that were aligned, the best among them."""

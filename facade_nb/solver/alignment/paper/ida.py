@@ -32,6 +32,7 @@ def search_ida(
     check: Callable[[], None] | None = None,
     accept: Callable[[Priced], bool] | None = None,
     observer: Observer | None = None,
+    ends: Ends | None = None,
     patience: int = 300,
 ) -> Found:
     """Like `core.search.search_best`, and with the same result.
@@ -41,11 +42,14 @@ def search_ida(
     observer
         Is told what happens (`alignment.observer`). Nothing that was weighed before is used then, so that it is
         told everything.
+    ends
+        The networks of the groups, with what an earlier search has weighed in them; None: they are made.
     patience
         So many partial alignments are taken up before a good alignment is looked for by prealigning and
         merging; 0: that is done first.
     """
-    ends = Ends(groups, check) if observer is not None else _kept(groups, check)
+    if ends is None or observer is not None:
+        ends = Ends(groups, check)
     search = Deepening(ends, cap=cap, keep=keep, check=check, accept=accept, observer=observer)
     if ends.least > cap + EPS or ends.least == inf:
         return search.found
@@ -61,11 +65,3 @@ def search_ida(
     if accept is None:
         ends.least = max(ends.least, found.bound)
     return found
-
-
-def _kept(groups: Sequence[Group], check: Callable[[], None] | None) -> Ends:
-    """The networks of the groups; they are kept with the first, for when the search is taken further."""
-    known: Ends | None = groups[0].edges.get("paper")
-    if known is None or list(map(id, known.forward.groups)) != list(map(id, groups)):
-        known = groups[0].edges["paper"] = Ends(groups, check)
-    return known

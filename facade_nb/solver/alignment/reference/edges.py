@@ -13,7 +13,10 @@ from ..rules import Tally, broken, price, slope
 from .paths import Edge, State
 from .shortfall import ahead
 
-__all__ = ["Maker", "edges"]
+__all__ = ["Made", "Maker", "edges"]
+
+Made = dict[tuple[State, bool], tuple[float, list[Edge]]]
+"""Edges by the node that they leave: up to which rise of the bound they were made, and they, the least first."""
 
 _FURTHER = 0.01
 """Edges are made a little further than asked, as a fraction of the canvas: limits grow in small steps."""
@@ -27,20 +30,22 @@ def edges(
     limit: float,
     check: Callable[[], None] | None = None,
     most: float = inf,
+    made_before: Made | None = None,
 ) -> list[Edge]:
     """Every column that may come next and keeps the constraints and the tolerance, by how much the bound rises with it.
 
     Only those that make it rise by more than `made` and at most `limit`, the least first. The edges of a node
-    are kept with the group, as other paths lead to it too. With `most`, only so many, whichever come first.
+    are kept in `made_before`, as other paths lead to it too. With `most`, only so many, whichever come first.
     """
     if most < inf:
         return Maker(group, state, owed, limit, check, most).make()
-    known = group.edges.get((state, owed))
+    kept = {} if made_before is None else made_before
+    known = kept.get((state, owed))
     if known is None or known[0] < limit:
         further = limit + _FURTHER * group.canvas
         fresh = Maker(group, state, owed, further, check).make()
         fresh.sort(key=_by_rise)
-        known = group.edges[state, owed] = (further, fresh)
+        known = kept[state, owed] = (further, fresh)
     found = known[1]
     return found[
         bisect_right(found, made + EPS, key=_by_rise) : bisect_right(found, limit + EPS, key=_by_rise)

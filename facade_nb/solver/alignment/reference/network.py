@@ -23,7 +23,7 @@ from math import inf
 from ...model.precision import EPS
 from ..elements import Option
 from ..group import Group, unsizable
-from .edges import edges
+from .edges import Made, edges
 from .paths import Edge, Path, Span, Trailed, gathered
 from .shortfall import ahead, shortfall
 from .skeleton import Skeleton
@@ -50,6 +50,7 @@ class Network:
         self.binds = False
         self.sizable = False
         self.tall = any(group.tall for group in groups)
+        self._made: list[Made] = [{} for _ in groups]
         self.skeletons: list[Skeleton | None] = [None] * len(groups)
         self.later = [0.0] * (len(groups) + 1)
         for g in range(len(groups) - 1, -1, -1):
@@ -106,7 +107,16 @@ class Network:
             own = path.cost + later
             found = steps(group, skeleton, path, made - own, limit - own, self.check, self.most)
         else:
-            found = edges(group, path.state, path.owed, made - laid, limit - laid, self.check, self.most)
+            found = edges(
+                group,
+                path.state,
+                path.owed,
+                made - laid,
+                limit - laid,
+                self.check,
+                self.most,
+                self._made[path.group],
+            )
         for edge in found:
             if self.sizable and unsizable(group, edge.column):
                 continue
