@@ -15,9 +15,10 @@ from facade_nb.solver import Letter, Objective, align, words
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment import single as alignment
 from facade_nb.solver.alignment.core.search import search_best as search
+from facade_nb.solver.alignment.group import make_group
 from facade_nb.solver.alignment.lone import lone
 from facade_nb.solver.diagnosis import explanation as failure
-from facade_nb.solver.selection import axis
+from facade_nb.solver.selection import searches
 from facade_nb.solver.sizing import system as sizing
 from facade_nb.solver.words import counter_values as counting
 from facade_nb.solver.words import instances
@@ -31,7 +32,7 @@ BOUNDS: dict[str, list[tuple[ModuleType, str, int]]] = {
     "letters in all": [(instances, "_MAX_TOTAL", 9)],
     "letters of a word": [(instances, "MAX_SPELLED", 3)],
     "copies of what has no size": [(instances, "MAX_COPIES", 1)],
-    "paths": [(axis, "_NODES", 6)],
+    "paths": [(searches, "_NODES", 6)],
 }
 
 
@@ -87,7 +88,7 @@ class TestAnyDesign:
     def test_paths_that_are_cut_are_told(self, monkeypatch: pytest.MonkeyPatch) -> None:
         one = design({"A": 1.0, "B": 0.8, "C": 0.7}, {"a": "A(BA)^3", "b": "C^7"}, ["a", "b"], 6.0)
         full = answer(one, Objective())
-        monkeypatch.setattr(axis, "_NODES", 2)
+        monkeypatch.setattr(searches, "_NODES", 2)
         cut = answer(one, Objective())
         assert isinstance(full, Layout) and isinstance(cut, Layout)
         assert full.x.proven and not cut.x.proven and not cut.complete
@@ -170,7 +171,7 @@ class TestLongWords:
     ) -> None:
         letters = [Letter("A", 1.0, **flags), Letter("B", 0.7), Letter("A", 1.0, **flags), Letter("B", 0.7)]
         for row in (letters, [a for a in letters if a.symbol == "A"]):
-            group = axis.make_group([row, row], canvas, 0.5 * canvas, objective)
+            group = make_group([row, row], canvas, 0.5 * canvas, objective)
             ours, theirs = lone([group]), search([group], keep=4)
             if ours is None:
                 continue

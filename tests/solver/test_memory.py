@@ -273,7 +273,7 @@ class TestKept:
         for known, _ in CACHE.answers._known.values():
             for walk, best in known.values():
                 assert all(found.words == () for found in walk.found.values())
-                assert not walk.runs and not walk.cases
+                assert not walk.searches.runs and not walk.cases
                 assert best.solved is not None
                 assert all(not band._options for group in best.solved.groups for band in group.bands)
 

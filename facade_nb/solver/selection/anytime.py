@@ -55,11 +55,11 @@ class Anytime:
 
     def hasty(self, walk: AxisSearch, best: Solved | None) -> Solved | None:
         """The best layout that can soon be had of the likeliest candidates, for when the time is up."""
-        if walk.extend is not None:
-            walk.extend()
+        if walk.setting.extend is not None:
+            walk.setting.extend()
         if start_afresh():
             for run in (
-                *walk.runs.values(),
+                *walk.searches.runs.values(),
                 *(own for case in (*walk.cases, *self._extra) for own in case.runs),
             ):
                 run.give_up()
@@ -102,17 +102,17 @@ class Anytime:
 
     def around(self, walk: AxisSearch, cost: float) -> Solved | None:
         """A layout of another candidate that costs less, while the search of some takes long."""
-        spent = sum(run.spent for run in walk.runs.values())
+        spent = sum(run.spent for run in walk.searches.runs.values())
         if spent < _LONG or self._looked > _LOOK * spent:
             return None
-        begin = walk.effort.seconds
+        begin = walk.check.seconds
         if self._others is None:
             self._others = islice(self._likely(walk), _LIKELY["sweep"])
         other = next(filter(_short, self._others), None)
         if other is not None and not other.runs:
             walk.open(other)
         solved = None if other is None else self.dive(walk, other, cost, at_once=True, sweep=True)
-        self._looked += walk.effort.seconds - begin
+        self._looked += walk.check.seconds - begin
         return solved
 
     def _likely(self, walk: AxisSearch) -> Iterator[Case]:

@@ -2,38 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush, heapreplace
 from itertools import islice, product
 from math import inf
 
-from ...design.model import Symbol
-from ..alignment.group import Group, lone_unsized, make_group
+from ..alignment.group import Group
 from ..alignment.pricing import Priced
 from ..budget import Progress, Stopped
-from ..cache import CACHE
-from ..candidates.bounds import GroupKey, inputs_of, rows_of
+from ..candidates.bounds import GroupKey
 from ..candidates.stream import Candidate, CandidateStream, candidates
 from ..effort import SIZED, Effort
-from ..model.letters import Letter, Word
+from ..model.letters import Word
 from ..model.objective import Objective
 from ..model.precision import EPS
 from ..model.problem import AxisProblem
-from ..sizing.system import Sized, size_axis, strain
+from ..sizing.system import Sized, size_axis
 from ..words.enumeration import axis_words
 from ..words.instances import Instances, Range
 from .anytime import Anytime
 from .clusters import GROWTH, STEP, TIES, GroupSearch
 from .observer import AxisObserver, sizing
+from .searches import BAND_LETTER, Searches, Setting, weight_of
 
 __all__ = ["AxisSearch", "Best", "Case", "Solved"]
-
-_NODES = 1_000_000
-"""A search of more paths gives up; under the paper's objective, and where structures are refused, of fewer."""
-
-_ELEMENT, _BAND_LETTER = 500, 150
-"""Bytes that an element of a structure takes, and a letter of a band."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,8 +54,8 @@ class Solved:
         system = self.sized.system
         letters = sum(len(band.letters) for group in self.groups for band in group.bands)
         return (
-            _BAND_LETTER * letters
-            + sum({id(priced): _weight(priced) for priced, _ in self.parts}.values())
+            BAND_LETTER * letters
+            + sum({id(priced): weight_of(priced) for priced, _ in self.parts}.values())
             + system.matrix.nbytes
             + 200 * len(system.lower)
         )
@@ -78,11 +71,6 @@ class Solved:
         if abs(self.sized.deviation - other.sized.deviation) > EPS or self.candidate is other.candidate:
             return self.sized.deviation < other.sized.deviation - EPS
         return self.candidate.rank < other.candidate.rank
-
-
-def _weight(priced: Priced) -> float:
-    """Bytes that a structure takes, about."""
-    return _ELEMENT + _ELEMENT * sum(len(column) for columns in priced.structure for column in columns)
 
 
 @dataclass(slots=True)
@@ -124,41 +112,81 @@ class Case:
         return max(self.least, sum(run.floor for run in self.runs))
 
 
-class _Rows:
-    """The rows of a group, and the words they were made of (which keeps those, and so their identities, alive)."""
-
-    __slots__ = ("letters", "unsized", "words")
-
-    def __init__(self, letters: list[tuple[Letter, ...]], words: tuple[Word, ...]) -> None:
-        self.letters, self.words = letters, words
-        self.unsized = {letter.symbol for row in letters for letter in row if letter.size is None}
-
-
-@dataclass(slots=True)
 class AxisSearch:
-    """The search on one axis at one tolerance, with what it has learnt so far."""
+    """The search on one axis at one tolerance.
 
-    problem: AxisProblem
-    objective: Objective
-    tolerance: float
-    method: str = "best"
-    check: Callable[[], None] | None = None
-    trace: AxisObserver | None = None
-    extend: Callable[[], None] | None = None
-    progress: Progress = field(default_factory=Progress)
-    found: dict[str, Instances] = field(default_factory=dict)
-    cases: list[Case] = field(default_factory=list)
-    runs: dict[object, GroupSearch] = field(default_factory=dict)
-    rows: dict[object, _Rows] = field(default_factory=dict)
-    by_words: dict[object, GroupSearch] = field(default_factory=dict)
-    inputs: list[tuple[str, ...]] | None = None
-    stream: CandidateStream | None = None
-    soon: Anytime = field(default_factory=Anytime)
-    effort: Effort = field(init=False)
+    Attributes
+    ----------
+    setting
+        What is asked for; never changed.
+    searches
+        The searches of groups, which candidates share; so do searches with some counters held (`restricted`).
+    found
+        The words of each pattern, once they are listed (`enumerate`).
+    cases
+        The candidates that have been taken up, by `best`.
+    stream
+        Where the next ones come from.
+    """
 
-    def __post_init__(self) -> None:
-        self.effort = self.check if isinstance(self.check, Effort) else Effort(self.check)
-        self.check = self.effort
+    __slots__ = ("cases", "found", "searches", "setting", "soon", "stream")
+
+    def __init__(
+        self,
+        problem: AxisProblem,
+        objective: Objective,
+        tolerance: float,
+        method: str = "best",
+        check: Callable[[], None] | None = None,
+        trace: AxisObserver | None = None,
+        extend: Callable[[], None] | None = None,
+        progress: Progress | None = None,
+        found: Mapping[str, Instances] | None = None,
+    ) -> None:
+        effort = check if isinstance(check, Effort) else Effort(check)
+        self.setting = Setting(
+            problem, objective, tolerance, method, effort, trace, extend, progress or Progress()
+        )
+        self.searches = Searches(self.setting)
+        self.found = dict(found or {})
+        self.cases: list[Case] = []
+        self.stream: CandidateStream | None = None
+        self.soon = Anytime()
+
+    @property
+    def problem(self) -> AxisProblem:
+        """What the axis asks."""
+        return self.setting.problem
+
+    @property
+    def objective(self) -> Objective:
+        """What is minimised."""
+        return self.setting.objective
+
+    @property
+    def tolerance(self) -> float:
+        """μ, metres."""
+        return self.setting.tolerance
+
+    @property
+    def method(self) -> str:
+        """``"best"`` or ``"ida"``."""
+        return self.setting.method
+
+    @property
+    def check(self) -> Effort:
+        """Called now and then; counts what is done."""
+        return self.setting.check
+
+    @property
+    def trace(self) -> AxisObserver | None:
+        """Who watches."""
+        return self.setting.trace
+
+    @property
+    def progress(self) -> Progress:
+        """How far the call has come."""
+        return self.setting.progress
 
     def enumerate(self, across: Mapping[str, Range] | None = None) -> None:
         """List the words that fit; `across` is what the other axis says of counters."""
@@ -187,20 +215,9 @@ class AxisSearch:
             )
             for name, own in self.found.items()
         }
-        other = AxisSearch(
-            self.problem,
-            self.objective,
-            self.tolerance,
-            self.method,
-            self.check,
-            self.trace,
-            self.extend,
-            self.progress,
-            found,
-            runs=self.runs,
-            rows=self.rows,
-            by_words=self.by_words,
-        )
+        other = AxisSearch.__new__(AxisSearch)
+        other.setting, other.searches, other.found = self.setting, self.searches, found
+        other.cases, other.soon = [], Anytime()
         other.stream = other.fresh_stream()
         return other
 
@@ -220,17 +237,9 @@ class AxisSearch:
 
     def forget(self) -> None:
         """Let go of what only searching needs, so that a kept answer is small, and keep what groups have in common."""
-        for key, run in self.runs.items():
-            if run.done and not run.cut:
-                letters = sum(len(band.letters) for group in run.groups for band in group.bands)
-                weight = _BAND_LETTER * (1 + letters) + sum(map(_weight, run.ties))
-                CACHE.groups.put(self._known_as(key), (run.ties, run.floor), weight)
-            for group in run.groups:
-                group.forget()
+        self.searches.keep()
         self.leave()
-        self.runs.clear()
-        self.rows.clear()
-        self.by_words.clear()
+        self.searches.clear()
         # of the words, what is said about them is enough
         self.found.update({name: replace(own, words=()) for name, own in self.found.items()})
 
@@ -364,21 +373,19 @@ class AxisSearch:
                 list(range(len(case.groups)))
             ]  # which structures fit each other is asked as they come
             own = range(len(case.groups))
-            case.runs = [self._run(case.groups, lambda priced: self.size(case, [[priced]]) is not None, own)]
+            case.runs = [
+                self.searches.run(case.groups, lambda priced: self.size(case, [[priced]]) is not None, own)
+            ]
             return self._turn(case, limit, top)
         return case.solved
 
     def open(self, case: Case) -> None:
         """Find the candidate's groups, and the searches that other candidates share with it."""
-        rows, keys, clusters = self._rows(case.candidate)
-        groups: list[Group | None] = [None] * len(rows)
-        runs: list[GroupSearch] = []
-        for cluster in clusters:
-            run = self._same_words(rows, cluster, tuple(keys[g] for g in cluster))
-            runs.append(run)
-            for g, group in zip(cluster, run.groups, strict=True):
-                groups[g] = group
-        case.clusters, case.groups = clusters, [group for group in groups if group is not None]
+        clusters, keys, runs = self.searches.of(case.candidate)
+        groups: dict[int, Group] = {}
+        for cluster, run in zip(clusters, runs, strict=True):
+            groups.update(zip(cluster, run.groups, strict=True))
+        case.clusters, case.groups = clusters, [groups[g] for g in range(len(groups))]
         case.keys = keys
         case.runs = runs  # all of them or none: the clock may have stopped this before
         self._tell(case)
@@ -390,93 +397,6 @@ class AxisSearch:
                 if len(cluster) == 1:
                     self.stream.learn(case.keys[cluster[0]], run.floor)
 
-    def _same_words(self, rows: Sequence[_Rows], cluster: Sequence[int], words: object) -> GroupSearch:
-        """The search of a cluster: the one that there is for the same words, or others with the same letters."""
-        run = self.by_words.get(words)
-        if run is None:
-            unsized = any(rows[g].unsized for g in cluster)
-            free = (
-                lone_unsized(*(dict.fromkeys(rows[g].letters) for g in cluster)) if unsized else frozenset()
-            )
-            groups = [
-                make_group(
-                    rows[g].letters,
-                    self.problem.canvas,
-                    self.tolerance,
-                    self.objective,
-                    free=free,
-                    check=self.check,
-                )
-                for g in cluster
-            ]
-            key = tuple(group.identity for group in groups)
-            run = self.runs.get(key)
-            if run is None:
-                known = CACHE.groups.get(self._known_as(key)) if self.trace is None else None
-                run = self.runs[key] = self._run(groups, None, cluster, known)
-            self.by_words[words] = run
-        return run
-
-    def _run(
-        self,
-        groups: Sequence[Group],
-        accept: Callable[[Priced], bool] | None,
-        cluster: Iterable[int],
-        known: tuple[list[Priced], float] | None = None,
-    ) -> GroupSearch:
-        nodes = _NODES if accept is None and not self.objective.plain else _NODES // 50
-        log = None
-        if self.trace is not None:
-            names = [self.problem.groups[g][0] for g in cluster]
-            log = self.trace.walk(self.problem.axis, names, groups, self.method)
-
-        problem, symbol = self.problem, self._symbol  # a search does not refer to this, which refers to it
-
-        def fits(priced: Priced) -> bool:
-            parts = tuple((priced, k) for k in range(len(groups)))
-            return size_axis(groups, parts, problem.canvas, symbol) is not None
-
-        def strained(priced: Priced) -> float:
-            parts = tuple((priced, k) for k in range(len(groups)))
-            return 0.0 if fits(priced) else max(1e-9, strain(groups, parts, problem.canvas, symbol))
-
-        return GroupSearch(groups, self.method, nodes, self.check, accept, log, known, fits, strained)
-
-    @property
-    def _symbol(self) -> Callable[[str], Symbol]:
-        symbols = self.problem.symbol
-        return lambda name: symbols.get(name) or Symbol(name)
-
-    def _known_as(self, key: object) -> object:
-        return key, self.problem.canvas, self.tolerance, self.objective, self.method
-
-    def _rows(self, candidate: Candidate) -> tuple[list[_Rows], list[GroupKey], list[list[int]]]:
-        """The rows of each group, what they depend on, and which groups are aligned together.
-
-        Those are that share an unsized symbol.
-        """
-        if self.inputs is None:
-            self.inputs = inputs_of(self.problem)
-        rows: list[_Rows] = []
-        keys: list[GroupKey] = []
-        for g, (names, (_, standing)) in enumerate(zip(self.inputs, self.problem.groups, strict=True)):
-            words = tuple(candidate.words[name] for name in names)
-            key = (g, *map(id, words))
-            own = self.rows.get(key)
-            if own is None:
-                own = self.rows[key] = _Rows(rows_of(self.problem, candidate.words, standing), words)
-            rows.append(own)
-            keys.append(key)
-        clusters: list[list[int]] = []
-        for g, one in enumerate(rows):
-            if not one.unsized:
-                clusters.append([g])
-                continue
-            joined = [c for c in clusters if any(rows[o].unsized & one.unsized for o in c)]
-            clusters = [c for c in clusters if c not in joined]
-            clusters.append(sorted([g, *(o for c in joined for o in c)]))
-        return rows, keys, clusters
-
     def size(self, case: Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
         """Size every combination of equally good structures; the least deviation wins."""
         best: Solved | None = None
@@ -486,8 +406,8 @@ class AxisSearch:
                 parts.update({g: (priced, k) for k, g in enumerate(cluster)})
             own = tuple(parts[g] for g in range(len(case.groups)))
             with sizing(self.trace, self.problem.axis):
-                sized = size_axis(case.groups, own, self.problem.canvas, self._symbol)
-            self.effort.add(SIZED)
+                sized = size_axis(case.groups, own, self.problem.canvas, self.setting.symbol)
+            self.check.add(SIZED)
             if sized is None:
                 continue
             solved = Solved(
