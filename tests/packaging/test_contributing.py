@@ -1,4 +1,4 @@
-"""The recipes of CONTRIBUTING.md and docs/visible.md are followed; its picture of the house is that of the contracts."""
+"""Recipes of CONTRIBUTING.md and docs/visible.md are followed; the picture of the house is that of the contracts."""
 
 from __future__ import annotations
 
