@@ -94,7 +94,7 @@ class Trace:
 
     @classmethod
     def of(cls, recorder: Recorder) -> Trace:
-        """The trace that a recorder's notes make."""
+        """The trace of what a recorder has noted."""
         return cls(_told(recorder))
 
     def __repr__(self) -> str:
@@ -160,7 +160,7 @@ class Trace:
         return replay(self.events)
 
     def lattice(self, axis: str, group: str, bands: tuple[int, int] | None = None) -> Lattice:
-        """The alignment decision network of a group: see `lattice.lattice_of`."""
+        """The alignment decision network of a group: see `lattice.traced_lattice`."""
         from .lattice import traced_lattice
 
         return traced_lattice(self, axis, group, bands)
@@ -168,8 +168,7 @@ class Trace:
     def judge(
         self, axis: str, group: str, columns: Sequence[Sequence[Sequence[int]]]
     ) -> list[tuple[Weight, Refusal | None]]:
-        """Judge an alignment of a group that somebody made up: the weight of each column, and the constraints
-        it breaks.
+        """Judge columns that somebody made up for a group: what each weighs, and what it breaks.
 
         See `weights.judge`.
         """
