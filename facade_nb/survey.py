@@ -42,7 +42,7 @@ _FILE = "ingolstadt.json"
 
 
 class SurveyError(FacadeError):
-    """Survey data that are missing or cannot be read."""
+    """Raised for survey data that are missing or cannot be read."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class Survey:
     building
         Its number in the data.
     width, height
-        Of all openings together, not of the wall, metres.
+        Width and height of all openings together, in metres; the wall is larger.
     openings
         ``{"kind": "window", "rect": [left, bottom, right, top]}``, metres.
     source, licence
@@ -122,7 +122,7 @@ def compare(layout: Layout, openings: Sequence[Mapping[str, Any]]) -> float:
 def match(layout: Layout, openings: Sequence[Mapping[str, Any]]) -> tuple[Pair, ...]:
     """The best one-to-one matching of openings with windows and doors, in the order of the openings.
 
-    Pairs that do not touch are left out: neither of them has a partner. Raises `SurveyError` as `compare` does.
+    An opening and a shape that do not overlap make no pair. It raises `SurveyError` as `compare` does.
     """
     shapes = _shapes(layout)
     surveyed = _to_corner([_rect(opening, f"openings[{i}]") for i, opening in enumerate(openings)])
@@ -152,8 +152,8 @@ def load_survey(building: str, path: str | Path | None = None) -> Survey:
     Raises
     ------
     SurveyError
-        Where there is no such file, it is no survey, or has no such building; with the place of every fault, what was
-        expected and what was found.
+        If the file does not exist, is no survey, or lacks the building. The message has the place of every
+        fault, what was expected and what was found.
     """
     file, name = _data_file(path), str(building)
     try:

@@ -103,7 +103,7 @@ class Fault:
 
 
 class DesignError(FacadeError, ValueError):
-    """A design, or a text in it, that cannot be read. `faults` has every fault found."""
+    """Raised for a design, or a text in it, that cannot be read. `faults` lists every fault that was found."""
 
     def __init__(self, faults: Iterable[Fault] | Fault | str) -> None:
         if isinstance(faults, str):
@@ -150,18 +150,18 @@ class Suggestion:
 
 @dataclass(eq=False)
 class NoLayout(FacadeError):
-    """A valid design that has no layout.
+    """Raised for a valid design that has no layout, or for which none was found in time.
 
     Attributes
     ----------
     message
-        In a designer's words: what is to blame, and the smallest change that would work where one is known.
+        What is to blame, in a designer's words, and a small change that works, if one was found.
     axis
-        ``"x"`` or ``"y"``, or empty where both take part.
+        ``"x"`` or ``"y"``; empty if both axes take part.
     patterns, symbols, counters, layers
         Names of what is to blame, for a view to point at.
     group
-        The alignment group, where it is one of several.
+        The alignment group that is to blame; empty if the axis has only one.
     constraint
         What cannot be kept: ``analysis`` (patterns of different length), ``canvas`` (words too long or too short),
         ``letters`` (words of too many letters), ``counters`` (no common value), ``C1``, ``C3``, ``C4``,
@@ -169,9 +169,9 @@ class NoLayout(FacadeError):
         letters of a symbol), ``room`` (none is left for an unsized symbol), ``shapes`` (too many); or ``time``,
         ``memory``, ``stop``: the search was cut short.
     suggestions
-        Changes that have been tried and work, the first one named first in the message.
+        Changes that were tried and work, in the order in which the message names them.
     stage
-        What the search was at when it was cut short.
+        Which stage the search had reached when it was cut short.
     trace
         What the solver did until then, where a trace was asked for.
     """

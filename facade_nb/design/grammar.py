@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
 from functools import lru_cache
 from itertools import takewhile
@@ -13,6 +14,7 @@ from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from .errors import PatternError
 from .lookalikes import described, is_unseen, meant, sign_classes
+from .modes import MODES, SYNONYMS
 from .text import fault_at
 
 __all__ = ["read_tree", "refuse", "show"]
@@ -44,7 +46,7 @@ NUMBER: /{digit}+/
 MIRROR: /['’′]/
 BAR: "|"
 DOT: "." | "·"
-MODE: /:(?!=)|[~@∘⊙]/
+MODE: /:(?!=)|[{re.escape("".join(_MODE_SIGNS))}]/
 MINUS: "-" | "−"
 _ASSIGN: ":="
 _LPAR: "("
@@ -55,6 +57,9 @@ _SEP: /[;\r\n](?:[\s;]|#[^\r\n\ud800-\udfff]*)*/
 %ignore /#[^\r\n\ud800-\udfff]*/
 """
 
+
+_MODE_SIGNS = [sign for sign in (*MODES, *SYNONYMS) if sign and sign not in "|.·:"]
+"""Signs that are nothing but modes: the others are an alternative, a separator, or the beginning of ':='."""
 
 _OPERAND = "a symbol, '(' or ε"
 _HINTS = {
@@ -67,13 +72,12 @@ _HINTS = {
     "_": "longer names stand in angle brackets, such as <front_door>",
     ",": "symbols stand side by side, such as AB; choices are written A|B",
     "/": "choices are written A|B",
-    "~": "a reflection mode stands after '^', such as A^~k",
-    "@": "a reflection mode stands after '^', such as A^@k",
+    **{sign: f"a reflection mode stands after '^', such as A^{sign}k" for sign in _MODE_SIGNS},
     ":": "a reflection mode stands after '^', such as A^:k; a substitution is written with ':='",
     "-": "a minus sign stands after '^', such as A^-1; longer names stand in angle brackets",
     '"': "a mirrored instance is written with ', such as A'",
 }
-_SIGNS = "^~|'.:;@-()<>{}#ε"
+_SIGNS = f"^{''.join(MODES)}';-()<>{{}}#ε"
 """Signs of the language; ':=' is told as a whole."""
 _SHOWN = 40
 """Most characters of a text that a sentence shows."""
@@ -178,7 +182,7 @@ def _expected(accepted: set[str], previous: Token | None) -> str:
     after = f" after {str(previous)!r}" if previous is not None and previous.type != "_SEP" else ""
     if "NUMBER" in accepted:
         if "MODE" in accepted:
-            return "a number, a counter or a reflection mode (~ | . : @) after '^'"
+            return f"a number, a counter or a reflection mode ({' '.join(filter(None, MODES))}) after '^'"
         return f"a number or a counter{after}"
     if "_ASSIGN" in accepted and "_CARET" not in accepted:
         return f"':='{after}, for what follows the control pattern is a substitution"
@@ -226,7 +230,7 @@ def _hint(found: str, complete: bool) -> str:
         sign = meant(found) if found not in "·−" else found.replace("−", "-")
         if sign and sign != found:
             return _hint_of(found, sign, complete)
-    if found in _HINTS and (complete or found not in "~@:-"):
+    if found in _HINTS and (complete or found not in (*_MODE_SIGNS, ":", "-")):
         return f"; {_HINTS[found]}"
     if found.isdecimal():
         return "; a count is written with '^', such as A^2" if complete else ""

@@ -15,6 +15,7 @@ from itertools import product
 from math import prod
 from typing import Literal, NamedTuple
 
+from .modes import Spelling
 from .text import locate, spell
 from .tree import (
     Alt,
@@ -23,7 +24,6 @@ from .tree import (
     Empty,
     Mirror,
     Node,
-    Spelling,
     Sym,
     alternation,
     check_room,

@@ -10,12 +10,12 @@ from lark import Token, Tree
 from .errors import DesignError, listed, nearest, quoted
 from .grammar import read_tree, refuse
 from .lookalikes import is_foreign
+from .modes import MODES, SYNONYMS
 from .pattern import Pattern, Site
 from .text import clean_name, counter_fault, symbol_fault
 from .tree import (
     MAX_LETTERS,
     MAX_WORDS,
-    MODES,
     Count,
     Empty,
     Mirror,
@@ -35,7 +35,6 @@ MAX_DEPTH = 50
 MAX_TEXT = 20_000
 """Most characters of a pattern text."""
 
-_MODES = {"~": "~", "|": "|", ".": ".", ":": ":", "@": "@", "·": ".", "∘": ":", "⊙": "@"}
 
 _Item: TypeAlias = Tree[Token] | Token
 
@@ -169,7 +168,7 @@ class _Reader:
     def count(self, tree: Tree[Token], body: Node, first: int) -> Node:
         """A count of the body whose sites begin at index `first`."""
         *signs, token = (child for child in tree.children if isinstance(child, Token))
-        mode = next((_MODES[str(sign)] for sign in signs if sign.type != "MINUS"), "")
+        mode = next((SYNONYMS.get(str(sign), str(sign)) for sign in signs if sign.type != "MINUS"), "")
         negative = any(sign.type == "MINUS" for sign in signs)
         text, offset = str(token), token.start_pos or 0
         if token.type == "BRACED":

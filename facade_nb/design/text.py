@@ -7,6 +7,7 @@ from unicodedata import category, combining, decomposition, east_asian_width
 
 from .errors import Fault
 from .lookalikes import described, is_foreign, is_unseen, meant
+from .modes import MODES, SYNONYMS
 from .names import is_identifier, nfc
 
 __all__ = [
@@ -71,7 +72,7 @@ def counter_fault(name: str) -> str:
             return f"'{sign}' ({described(sign)}) stands in it; '{meant(sign)}' was probably meant"
         if is_unseen(sign):
             return f"a name has no characters that are not seen ({described(sign)})"
-    if name[0] in "~|.:@·∘⊙":
+    if name[0] in MODES or name[0] in SYNONYMS:
         return f"a counter's name does not begin with {name[0]!r}; a mode stands before the brace, as in ^~{{floors}}"
     if name.isdecimal():
         return "a number is no name"

@@ -8,19 +8,18 @@ from itertools import chain, product
 from math import prod
 
 from .errors import DesignError
+from .modes import Spelling, mirrored, repeated, shared
 from .text import spell, spell_counter
 
 __all__ = [
     "MAX_LETTERS",
     "MAX_WORDS",
-    "MODES",
     "Alt",
     "Concat",
     "Count",
     "Empty",
     "Mirror",
     "Node",
-    "Spelling",
     "Sym",
     "alternation",
     "check_room",
@@ -28,23 +27,12 @@ __all__ = [
     "concatenation",
     "letters_at",
     "longest",
-    "mirrored",
     "spellings",
     "too_long",
     "unparse",
     "walk",
     "ways_at_most",
 ]
-
-MODES: Mapping[str, str] = {
-    "": "none",
-    "~": "normal inner",
-    "|": "normal outer",
-    ".": "pivot inner",
-    ":": "pivot outer",
-    "@": "pivot total",
-}
-"""Reflection modes of counts, as in Table 1 of the supplement."""
 
 MAX_LETTERS = 20_000
 """Most letters in one word: far beyond any façade, and a bound on what a mistyped count can cost."""
@@ -96,7 +84,7 @@ class Count:
     Attributes
     ----------
     mode
-        A key of `MODES`.
+        A key of `modes.MODES`.
     negative
         Whether a minus sign stands before the value.
     value
@@ -110,9 +98,6 @@ class Count:
 
 
 Node = Sym | Empty | Concat | Alt | Mirror | Count
-
-Spelling = tuple[tuple[str, bool], ...]
-"""A word as (symbol, mirrored) pairs."""
 
 
 def concatenation(parts: Iterable[Node]) -> Node:
@@ -244,11 +229,6 @@ def ways_at_most(node: Node) -> int:
             return 1
 
 
-def mirrored(word: Spelling) -> Spelling:
-    """The word reversed, every letter mirrored; a mirrored letter becomes a normal one."""
-    return tuple((symbol, not flag) for symbol, flag in reversed(word))
-
-
 def spellings(node: Node, counters: Mapping[str, int]) -> list[Spelling]:
     """Every word of a tree for these counter values, in lexicographic order of choices, equal ones once.
 
@@ -298,28 +278,11 @@ def _sequences(parts: list[list[Spelling]]) -> list[Spelling]:
 
 
 def _repeat(base: Spelling, mode: str, count: int) -> Spelling:
-    """`count` copies of the base in a reflection mode (Table 1); a negative count mirrors the base.
-
-    Pivot letters, shared by a copy and its mirror image, come from the copy and are not mirrored.
-    """
+    """`count` copies of the base in a reflection mode; a negative count mirrors the base."""
     w = mirrored(base) if count < 0 else base
     k = abs(count) if w else 1  # ε repeated is ε: a huge count of it costs nothing
-    shared = {".": k, ":": k - 1, "@": 2 * k - 1}.get(mode, 0)
-    check_room(len(base) * k * (2 if mode else 1) - shared)
-    if not mode:
-        return w * k
-    v = mirrored(w)
-    match mode:
-        case "~":
-            return (w + v) * k
-        case "|":
-            return w * k + v * k
-        case ".":
-            return (w + v[1:]) * k
-        case ":":
-            return (w + v[:-1]) * (k - 1) + w + v
-        case _:
-            return (w + v[1:-1]) * (k - 1) + w + v[1:]
+    check_room(len(base) * k * (2 if mode else 1) - shared(mode, k))
+    return repeated(w, mode, k)
 
 
 def check_room(length: int = 0, total: int = 0, words: int = 0) -> None:

@@ -45,14 +45,14 @@ def load(name: str) -> Design:
 
 
 def steps(name: str) -> list[Design]:
-    """Return the making of a design: what there is to begin with, then the design after each step.
+    """Return how a design is made: the design that one begins with, then the design after each step.
 
     The last is the design that `load` gives. `step_titles` says what each step does.
 
     Raises
     ------
     DesignError
-        For an unknown name, and for a design without steps; says which have them.
+        For an unknown name, or for a design without steps; the message says which designs have them.
     """
     return list(_steps(_stepped(name))[1])
 

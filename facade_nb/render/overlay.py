@@ -33,7 +33,7 @@ def overlay_svg(
         The survey: ``{"kind": ..., "rect": [left, bottom, right, top]}``, metres. Both are moved to their common lower
         left corner, as `facade_nb.survey.compare` does.
     score
-        What `compare` gives; None: it is asked.
+        The agreement that is written on the drawing; None: what `compare` gives.
     width_px, theme, prefix
         As for `elevation_svg`.
     """

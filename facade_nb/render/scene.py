@@ -38,9 +38,9 @@ class Solid:
     shape
         That shape.
     geometry
-        The recipe it was made by.
+        The geometry that made it.
     face
-        Where its face is, z in metres: the shape's offset, or where its geometry stands by nature if that is 0.
+        Where its face is, z in metres: the shape's offset, or, if that is 0, where its geometry puts it.
     depth
         How far it goes back from the face, metres; at least to the plane of the façade.
     parts
@@ -150,20 +150,20 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]]) -> Trian
 def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
     """Give every shape of a layout its body.
 
-    A plain box behind a later shape that fills its own rectangle and does not stand in front of it is cut away there,
-    so that a window of a higher layer opens the wall of a lower one, as it does when shapes are painted in order.
+    A window of a higher layer opens the wall of a lower one, as it does when shapes are painted in order: a
+    plain box is cut away where a later shape fills its own rectangle and does not stand in front of the box.
 
     Parameters
     ----------
     layout
         A solved layout, or one read from JSON.
     roof_depth
-        How far roofs go back, metres; None: as their shapes are thick.
+        How far roofs go back, metres; None: as far as their shapes are thick.
 
     Raises
     ------
     DesignError
-        With a fault for every shape whose geometry or material is unknown, once for each pair of symbols.
+        If a geometry or a material is unknown; it has one fault for each pair of symbols with such a shape.
     """
     return Scene((layout.canvas.width, layout.canvas.height), _cut(tuple(_solids(layout, roof_depth))))
 

@@ -66,26 +66,27 @@ def solve(
     design
         A valid design; without layers its layout is empty.
     objective
-        Default `Objective()`: the least J over all candidates. `Objective.paper()` follows the paper:
-        tolerances one after the other, candidates in lexicographic order, the first that aligns in all
-        groups.
+        What is minimised. The default, `Objective()`, finds the least J over all candidates.
+        `Objective.paper()` follows the paper: it tries the tolerances one after the other, at each one the
+        candidates in lexicographic order, and takes the first candidate that aligns in all groups.
     tolerances
-        Fractions of the canvas, growing; the default objective uses the largest alone.
+        Fractions of the canvas, in growing order. The default objective uses the largest one only.
     search
-        ``"best"`` or ``"ida"``, the paper's; both give the same value.
+        ``"best"``, or ``"ida"`` for the paper's search. Both give a layout of the same cost.
     trace
         Record every stage as typed events in `Layout.trace`.
     time_limit
-        Seconds, or None. When they are over, the best layout so far is returned, marked not `complete`.
+        Seconds, or None for no limit. When they are over, the best layout so far is returned, and its
+        `complete` is False.
     should_stop
-        Asked now and then; true ends the search as the time limit does.
+        A function that is called now and then. If it returns true, the search ends as at the time limit.
 
     Raises
     ------
     DesignError
         For a canvas without extent.
     NoLayout
-        Where there is none, or none was found in time; says what is to blame.
+        If there is no layout, or none was found in time. It says what is to blame.
     """
     if not isinstance(design, Design):
         raise TypeError(

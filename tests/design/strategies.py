@@ -20,9 +20,10 @@ from facade_nb.design import (
     Symbol,
     parse,
 )
+from facade_nb.design.modes import MODES
 from facade_nb.design.pattern import Alt, Concat, Count, Empty, Mirror, Node, Sym
 from facade_nb.design.text import clean_name, counter_fault, symbol_fault
-from facade_nb.design.tree import MODES, alternation, concatenation
+from facade_nb.design.tree import alternation, concatenation
 
 NAMES = [
     "A",

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from facade_nb.design import parse
 from facade_nb.design.model import Counter
+from facade_nb.design.modes import MODES
 from facade_nb.design.pattern import Pattern
 from facade_nb.solver.analysis.linear import Bounds, Elimination, equation_text, form_text, number
 from facade_nb.solver.analysis.systems import Analysis
@@ -69,7 +70,6 @@ def test_patterns_that_are_not_linear(pattern: str, bounds: tuple[int, int | Non
 
 LETTERS = ["A", "B", "C"]
 RANGES = [(0, None), (1, None), (2, None), (0, 2), (2, 2), (-2, 3), (-3, -1), (-2, 0), (-2, -2)]
-MODES = ["", "~", "|", ".", ":", "@"]
 
 
 @st.composite
@@ -85,10 +85,10 @@ def bodies(draw: st.DrawFn, depth: int = 3, named: bool = True, choices: bool = 
             return f"({draw(bodies(depth - 1, named, choices))}|{draw(bodies(depth - 1, named, choices))})"
         case "number":
             times = draw(st.integers(-3, 3))
-            return f"({draw(bodies(depth - 1, named, choices))})^{draw(st.sampled_from(MODES))}{times}"
+            return f"({draw(bodies(depth - 1, named, choices))})^{draw(st.sampled_from(list(MODES)))}{times}"
         case "counter" if named:
             sign, name = draw(st.sampled_from(["", "-"])), draw(st.sampled_from("kn"))
-            return f"({draw(bodies(depth - 1, False, choices))})^{draw(st.sampled_from(MODES))}{sign}{name}"
+            return f"({draw(bodies(depth - 1, False, choices))})^{draw(st.sampled_from(list(MODES)))}{sign}{name}"
         case _:
             return draw(st.sampled_from(LETTERS))
 

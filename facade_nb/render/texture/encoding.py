@@ -259,7 +259,7 @@ def decode(texture: NDArray[Any], names: Sequence[str] = (), tiles: Sequence[str
     texture
         (h, w, 4).
     names, tiles
-        Of rules and tiles, which a texture does not hold; those that are missing get numbers.
+        Names of the rules and tiles, which a texture does not hold. Those that are missing are numbered.
 
     Raises
     ------

@@ -48,10 +48,10 @@ class Surface(NamedTuple):
     color
         (n, 4) float32: red, green and blue multiplied by alpha, and alpha, as Eq. 2 and 3 add them up.
     normal
-        (n, 4) float32: the same of the normal, which is written as (n + 1) / 2: x to the right, y up, z out of the
+        (n, 4) float32: the same of the normal, written as (n + 1) / 2: x to the right, y up, z out of the
         façade, also where it comes from a face of an intrusion.
     specular
-        (n, 4) float32: the same of what shines.
+        (n, 4) float32: the same of the specular value.
     rule
         (n,) int32: the topmost terminal rule that gave colour with alpha above 0; -1 where there is none.
     """

@@ -68,7 +68,8 @@ def grammar_of(
         Whether windows, doors, columns and the like are drawn with tiles and rooms; otherwise every shape is a
         rectangle of its material.
     each
-        Whether every shape has a rule of its own, to be told from the rule that is seen; otherwise equal ones share.
+        Whether every shape has a rule of its own, so that the rule seen at a pixel tells the shape. If not,
+        equal shapes share a rule.
 
     Raises
     ------

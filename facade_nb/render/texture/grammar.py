@@ -35,7 +35,7 @@ __all__ = ["Grammar"]
 
 @dataclass(frozen=True, eq=False)
 class Grammar:
-    """A grammar without faults.
+    """A texture grammar that was read without faults.
 
     Attributes
     ----------
@@ -134,14 +134,15 @@ class Grammar:
         size
             Width and height of the façade, metres.
         seed
-            Of the façade, metres: added to corners for random look-ups.
+            A shift in metres that is added to the corners by which random numbers are looked up; another seed
+            makes another façade.
         start
             The rule to begin with; None: S, else the first.
         rays
             (n, 3) directions from the eye to the points: x to the right, y up, z out of the façade, so negative. Of any
             length; a positive z is taken as if it were negative. None: straight on.
         tiles
-            To be used instead of those that the grammar was read with.
+            Tiles to use in place of those that the grammar was read with.
 
         Returns
         -------
@@ -185,7 +186,7 @@ class Grammar:
         start: str | None = None,
         tiles: Tiles | None = None,
     ) -> Question:
-        """Everything that an evaluator needs but the points. Raises as `evaluate` does."""
+        """Everything that an evaluator needs, except the points. It raises what `evaluate` raises."""
         width, height = _two(size, "size", "a width and a height in metres, from 0.001 to below 100000")
         if not (1e-3 <= width < 1e5 and 1e-3 <= height < 1e5):
             raise ValueError(

@@ -58,9 +58,10 @@ def render_texture(
     pixels
         Width and height of the picture.
     seed, start, tiles
-        As of `Grammar.evaluate`.
+        As for `Grammar.evaluate`.
     camera
-        Where to stand: a `Camera` has the whole façade in the picture. None: straight on, the façade filling it.
+        Where to stand; a `Camera` takes in the whole façade. None: straight on, with the façade filling the
+        picture.
     backend
         ``osmesa``, ``egl`` or ``cpu``; None: the best that works here.
     antialias

@@ -56,9 +56,9 @@ class Sight:
         Left, bottom, right, top of what the picture shows: metres on the façade, or with an eye, on a plane at unit
         distance from it.
     eye
-        Where the eye is; None: far away, in front.
+        Where the eye is; None: infinitely far in front of the façade.
     right, ahead
-        The camera's axes; with an eye only. Up is up.
+        The camera's axes, where there is an eye. Its third axis is the vertical.
     whole
         Where this is a crop of a larger picture (see `crop`): that picture's pixels. The window is that of the whole.
     corner
@@ -99,12 +99,12 @@ class Sight:
     ) -> Sight:
         """From an eye, `angle` degrees wide, with the point `target` of the façade in the middle of the picture.
 
-        The picture's plane stays upright, so verticals do.
+        The picture's plane stays upright, so vertical edges stay vertical.
 
         Raises
         ------
         ValueError
-            If the eye is not in front of the façade, or too far away, or for an angle that is none.
+            If the eye is behind the façade or too far away, or the angle is not one that a camera can have.
         """
         if not all(abs(value) <= _FAR for value in (*eye, *target)):
             raise ValueError(f"eye, target: expected numbers within ±{_FAR:g}; found {eye}, {target}")

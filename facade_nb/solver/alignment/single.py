@@ -48,7 +48,8 @@ class Alignment:
     width
         W = Σ_j of the largest row size.
     proven, gap
-        Whether no alignment costs less; else the cost minus what each costs at least, as far as that is known.
+        Whether it is known that no alignment costs less. Where it is not, `gap` is the cost minus a lower bound
+        of what any alignment costs.
     """
 
     columns: tuple[tuple[Element, ...], ...]
@@ -76,29 +77,29 @@ def align(
     ----------
     rows
         Words, topmost row first. A letter without a size gets the size that makes the objective least; all
-        letters of its symbol the same.
+        letters of a symbol get the same size.
     canvas, tolerance
         Metres: ω_j ≤ tolerance and |W − canvas| ≤ tolerance.
     objective
         Default `Objective.paper()`.
     search
-        ``"ida"``, the paper's, or ``"best"``. Both return the same cost and number of columns. What one of them is lost
-        in the other most often is not: the one asked for begins, and after some thousand partial alignments they take
-        turns.
+        ``"ida"``, the paper's, or ``"best"``. Both return the same cost and number of columns. The one asked
+        for begins. After some thousand partial alignments the two take turns, because rows that are slow for
+        one are mostly quick for the other.
     cuts
         Whether transparent letters may be cut.
 
     Returns
     -------
-    The alignment, or None where the constraints and the tolerance leave none. Where neither search has come to an end
-    after a million partial alignments, it is the best so far, and not `proven`.
+    The alignment, or None where no alignment meets the constraints within the tolerance. If neither search has
+    come to an end after a million partial alignments, it is the best one found so far, and `proven` is False.
 
     Raises
     ------
     ValueError
         For an unknown search, sizes that are not finite and positive, or a solid letter without a size.
     NoLayout
-        Where the search ran out of memory, or of steps, and has found none.
+        If the search ran out of memory or of steps before it found one.
     """
     if search not in SEARCHES:
         raise ValueError(f"search: expected one of {', '.join(SEARCHES)}; found {search!r}")

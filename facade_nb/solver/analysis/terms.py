@@ -14,6 +14,7 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from ...design.model import Counter
+from ...design.modes import shared
 from ...design.pattern import Alt, Concat, Count, Empty, Mirror, Node, Sym
 from ...design.text import spell
 from .linear import Bounds, form_text
@@ -232,7 +233,7 @@ def _counted(base: Runs, count: Count, counters: Counters) -> Runs:
         return []
     w = _mirrored(base) if sign < 0 or (sign == 0 and count.negative) else base
     v = _mirrored(w)
-    if sign == 0 and count.mode in (".", ":", "@"):
+    if sign == 0 and shared(count.mode, 2):
         letters = _expanded(w)
         if letters[0][0] != letters[-1][0]:
             raise Tricky(
@@ -250,10 +251,12 @@ def _counted(base: Runs, count: Count, counters: Counters) -> Runs:
         case ":":
             pair = _join(w, _without_last(v, counters, count.mode))
             last = _join(w, v)
-        case _:
+        case "@":
             rest = _without_first(v, counters, count.mode)
             pair = _join(w, _without_last(rest, counters, count.mode) if rest else [])
             last = _join(w, rest)
+        case _:
+            raise Tricky(f"what ^{count.mode} does is not known here")
     once = counters.positive(times)
     return _join(_repeated(pair, _added(times, once, -1)), _repeated(last, once))
 

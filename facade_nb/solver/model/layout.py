@@ -116,15 +116,16 @@ class Layout:
     Attributes
     ----------
     shapes
-        Visible shapes, bottom layer first, so that painting them in order is right.
+        Visible shapes in painting order: the bottom layer comes first.
     holes
         Rectangles of the canvas that no visible shape covers.
     warnings
         What a designer should know, in sentences.
     complete
-        False where a time limit or a stop cut the search short; the layout is the best found until then.
+        False if a limit or a stop cut the search short. The layout is then the best one found until that
+        moment.
     trace
-        The recorded events, where asked for.
+        The recorded events, if `solve` was asked for them; else None.
     """
 
     name: str

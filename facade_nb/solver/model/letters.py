@@ -26,10 +26,10 @@ class Letter:
     opaque, attached, unoccludable
         The alignment qualifiers of the symbol (paper 3.5). A transparent letter is never opaque.
     mirrored
-        Whether a reflection reversed it.
+        Whether it is drawn as in a mirror.
     origin
-        ``(symbol, n)`` where it came into the word as content of the n-th instance of a substituted symbol.
-        Two words that differ in nothing else are the same word.
+        ``(symbol, n)`` if a substitution put it into the word, as content of the n-th instance of that symbol.
+        Words that differ in their letters' origins alone are equal.
     """
 
     symbol: str

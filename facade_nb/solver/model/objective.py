@@ -23,11 +23,12 @@ class Objective:
         Price of a metre of looseness (Λ): letters that share an element, and non-opaque letters that do not
         fill their column.
     fit
-        Price of a metre by which the columns' sum W misses the canvas. Below 1: then making a column wider
-        than its letters, in order to fit, never pays, and J stays convex in the sizes (see `pricing`).
+        Price of a metre by which the columns' sum W misses the canvas. It is below 1. So it never pays to make
+        a column wider than its letters only to fill the canvas, and J stays convex in the sizes (see
+        `alignment.pricing`).
     plain
-        Eq. 9 as printed. Otherwise a row with a non-opaque letter counts in ω_j only as far as it is larger
-        than the rest, because it need not fill the column (supplement 3.4).
+        Whether ω_j is Eq. 9 as printed. If not, a row with a non-opaque letter counts in ω_j only by what it is
+        larger than the other rows, because it need not fill the column (supplement 3.4).
     """
 
     empty: float = 0.8
@@ -45,5 +46,5 @@ class Objective:
 
     @classmethod
     def paper(cls) -> Objective:
-        """The paper's: least Ω = Σ ω_j, then most columns."""
+        """The paper's objective: the least Ω = Σ ω_j, and among equals the most columns."""
         return cls(empty=0.0, loose=0.0, fit=0.0, plain=True)

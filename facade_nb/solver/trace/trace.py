@@ -94,14 +94,14 @@ class Trace:
 
     @classmethod
     def of(cls, recorder: Recorder) -> Trace:
-        """The trace that a recorder's notes make."""
+        """The trace of what a recorder has noted."""
         return cls(_told(recorder))
 
     def __repr__(self) -> str:
         return f"<Trace {self.events!r}>"
 
     def of_kind(self, kind: type[_Kind], axis: str | None = None) -> list[_Kind]:
-        """All events of a kind, of both axes or of one."""
+        """The events of one kind, of both axes or of the one given."""
         return [e for e in self.events if isinstance(e, kind) and (axis is None or e.axis == axis)]
 
     # Documents
@@ -160,7 +160,7 @@ class Trace:
         return replay(self.events)
 
     def lattice(self, axis: str, group: str, bands: tuple[int, int] | None = None) -> Lattice:
-        """The alignment decision network of a group: see `lattice.lattice_of`."""
+        """The alignment decision network of a group: see `lattice.traced_lattice`."""
         from .lattice import traced_lattice
 
         return traced_lattice(self, axis, group, bands)
@@ -168,9 +168,9 @@ class Trace:
     def judge(
         self, axis: str, group: str, columns: Sequence[Sequence[Sequence[int]]]
     ) -> list[tuple[Weight, Refusal | None]]:
-        """Weight of each column of an alignment of a group that somebody made up, and what it breaks.
+        """Judge columns that somebody made up for a group: what each weighs, and what it breaks.
 
-        See `weighing.judge`.
+        See `weights.judge`.
         """
         from .lattice import traced_group
         from .weights import judge
@@ -178,55 +178,55 @@ class Trace:
         return judge(traced_group(self, axis, group), columns)
 
     def analysis(self) -> pd.DataFrame:
-        """Pairs of patterns, and the equation of each."""
+        """A table of the pairs of patterns that were compared, with the equation of each."""
         from .tables import analysis
 
         return analysis(self)
 
     def words(self) -> pd.DataFrame:
-        """Words, kept and dropped."""
+        """A table of the words, kept and dropped, with the reason."""
         from .tables import words
 
         return words(self)
 
     def candidates(self) -> pd.DataFrame:
-        """Candidates with their fates."""
+        """A table of the candidates, with what became of each."""
         from .tables import candidates
 
         return candidates(self)
 
     def nodes(self) -> pd.DataFrame:
-        """Partial paths taken up."""
+        """A table of the partial paths that the search took up."""
         from .tables import nodes
 
         return nodes(self)
 
     def edges(self) -> pd.DataFrame:
-        """Columns weighed and refused."""
+        """A table of the columns that the search weighed, and of those it refused."""
         from .tables import edges
 
         return edges(self)
 
     def path(self) -> pd.DataFrame:
-        """Columns of the chosen alignments."""
+        """A table of the columns of the chosen alignments."""
         from .tables import path
 
         return path(self)
 
     def equations(self) -> pd.DataFrame:
-        """Bounds and rows of the least-squares systems."""
+        """A table of the bounds and rows of the least-squares systems."""
         from .tables import equations
 
         return equations(self)
 
     def active_set(self) -> pd.DataFrame:
-        """Steps of the active-set method."""
+        """A table of the steps of the active-set method."""
         from .tables import active_set
 
         return active_set(self)
 
     def timings(self) -> pd.DataFrame:
-        """Seconds by stage and network."""
+        """A table of the seconds that each stage and each network took."""
         from .tables import timings
 
         return timings(self)

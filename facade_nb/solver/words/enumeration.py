@@ -152,17 +152,17 @@ def words(
     canvas, tolerance
         Metres.
     counters
-        Bounds ``(min, max)`` by name; default from 0 without an upper bound. Other names than the pattern's are let
-        be, so that several patterns can be asked with the same bounds.
+        Bounds ``(min, max)`` by name; default from 0 without an upper bound. Names that the pattern does not
+        have are ignored, so that the same bounds can be given for several patterns.
     unsized_step
         Sample unsized symbols at positive multiples of this many metres, as the paper's Figure 7 does.
-        Without it a word with unsized letters is listed once, and kept where its sized letters leave them
-        room.
+        If it is None, a word with unsized letters is listed once, and is kept if its sized letters leave room
+        for them.
 
     Returns
     -------
-    Words in lexicographic order of counter values, alternatives, and sampled sizes. A counter that repeats only letters
-    without a size is tried up to 16 unless it has a bound; a `UserWarning` says so.
+    Words in lexicographic order of counter values, alternatives, and sampled sizes. A counter that repeats only
+    letters without a size is tried up to 16 at most; a `UserWarning` says so.
 
     Raises
     ------

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ...design.errors import DesignError
+from ...design.modes import shared
 from ...design.pattern import Alt, Concat, Count, Empty, Mirror, Node, Pattern, Sym
 from ...design.tree import spellings
 
@@ -153,7 +154,7 @@ class _Measurer:
                 if not own_body.growth:
                     size, letters = self._spelled(node, {})
                     return Measure(size, int(letters), {}, own_body.open)
-                if mode not in ("", "~", "|"):
+                if shared(mode, 2):
                     raise _Nested
                 return own_body.times(2 * times if mode else times)
             case Alt() | Count():

@@ -16,7 +16,7 @@ __all__ = ["AnalysisView"]
 
 
 class AnalysisView(TraceView):
-    """Every pair of patterns with its common ends greyed, what follows, and what contradicts it in red."""
+    """Every pair of patterns: common ends in grey, the equation that follows; contradictions in red."""
 
     _shows = "analysis"
     _needs = ("analysis",)

@@ -17,14 +17,15 @@ __all__ = ["TraceModel"]
 
 
 class TraceModel(HasTraits):
-    """What the views of one solve share. Get it by `TraceModel.of`: there is one for each trace, or live model.
+    """What the views of one solve share. `TraceModel.of` gives it: there is one for each trace, and for each
+    model that is followed.
 
     Attributes
     ----------
     trace
-        The events; another one when the model that is followed has solved again.
+        The trace that is shown. Where a model is followed, each new solve puts another trace here.
     position
-        The event that was played last; -1: the end, whatever comes.
+        The number of the event that was played last; -1 is the end, also of a trace to come.
     picked
         The targets that the reader has picked, as the front end's links name them; most often empty.
     """
@@ -74,7 +75,7 @@ class TraceModel(HasTraits):
     def moment(self) -> str:
         """The position as text that survives small changes of the trace: axis, stage and offset, ``x/words+12``.
 
-        Setting it goes there. Raises ValueError for a text that is no moment of this trace.
+        Setting it moves all views there. A text that is no moment of this trace raises ValueError.
         """
         last = len(self.trace.events) - 1
         return moment_of(self.trace.events, last if self.position < 0 else min(self.position, last))
@@ -84,7 +85,7 @@ class TraceModel(HasTraits):
         self.position = locate(self.trace.events, moment)
 
     def pick(self, targets: Sequence[str] = ()) -> None:
-        """Pick targets in all views; none: nothing is picked."""
+        """Pick targets in all views; without arguments nothing is picked any more."""
         self.picked = list(targets)
 
     def _follow(self, trace: Trace) -> None:

@@ -23,7 +23,7 @@ _SMALL, _LETTER = 34.0, 20.0
 
 
 class NetworkView(TraceView):
-    """States as suffixes of the words, the automaton's steps, the closure's arcs with their weights, the path."""
+    """The alignment decision network: states, steps and weighted arcs, and the path that was chosen."""
 
     _shows = "network"
     _needs = ("network",)

@@ -37,7 +37,7 @@ class PlayerView(TraceView):
         return self.model.trace.timings()
 
     def to_html(self) -> str:
-        """A table of the stages with the last thing that each of them said."""
+        """A table of the stages, each with its last event as a sentence."""
         events = self.model.trace.events
         rows = [
             (

@@ -26,7 +26,7 @@ LARGEST = 120_000
 
 
 class TraceView(AnyWidget):
-    """A view of a solve; which one, says the class.
+    """A view of a solve; each subclass is another view.
 
     Parameters
     ----------
@@ -34,11 +34,12 @@ class TraceView(AnyWidget):
         A trace; a layout, or a `NoLayout`, with one; a `FacadeModel`, which is followed; a design, which is solved;
         or the `model` of another view. Views of one source share their moment.
     at
-        Where to begin, as `TraceModel.moment` tells it: ``x/words+12``; None: where other views are, at first the end.
+        The moment to begin at, written as `TraceModel.moment` is: ``x/words+12``. None: the moment of the other
+        views of this source; for the first view, the end.
     player
         Whether the view has a player of its own above it.
     predict
-        Whether it begins by hiding its answer and asking for it.
+        Whether the view begins with a question and hides the answer until the reader has predicted it.
 
     Attributes
     ----------

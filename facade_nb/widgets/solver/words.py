@@ -34,7 +34,8 @@ class WordsView(TraceView):
     tolerance
         μ in metres at which words are looked at, at most the solver's own; None: the solver's.
     step
-        Unsized symbols are sampled at multiples of so many metres, as in the paper's Figure 7; None: they are free.
+        Unsized symbols are sampled at multiples of this many metres, as in the paper's Figure 7; None: their
+        sizes are free.
     """
 
     _shows = "words"

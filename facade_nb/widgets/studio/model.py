@@ -53,16 +53,16 @@ class _Snapshot:
 
 
 class FacadeModel(Undoable[_Snapshot], HasTraits):
-    """A design, its last good layout, and what is to be said about them.
+    """A design that is being edited, with its last good layout and the messages about both.
 
     Parameters
     ----------
     design
         A `Design`, its JSON text or a path to it; without one, an empty canvas. Raises `DesignError` if it is at fault.
     time_limit
-        Seconds after which a solve gives the best layout it has.
+        Seconds after which a solve ends with the best layout found so far.
     solve
-        What solves; `facade_nb.solve` by default.
+        The function that solves; `facade_nb.solve` by default.
 
     Notes
     -----
@@ -118,7 +118,7 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
         Raises
         ------
         DesignError
-            If the outcome is not valid. Nothing has changed then.
+            If the new design is not valid; the model then keeps the design it had.
         """
         design = _valid(change if isinstance(change, Design) else change(self.design))
         self._take(_Snapshot(*_settle(design, self.drafts)), key=key)
@@ -159,7 +159,7 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
         Raises
         ------
         DesignError
-            With every fault of the document. Nothing has changed then.
+            With every fault of the document; the model then keeps the design it had.
         """
         self._take(_Snapshot(_read(source)), key=None)
         self.select()
@@ -186,7 +186,7 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
         return done
 
     def follow(self) -> None:
-        """Have `trace` from now on: what shows the solver at work asks for it, all others are spared it."""
+        """Record a `trace` of each solve from now on. Views of the solver ask for it."""
         if not self._traced:
             self._traced = True
             self._solve()

@@ -39,7 +39,7 @@ _FIRST = 2.0
 
 
 class Part(AnyWidget):
-    """A view of a model; which piece of it, says the class.
+    """A view of one part of a model; each subclass shows another part.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Part(AnyWidget):
     Attributes
     ----------
     model
-        The shared model: give it to other parts, and they all show one design.
+        The shared model. Give it to other parts, and all of them show the same design.
     """
 
     _esm = bundle("loader.js")

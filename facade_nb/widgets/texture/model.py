@@ -60,9 +60,9 @@ class TextureModel(Undoable[_Snapshot], HasTraits):
     text
         What was typed last. Nothing typed is lost.
     grammar
-        What was read of the last text without faults; None before the first.
+        The grammar of the last text without faults; None until there was one.
     faults
-        Of the text; empty if `grammar` is its.
+        Faults of the text; empty if `grammar` is what it says.
     point, ray
         The pixel that is looked into: metres on the façade, direction from the eye; None: none.
     derivation
@@ -115,7 +115,7 @@ class TextureModel(Undoable[_Snapshot], HasTraits):
         Raises
         ------
         TraitError
-            If the value cannot be. Nothing has changed then.
+            If the value is not a possible one; the model then keeps the value it had.
         """
         now = getattr(self, name)
         both = isinstance(now, tuple) and isinstance(value, tuple)
@@ -164,7 +164,7 @@ class TextureModel(Undoable[_Snapshot], HasTraits):
                 self.faults = ()
 
     def pick(self, point: Sequence[float] | None, ray: Sequence[float] | None = None) -> tuple[Step, ...]:
-        """Look into a point of the façade, straight on or along a ray; None: into none. Returns the derivation."""
+        """Choose the point that is looked into, straight on or along a ray; None: no point. Returns its steps."""
         with self.hold_trait_notifications():
             self.set_trait("point", None if point is None else tuple(map(float, point)))
             self.set_trait("ray", None if point is None or ray is None else tuple(map(float, ray)))

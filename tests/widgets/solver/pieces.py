@@ -1,4 +1,4 @@
-"""Write the pieces of some traces for the tests of the front end: ``python -m tests.widgets.pieces FOLDER``."""
+"""Write the pieces of some traces for the tests of the front end: ``python -m tests.widgets.solver.pieces FOLDER``."""
 
 from __future__ import annotations
 

@@ -12,7 +12,8 @@ vec4 enter(State now, inout int taken) {
   vec4 head = NOTHING;
   if (now.scope.z > now.scope.x && now.scope.w > now.scope.y) head = record(now.rule, 0);
 #ifdef COLOR_ONLY
-  if (int(head.r) >= OP_MAT && int(head.Mat_u) != USAGE_COLOR) head = NOTHING;
+  bool material = int(head.r) == OP_MAT || int(head.r) == OP_MATALPHA;
+  if (material && int(head.Mat_u) != USAGE_COLOR) head = NOTHING;
 #endif
   return taken > MAX_STEPS ? END : head;
 }

@@ -57,7 +57,7 @@ Surface evaluate(Question question) {
         head = enter(now, taken);
         code = int(head.r);
       }
-    } while (code != OP_END && code < OP_SKIPMASK || code == OP_NOTHING);
+    } while (divides(code) || passes(code) || chooses(code));
     if (code != OP_END) {
       bool more = true;
       if (code == OP_INTRUSION) intrusion(now, head);
