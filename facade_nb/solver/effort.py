@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf
 
-__all__ = ["ALIGNED", "SIZED", "SWEPT", "Effort", "Stopped", "spend"]
+__all__ = ["ALIGNED", "EXTENDED", "RELAXED", "SIZED", "SWEPT", "Effort", "Stopped", "spend"]
 
 _CALL = 5e-5
 """What is done between two looks at the clock takes so many seconds, about; in sweeps:"""
@@ -19,6 +19,9 @@ SWEPT = 6e-4
 ALIGNED = 3e-4
 """It takes so many to price an alignment in Python, and to size one:"""
 SIZED = 1e-3
+EXTENDED = 4e-5
+"""In the paper's search, to make a path longer by a column, and to bound one by a linear programme:"""
+RELAXED = 4e-4
 
 
 class Stopped(Exception):

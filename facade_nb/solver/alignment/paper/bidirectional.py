@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf
 
+from ...effort import RELAXED, spend
 from ...model.precision import EPS
 from ..bands import Band
 from ..elements import Option
@@ -150,6 +151,7 @@ class Meeting:
         key = tuple([column for _, column in half.laid()])
         known = side.relaxed.get(key)
         if known is None:
+            spend(self.check, RELAXED)
             relaxed = Relaxation(side, half)
             known = side.relaxed[key] = relaxed.value - _ERROR, relaxed.positive() - _ERROR
         bound, positive = known[0] + later, known[1] + later

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import inf
 
+from ...effort import EXTENDED, spend
 from ...model.precision import EPS
 from ..elements import Option
 from ..group import Group
@@ -166,6 +167,7 @@ class Side:
         )
         self.beyond = min(self.beyond, laid + beyond)
         for column in columns:
+            spend(lattice.check, EXTENDED)
             child = self._extend(half, column)
             if child is None:
                 continue
