@@ -38,7 +38,7 @@ export interface ViewKind {
   title: string;
   /** What it shows, in a line. */
   subtitle: string;
-  /** Pieces of the trace (visible/chunks.py). */
+  /** Pieces of the trace (widgets/solver/chunks.py). */
   needs: readonly string[];
   /** Pieces that it can do without: a page that was saved may not have them. */
   wants?: readonly string[];
