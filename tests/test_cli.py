@@ -42,7 +42,6 @@ def run(*arguments: str | Path, **environment: str) -> subprocess.CompletedProce
         text=True,
         encoding="utf-8",
         env=os.environ | environment,
-        timeout=120,
     )
 
 
@@ -297,5 +296,5 @@ def test_help_and_version() -> None:
 def test_a_closed_pipe(house: Path) -> None:
     """``… solve house.json | head -1``"""
     command = f'"{sys.executable}" -m facade_nb solve "{house}" | head -1'
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=120)
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
     assert done.stdout == "{\n" and "Traceback" not in done.stderr

@@ -2,31 +2,40 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
+from collections.abc import Iterable
 from functools import lru_cache
 
-__all__ = ["letters_in"]
+__all__ = ["MARKED", "class_of", "letters_in"]
 
-_MARKED = (range(0x80, 0x20000), range(0xE0000, 0xE1000))
-"""Where Unicode has marks; the other planes hold whole signs, which count as letters."""
+MARKED = (
+    range(0x80, 0x3400),
+    range(0xA000, 0xAC00),
+    range(0xD7B0, 0xD800),
+    range(0xF900, 0x12000),
+    range(0x16000, 0x17000),
+    range(0x1AFF0, 0x20000),
+    range(0xE0100, 0xE01F0),
+)
+"""Where Unicode has marks, and other forms of letters: not among ideographs and syllables."""
+
+
+def class_of(codes: Iterable[int]) -> str:
+    """What stands inside the brackets of a character class, for characters by their numbers, in order."""
+    runs: list[list[int]] = []
+    for code in codes:
+        if runs and runs[-1][1] == code - 1:
+            runs[-1][1] = code
+        else:
+            runs.append([code, code])
+    return "".join(f"\\U{low:08x}-\\U{high:08x}" if low < high else f"\\U{low:08x}" for low, high in runs)
 
 
 @lru_cache(maxsize=1)
 def _marks() -> str:
-    """What identifiers may go on with (XID_Continue) beyond letters and digits, as ranges of a character class."""
-    found = (c for part in _MARKED for c in part if c <= sys.maxunicode and f"a{chr(c)}".isidentifier())
-    beyond = [c for c in found if not chr(c).isalnum()]
-    return "".join(f"{chr(low)}-{chr(high)}" if high > low else chr(low) for low, high in _ranges(beyond))
-
-
-def _ranges(codes: list[int]) -> Iterator[tuple[int, int]]:
-    """First and last of each run of neighbours."""
-    start = 0
-    for k in range(1, len(codes) + 1):
-        if k == len(codes) or codes[k] != codes[k - 1] + 1:
-            yield codes[start], codes[k - 1]
-            start = k
+    """What identifiers may go on with (XID_Continue) beyond letters and digits."""
+    return class_of(
+        code for part in MARKED for code in part if not chr(code).isalnum() and f"a{chr(code)}".isidentifier()
+    )
 
 
 def letters_in(pattern: str) -> str:

@@ -12,6 +12,8 @@ from itertools import chain
 from unicodedata import category, decomposition, normalize
 from unicodedata import name as unicode_name
 
+from .letters import MARKED, class_of
+
 __all__ = ["described", "is_foreign", "is_unseen", "meant", "sign_classes"]
 
 _TABLE = {
@@ -48,16 +50,6 @@ _UNSEEN = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u3164\uffa0\ufe00-\ufe0f]"
 """Letters and marks that are not seen, besides format characters (Cf)."""
 
 _JOINERS = "\u200c\u200d"  # they shape words of Persian and of scripts of India
-
-_LOOKED_AT = (
-    (0x80, 0x3400),
-    (0xA000, 0xAC00),
-    (0xD7B0, 0xD800),
-    (0xF900, 0x12000),
-    (0x16000, 0x17000),
-    (0x1AFF0, 0x20000),
-)
-"""Where marks and other forms of letters are: not among ideographs and syllables."""
 
 
 def meant(sign: str) -> str:
@@ -102,21 +94,10 @@ def sign_classes() -> tuple[str, str]:
     """What stands in a character class of `re`: combining marks, and word characters that no name may have bare."""
     marks: list[int] = []
     foreign: list[int] = []
-    for code in chain.from_iterable(range(*span) for span in _LOOKED_AT):
+    for code in chain.from_iterable(MARKED):
         sign = chr(code)
         if category(sign)[0] == "M" and not is_unseen(sign):
             marks.append(code)
         elif (sign.isalnum() and is_foreign(sign)) or _UNSEEN.match(sign):
             foreign.append(code)
-    marks += range(0xE0100, 0xE01F0)  # which form of an ideograph is meant
-    return _ranges(marks), _ranges(foreign)
-
-
-def _ranges(codes: list[int]) -> str:
-    found: list[list[int]] = []
-    for code in codes:
-        if found and found[-1][1] == code - 1:
-            found[-1][1] = code
-        else:
-            found.append([code, code])
-    return "".join(f"\\U{low:08x}-\\U{high:08x}" if low < high else f"\\U{low:08x}" for low, high in found)
+    return class_of(marks), class_of(foreign)

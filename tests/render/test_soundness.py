@@ -127,7 +127,6 @@ def test_files_are_valid(tmp_path: Path, root: Path) -> None:
         capture_output=True,
         text=True,
         check=True,
-        timeout=240,
     )
     told = json.loads(done.stdout)
     assert len(told) == len(files) > 13
@@ -148,7 +147,6 @@ def test_the_validator_finds_faults(tmp_path: Path, root: Path) -> None:
         capture_output=True,
         text=True,
         check=True,
-        timeout=240,
     )
     (messages,) = json.loads(done.stdout).values()
     assert [message["code"] for message in messages] == ["ACCESSOR_VECTOR3_NON_UNIT"]

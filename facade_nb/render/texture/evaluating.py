@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from .atlas import Atlas
 from .batch import Batch, Floats, joined
-from .dividing import half_step, repeated, split
+from .dividing import half_step, pick, repeated, split
 from .encoding import Record
 from .limits import MAX_STEPS
 from .noise import Seed, look_up, steps_of
@@ -235,23 +235,21 @@ class _Run:
         """
         place, low, high = batch.span(axis)
         at = np.clip(place - low, 0, (high - low) * BELOW_ONE)
-        found = split(record, at, low, high, batch.slack[axis], self.bits)
         onward = []
-        for k, target in enumerate(record.targets):
-            for chosen, some in _those(found.part, k, batch):
-                start, end, slack = found.of(k, chosen)
-                if record.count > 1:
-                    self._near(some, at[chosen] - start, end - start)
-                lowest = _pick(low, chosen)
-                ours = some.within(axis, lowest + start, lowest + end, slack)
-                onward.append((target, ours))
-                if self.steps is not None:
-                    bounds = tuple(float(v[0]) for v in ours.span(axis)[1:])
-                    read = (*record.head_places, *record.pixels(0, k))
-                    here = self._here(rule, batch, read)
-                    self.steps.append(
-                        Divided(**here, part=k, count=record.count, low=bounds[0], high=bounds[1])
-                    )
+        for part in split(record, at, low, high, batch.slack[axis], self.bits):
+            some = batch if isinstance(part.chosen, slice) else batch.take(part.chosen)
+            if record.count > 1:
+                self._near(some, at[part.chosen] - part.start, part.end - part.start)
+            lowest = pick(low, part.chosen)
+            ours = some.within(axis, lowest + part.start, lowest + part.end, part.slack)
+            onward.append((record.targets[part.number], ours))
+            if self.steps is not None:
+                bounds = tuple(float(v[0]) for v in ours.span(axis)[1:])
+                read = (*record.head_places, *record.pixels(0, part.number))
+                here = self._here(rule, batch, read)
+                self.steps.append(
+                    Divided(**here, part=part.number, count=record.count, low=bounds[0], high=bounds[1])
+                )
         return onward
 
     def _repeat(self, rule: int, record: Record, batch: Batch, axis: int) -> list[tuple[int, Batch]]:
@@ -393,7 +391,7 @@ class _Run:
         for k, target in enumerate(record.targets):
             for chosen, some in _those(face, k, batch):
                 hx, hy, hz, ax, ay, az, w, h = (
-                    _pick(v, chosen) for v in (x, y, z, dx, dy, into, width, height)
+                    pick(v, chosen) for v in (x, y, z, dx, dy, into, width, height)
                 )
                 u, v = ((hz, hy), (hx, hy), (depth - hz, hy), (hx, hz), (hx, depth - hz))[k]
                 wide, tall = ((depth, h), (w, h), (depth, h), (w, depth), (w, depth))[k]
@@ -405,7 +403,7 @@ class _Run:
                     right=some.left + wide,
                     top=some.bottom + tall,
                     ray=ray,
-                    footprint=some.footprint + self.spread * _pick(far, chosen),
+                    footprint=some.footprint + self.spread * pick(far, chosen),
                     slack=(own if k in (0, 2) else some.slack[0], own if k in (3, 4) else some.slack[1]),
                     shift=batch.shift + k + 1,
                     faces=(*batch.faces, k + 1),
@@ -533,11 +531,6 @@ def _those(part: NDArray[Any], k: int, batch: Batch) -> list[tuple[Any, Batch]]:
     if not len(chosen):
         return []
     return [(slice(None), batch) if len(chosen) == len(batch) else (chosen, batch.take(chosen))]
-
-
-def _pick(values: Floats, chosen: Any) -> Floats:
-    """The values of some points; what is the same for all points stays one."""
-    return values[chosen] if len(values) > 1 else values
 
 
 def _turned(value: Floats, faces: Sequence[int]) -> Floats:

@@ -20,7 +20,7 @@ _SIZES = {
 
 
 class StandIn:
-    """Tiles as `facade_nb.render.texture.Atlas` asks for them."""
+    """Tiles as `facade_nb.render.texture.atlas.Atlas` asks for them."""
 
     def __init__(self) -> None:
         self._images: dict[str, NDArray[np.uint8]] = {}

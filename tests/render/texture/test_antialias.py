@@ -101,7 +101,7 @@ def test_tiles_far_away_do_not_alias() -> None:
 )
 def test_tiles_seen_along_the_wall_do_not_alias(material: str, backend: str) -> None:
     """A pixel is a long ellipse there: a size of the tile that fits across it is too sharp along it."""
-    asked = question(f"S -> RepeatX(0.4, T)\nT -> RepeatY(0.4, U)\nU -> Mat(Color, {material})")
+    asked = question(f"S -> RepeatX(0.4, T)\nT -> RepeatY(0.37, U)\nU -> Mat(Color, {material})")
     sight = Sight.from_eye((-1.5, 1.5, 0.3), (3.0, 2.0), (5, 4), (75, 60), 50)
     painter, wanted = PAINTERS[backend], truth(asked, sight)
     errors = {how: error(smoothed(painter, asked, sight, how), wanted) for how in ANTIALIAS}

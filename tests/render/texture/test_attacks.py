@@ -204,7 +204,7 @@ def test_what_editors_leave(text: str) -> None:
 
 
 @given(st.data())
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_mangled_grammars(data: st.DataObject) -> None:
     text = list(FIGURE_12 + "\nnamespace n {\nw = 1\nP(a = w) -> Layer(a)\n}\nnamespace m = n(w = 2)")
     odd = [

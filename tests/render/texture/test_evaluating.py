@@ -26,7 +26,7 @@ def points(count: int, size: tuple[float, float] = SIZE, seed: int = 1) -> np.nd
 
 
 @given(grammar_texts(), rays(), st.tuples(st.integers(-999, 999), st.integers(-999, 999)), st.integers(0, 9))
-@settings(max_examples=250)
+@settings(max_examples=120)
 def test_as_the_brute_force_evaluator(
     text: str, ray: tuple[float, float, float], steps: tuple[int, int], number: int
 ) -> None:

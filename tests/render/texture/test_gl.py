@@ -76,7 +76,7 @@ def seen() -> Iterator[Counter[str]]:
 
 class TestEqual:
     @given(text=grammar_texts(rules=12), ray=rays(), seed=seeds, number=st.integers(0, 9))
-    @settings(max_examples=400)
+    @settings(max_examples=150)
     def test_random_grammars(
         self,
         text: str,
@@ -262,7 +262,7 @@ class TestSizesOfTiles:
         ),
         seed=seeds,
     )
-    @settings(max_examples=150)
+    @settings(max_examples=60)
     def test_random_grammars_with_a_camera(
         self, text: str, eye: tuple[float, float, float], seed: tuple[float, float]
     ) -> None:
@@ -413,29 +413,27 @@ if egl.available:
     print((shots[0].rule != shots[1].rule).sum(), np.abs(shots[0].color - shots[1].color).max() < 1e-3)
 """
         root = Path(__file__).parents[3]
-        done = subprocess.run(
-            [sys.executable, "-c", code], capture_output=True, text=True, cwd=root, timeout=200
-        )
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=root)
         assert done.returncode == 0, done.stderr
         assert done.stdout == "\n0 True\n" or done.stdout.startswith("egl: "), done.stdout
         assert done.stdout.startswith("egl: ") != EGL.available
 
-    def test_a_thousand_renders_leak_nothing(self) -> None:
+    def test_renders_leak_nothing(self) -> None:
         grammar = Grammar.parse(FIGURE_12, stand_in())
 
         def render(times: int) -> None:
             for k in range(times):
-                render_texture(grammar, size=(12, 9), pixels=(64, 48), seed=(k, 0), backend="osmesa")
+                render_texture(grammar, size=(12, 9), pixels=(96, 72), seed=(k, 0), backend="osmesa")
 
         def memory() -> int:
             gc.collect()
             return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
-        render(150)  # caches of the driver and of Python fill
+        render(100)  # caches of the driver and of Python fill
         before, files = memory(), len(list(Path("/proc/self/fd").iterdir()))
-        render(1000)
+        render(300)
         assert len(list(Path("/proc/self/fd").iterdir())) == files
-        assert memory() - before < 4_000_000  # one texture of each render would be over 12 MB
+        assert memory() - before < 4_000_000  # one texture of each render would be over 8 MB
 
     def test_too_large_a_picture(self) -> None:
         question = Grammar.parse("S -> Skip(0)").question((1, 1))

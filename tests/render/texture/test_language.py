@@ -311,7 +311,7 @@ class TestFaults:
 
 
 @given(st.data())
-@settings(max_examples=150)
+@settings(max_examples=60)
 def test_a_text_with_slips_is_read_or_refused(data: st.DataObject) -> None:
     """Pieces are cut out, doubled, or replaced: never anything but a grammar or faults with their place."""
     text = (

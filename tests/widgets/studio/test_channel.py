@@ -14,9 +14,9 @@ from ipywidgets import Widget
 
 from facade_nb import Design, Layout, solve
 from facade_nb.widgets import FacadeModel, PatternEditor, Studio
+from facade_nb.widgets.studio import channel
 from facade_nb.widgets.studio.channel import Channel
 from facade_nb.widgets.studio.fields import apply
-from facade_nb.widgets.studio.studio import channel
 from facade_nb.widgets.studio.wire import describe_design, layers_from_top
 
 from ..houses import house

@@ -11,7 +11,7 @@ void divide(inout State now, vec4 head, int code) {
   bool along_y = code == OP_SPLITY || code == OP_REPEATY;
   vec2 span = along_y ? now.scope.yw : now.scope.xz;
   float slack = along_y ? now.slack.y : now.slack.x;
-  float grain = max(abs(span.x), abs(span.y)) * GRAIN;
+  float grain = span.y * GRAIN;
   float size = span.y - span.x;
   float at = clamp((along_y ? now.at.y : now.at.x) - span.x, 0.0, size * BELOW_ONE);
   float start = 0.0;

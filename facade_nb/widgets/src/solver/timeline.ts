@@ -79,7 +79,7 @@ export class Timeline {
     return this.data.stages.find((own) => own.stage === stage && own.axis === axis)?.first ?? 0;
   }
 
-  /** A position as text: the axis, the stage, and how many events into it, `x/words+12` (visible/timeline.py). */
+  /** A position as text: the axis, the stage, and how many events into it, `x/words+12` (widgets/solver/timeline.py). */
   momentOf(position: number): string {
     const at = this.stageAt(position);
     const own = this.data.stages[at];

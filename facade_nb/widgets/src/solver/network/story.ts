@@ -35,7 +35,7 @@ export interface PathNote {
   number: number;
 }
 
-/** Steps of all networks, one after the other; `offset` says where the places of each begin (visible/networks.py). */
+/** Steps of all networks, one after the other; `offset` says where the places of each begin (widgets/solver/networks.py). */
 export interface Steps {
   at: Int32Array;
   network: Int16Array;
