@@ -10,7 +10,7 @@ from playwright.sync_api import Page
 
 __all__ = ["LIMIT", "eventually", "frames", "until"]
 
-LIMIT = float(__import__("os").environ.get("LIM", 180))
+LIMIT = 180.0
 """Seconds after which something is held to never come; what comes is waited for no longer than it takes."""
 
 Value = TypeVar("Value")
