@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from .conftest import HOUSE, Visit
+from .conftest import HOUSE, Served, Visit
 from .gate import Gate
-from .jupyter import App, Notebook, serve
+from .jupyter import App, Notebook
 from .waiting import LIMIT, frames
 
 SOME = """
@@ -36,6 +36,7 @@ display(
     GrammarEditor(texture), GrammarTable(texture), PixelInspector(texture),
 )
 """
+NAME = "lost.ipynb"  # on the server of the other tests
 KERNEL = "window.jupyterapp.shell.currentWidget.sessionContext.session.kernel"
 RED = "S -> Mat(Color, 0, 1, 0, 0, 1)"
 SESSION = "window.jupyterapp.shell.currentWidget.sessionContext"
@@ -67,7 +68,7 @@ class Server:
     def show(self, code: str, views: int) -> None:
         """Run the notebook's cell, with a kernel, and wait for all views."""
         if self.ended:
-            self.lab.open("0")  # the page would ask which kernel to start
+            self.lab.open("0", NAME)  # the page would ask which kernel to start
             self.ended = False
         self.page.evaluate(f"() => {KERNEL}.info")
         self.lab.run(HOUSE + code)
@@ -132,14 +133,15 @@ ENDS: dict[End, str] = {
 
 
 @pytest.fixture(scope="module")
-def opened(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
-    root = tmp_path_factory.mktemp("lost")
-    with serve(root, "lab") as (address, token), Gate(address) as gate, browser.new_page() as page:
+def opened(browser: Browser, served: Served) -> Iterator[Server]:
+    address, token, root = served("lab")
+    with Gate(address) as gate, browser.new_page() as page:
         page.set_viewport_size({"width": 1400, "height": 1000})
         lab = Notebook(page, gate.address, token, root, "lab")
-        lab.open("0")
+        lab.open("0", NAME)
         page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
         yield Server(lab, gate, address, token)
+        lab.end()
 
 
 @pytest.fixture

@@ -224,18 +224,18 @@ def test_views_that_act_in_the_browser_do_so(opened: tuple[Marimo, Theme]) -> No
     assert found.take_problems() == []
 
 
-def test_a_server_that_ends_is_told(browser: Browser, tmp_path: Path) -> None:
-    with marimo(browser, tmp_path, "light") as found:
-        page = found.page
-        field = page.get_by_label("Pattern Bx", exact=True)
-        field.click()
-        page.keyboard.press("End")
-        os.killpg(found.server.pid, signal.SIGKILL)
-        page.keyboard.type(" A")
-        expect(page.locator(".fnb-absence:visible")).to_have_count(VIEWS)
-        expect(page.get_by_text("Solved in")).to_have_count(0)
-        expect(field).to_have_value("A(BA)^k A")
-        expect(field).to_have_attribute("readonly", "")
+def test_a_server_that_ends_is_told(opened: tuple[Marimo, Theme]) -> None:
+    found, _ = opened  # no test after this one can use it
+    page = found.page
+    field = page.get_by_label("Pattern Bx", exact=True)
+    field.click()
+    page.keyboard.press("End")
+    os.killpg(found.server.pid, signal.SIGKILL)
+    page.keyboard.type(" A")
+    expect(page.locator(".fnb-absence:visible")).to_have_count(VIEWS)
+    expect(page.get_by_text("Solved in")).to_have_count(0)
+    expect(field).to_have_value("A(BA)^k A")
+    expect(field).to_have_attribute("readonly", "")
 
 
 def run_again(page: Page, number: int) -> None:
