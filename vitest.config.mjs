@@ -4,6 +4,9 @@ export default defineConfig({
   test: {
     environment: "jsdom",
     globalSetup: "facade_nb/widgets/test/solver/pieces.ts",
+    // A busy machine makes a test later, and nothing else: what ends it is that it hangs.
+    testTimeout: 180_000,
+    hookTimeout: 180_000,
     include: ["{facade_nb/widgets,tests}/**/*.test.ts"],
   },
 });

@@ -3,6 +3,7 @@
 python scripts/notebooks.py [NAME ...]     all that have widgets, or those named: solver, how-the-solver-thinks
 """
 
+import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -26,6 +27,17 @@ def paths(names: Sequence[str]) -> list[Path]:
     return [every[name] for name in names or (*WIDGETS, *(path.stem for path in tutorials))]
 
 
+def write(notebook: nbformat.NotebookNode, path: Path) -> None:
+    """Save a notebook, its widgets in one line: nobody reads them, and they take less room."""
+    widgets = notebook.metadata.get("widgets")
+    here = "the widgets"
+    if widgets is not None:
+        notebook.metadata["widgets"] = here
+    text = nbformat.writes(notebook) + "\n"
+    packed = json.dumps(widgets, ensure_ascii=False, sort_keys=True, separators=(",", ":"))
+    path.write_text(text.replace(f'"widgets": "{here}"', f'"widgets": {packed}'), encoding="utf-8")
+
+
 def main(names: Sequence[str]) -> None:
     for path in paths(names):
         notebook = nbformat.read(path, as_version=4)
@@ -38,7 +50,7 @@ def main(names: Sequence[str]) -> None:
             cell.metadata.pop("execution", None)
         if path.stem in STATIC:
             notebook.metadata.pop("widgets", None)
-        nbformat.write(notebook, path)
+        write(notebook, path)
         print(f"{path.relative_to(ROOT)}  {path.stat().st_size / 1000:.1f} kB")
 
 

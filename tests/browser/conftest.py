@@ -31,6 +31,7 @@ def traced(name, **more):
 """
 
 Watch = Callable[[str], Notebook]
+Served = Callable[[App], tuple[str, str, Path]]
 Visit = Callable[[App], contextlib.AbstractContextManager[Notebook]]
 
 
@@ -50,8 +51,8 @@ def pages(browser: Browser) -> BrowserContext:
 
 
 @pytest.fixture(scope="session")
-def visit(pages: BrowserContext, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Visit]:
-    """Open a page of an application, for `with`; each has one server, started when it is first asked for."""
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """Address, token and root of an application's server; each is started when it is first asked for."""
     with contextlib.ExitStack() as stack:
 
         @functools.cache
@@ -59,14 +60,21 @@ def visit(pages: BrowserContext, tmp_path_factory: pytest.TempPathFactory) -> It
             root = tmp_path_factory.mktemp(app)
             return *stack.enter_context(serve(root, app)), root
 
-        @contextlib.contextmanager
-        def visiting(app: App) -> Iterator[Notebook]:
-            with pages.new_page() as page:
-                notebook = Notebook(page, *server(app), app)
-                yield notebook
-                notebook.end()
+        yield server
 
-        yield visiting
+
+@pytest.fixture(scope="session")
+def visit(pages: BrowserContext, served: Served) -> Visit:
+    """Open a page of an application, for `with`."""
+
+    @contextlib.contextmanager
+    def visiting(app: App) -> Iterator[Notebook]:
+        with pages.new_page() as page:
+            notebook = Notebook(page, *served(app), app)
+            yield notebook
+            notebook.end()
+
+    return visiting
 
 
 @pytest.fixture(scope="session")

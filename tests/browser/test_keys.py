@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, CDPSession, Locator, expect
+from playwright.sync_api import CDPSession, Locator, expect
 
-from .conftest import HOUSE
-from .jupyter import App, Notebook, serve
+from .conftest import HOUSE, Visit
+from .jupyter import App, Notebook
 
 WALL = "S -> Mat(Color, 0, 1, 0, 0, 1)"
 SHOWN = f"""
@@ -346,15 +346,15 @@ def test_letters_typed_after_undo_stay_when_the_kernel_is_slow(both: Notebook, e
 
 
 @pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_keys_in_other_applications(browser: Browser, tmp_path: Path, app: App) -> None:
-    with serve(tmp_path, app) as (address, token), browser.new_page() as page:
-        notebook = Notebook(page, address, token, tmp_path, app)
+def test_keys_in_other_applications(visit: Visit, app: App) -> None:
+    with visit(app) as notebook:
+        page = notebook.page
         notebook.open(HOUSE + SHOWN + "display(PatternEditor(model), GrammarEditor(texture))")
         if app == "notebook":
             notebook.run()
         for label in EDITORS:
             field = notebook.field(label)
-            expect(field).to_be_visible(timeout=60_000)
+            expect(field).to_be_visible()
             before = field.input_value()
             at_end(notebook, label)
             page.keyboard.press("Enter")

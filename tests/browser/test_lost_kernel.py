@@ -13,13 +13,15 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from .conftest import HOUSE
+from .conftest import HOUSE, Served, Visit
 from .gate import Gate
-from .jupyter import App, Notebook, serve
+from .jupyter import App, Notebook
+from .waiting import LIMIT, frames
 
 SOME = """
 from IPython.display import display
-display(Studio(model), GrammarEditor("S -> Mat(Color, 0, 1, 0, 0, 1)"))
+texture = TextureModel("S -> Mat(Color, 0, 1, 0, 0, 1)")
+display(Studio(model), GrammarEditor(texture))
 """
 ALL = """
 from IPython.display import display
@@ -34,7 +36,9 @@ display(
     GrammarEditor(texture), GrammarTable(texture), PixelInspector(texture),
 )
 """
+NAME = "lost.ipynb"  # on the server of the other tests
 KERNEL = "window.jupyterapp.shell.currentWidget.sessionContext.session.kernel"
+RED = "S -> Mat(Color, 0, 1, 0, 0, 1)"
 SESSION = "window.jupyterapp.shell.currentWidget.sessionContext"
 
 
@@ -54,7 +58,7 @@ class Server:
         headers = {"Authorization": f"token {self._token}"}
         data = b"{}" if method == "POST" else None
         request = urllib.request.Request(self._address + path, method=method, headers=headers, data=data)
-        return urllib.request.urlopen(request, timeout=30).read().decode()
+        return urllib.request.urlopen(request, timeout=LIMIT).read().decode()
 
     @property
     def kernel(self) -> str:
@@ -64,11 +68,11 @@ class Server:
     def show(self, code: str, views: int) -> None:
         """Run the notebook's cell, with a kernel, and wait for all views."""
         if self.ended:
-            self.lab.open("0")  # the page would ask which kernel to start
+            self.lab.open("0", NAME)  # the page would ask which kernel to start
             self.ended = False
         self.page.evaluate(f"() => {KERNEL}.info")
         self.lab.run(HOUSE + code)
-        expect(self.page.locator(".fnb")).to_have_count(views, timeout=60_000)
+        expect(self.page.locator(".fnb")).to_have_count(views)
         self.said = self.page.locator(".fnb-absence:visible")
         self.views = views
         expect(self.said).to_have_count(0)
@@ -129,14 +133,15 @@ ENDS: dict[End, str] = {
 
 
 @pytest.fixture(scope="module")
-def opened(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
-    root = tmp_path_factory.mktemp("lost")
-    with serve(root, "lab") as (address, token), Gate(address) as gate, browser.new_page() as page:
+def opened(browser: Browser, served: Served) -> Iterator[Server]:
+    address, token, root = served("lab")
+    with Gate(address) as gate, browser.new_page() as page:
         page.set_viewport_size({"width": 1400, "height": 1000})
         lab = Notebook(page, gate.address, token, root, "lab")
-        lab.open("0")
+        lab.open("0", NAME)
         page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
         yield Server(lab, gate, address, token)
+        lab.end()
 
 
 @pytest.fixture
@@ -189,12 +194,23 @@ def test_however_the_kernel_ends_it_is_said_and_what_was_typed_is_kept(server: S
     assert page.evaluate(LOOSE) == []
 
 
+@pytest.mark.parametrize("end", [restarted_in_the_menu, restarted_elsewhere], ids=lambda end: end.__name__)
+def test_a_cell_that_is_run_again_has_views_that_are_heard(server: Server, end: End) -> None:
+    end(server)
+    expect(server.said).to_have_count(server.views)
+    server.show(SOME, 2)
+    typed(server.page, "Pattern Bx", " A")
+    server.lab.expect_python("model.design.patterns['Bx'].text", "A(BA)^k A")
+    typed(server.page, "Grammar", " # A")
+    server.lab.expect_python("texture.text", f"{RED} # A")
+
+
 def test_every_part_says_it_and_can_be_pressed_without_errors(opened: Server) -> None:
     opened.show(ALL, 17)
     page = opened.page
     expect(page.locator(".fnb-solver .fnb-view").first).to_be_visible()
-    expect(page.locator(".fnb-tex-canvas")).to_have_attribute("data-state", "sharp", timeout=60_000)
-    expect(page.locator(".fnb-massing canvas")).to_be_visible(timeout=30_000)
+    expect(page.locator(".fnb-tex-canvas")).to_have_attribute("data-state", "sharp")
+    expect(page.locator(".fnb-massing canvas")).to_be_visible()
     restarted_elsewhere(opened)
     expect(opened.said).to_have_count(17)
     assert page.evaluate(LOOSE) == []
@@ -231,17 +247,17 @@ def press_everything(page: Page) -> None:
     page.mouse.up()
     page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     page.mouse.wheel(0, 40)
-    page.wait_for_timeout(300)
+    frames(page, 3)
 
 
 @pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_a_killed_kernel_is_told_in_other_applications(browser: Browser, tmp_path: Path, app: App) -> None:
-    with serve(tmp_path, app) as (address, token), browser.new_page() as page:
-        notebook = Notebook(page, address, token, tmp_path, app)
+def test_a_killed_kernel_is_told_in_other_applications(visit: Visit, app: App) -> None:
+    with visit(app) as notebook:
+        page = notebook.page
         notebook.open(HOUSE + "import os; print('pid', os.getpid(), '.')\nStudio(model)")
         if app == "notebook":
             notebook.run()
-        expect(page.locator("[data-shape]").first).to_be_visible(timeout=60_000)
+        expect(page.locator("[data-shape]").first).to_be_visible()
         expect(page.locator(".fnb-absence:visible")).to_have_count(0)
         [pid] = re.findall(r"pid (\d+)", page.get_by_text("pid ").last.inner_text())
         os.kill(int(pid), signal.SIGKILL)
@@ -249,22 +265,34 @@ def test_a_killed_kernel_is_told_in_other_applications(browser: Browser, tmp_pat
         expect(notebook.field("Pattern Bx")).to_have_attribute("readonly", "")
 
 
-def test_a_view_that_is_made_later_shows_what_was_typed_too(server: Server) -> None:
+def test_views_that_are_made_later_show_what_was_typed_too(server: Server, out: Path) -> None:
     page = server.page
     server.busy()
     typed(page, "Pattern Bx", " A")
+    typed(page, "Grammar", " # A")
     restarted_elsewhere(server)
     expect(server.said).to_have_count(server.views)
     page.evaluate(
+        "() => { for (const own of document.querySelectorAll('.fnb')) own.dataset.before = 'yes'; }"
+    )
+    page.evaluate(
         """() => {
             const panel = window.jupyterapp.shell.currentWidget;
-            const output = panel.content.widgets[0].outputArea;
-            output.model.set(0, output.model.get(0).toJSON());
+            const { model } = panel.content.widgets[0].outputArea;
+            for (let k = 0; k < model.length; k++) model.set(k, model.get(k).toJSON());
         }"""
     )
+    expect(page.locator(".fnb[data-before]")).to_have_count(0)
     expect(server.said).to_have_count(server.views)
-    for field in page.get_by_label("Pattern Bx", exact=True).all():
-        expect(field).to_have_value("A(BA)^k A")
+    expect(page.get_by_label("Pattern Bx", exact=True)).to_have_value("A(BA)^k A")
+    expect(page.get_by_label("Grammar", exact=True)).to_have_value(f"{RED} # A")
+    for text in server.said.all_inner_texts():
+        assert "What was typed last has not reached it" in text, text
+    for theme in ("Dark", "Light"):
+        server.lab.theme(f"JupyterLab {theme}")  # type: ignore[arg-type]
+        expect(page.locator(f".fnb[data-theme={theme.lower()}]")).to_have_count(server.views)
+        for name in ("part-studio", "texture"):
+            page.locator(f".fnb-{name}").screenshot(path=out / f"lost-{name}-{theme.lower()}.png")
 
 
 def test_after_a_gap_in_the_connection_what_was_typed_is_sent(server: Server) -> None:
@@ -275,9 +303,11 @@ def test_after_a_gap_in_the_connection_what_was_typed_is_sent(server: Server) ->
         assert text.startswith("No connection to the kernel."), text
     assert page.evaluate(LOOSE) == []
     gate.open()
-    expect(server.said).to_have_count(0, timeout=60_000)
+    expect(server.said).to_have_count(0)
     typed(page, "Pattern Bx", " A")
     server.lab.expect_python("model.design.patterns['Bx'].text", "A(BA)^k A")
+    typed(page, "Grammar", " # A")
+    server.lab.expect_python("texture.text", f"{RED} # A")
     server.take_problems()  # the application tells of the gap itself
 
 
@@ -285,12 +315,17 @@ def test_what_was_under_way_when_the_connection_broke_arrives_once(server: Serve
     page, gate = server.page, server.gate
     gate.hold()  # nothing gets through any more, and the page does not know it yet
     typed(page, "Pattern Bx", " A")
+    typed(page, "Grammar", " # A")
     gate.shut()
     expect(server.said).to_have_count(server.views)
     expect(page.get_by_label("Pattern Bx", exact=True).first).to_have_value("A(BA)^k A")
+    expect(page.get_by_label("Grammar", exact=True)).to_have_value(f"{RED} # A")
     gate.open()
-    expect(server.said).to_have_count(0, timeout=60_000)
+    expect(server.said).to_have_count(0)
     server.lab.expect_python("model.design.patterns['Bx'].text", "A(BA)^k A")
+    server.lab.expect_python("texture.text", f"{RED} # A")
+    page.keyboard.press("Control+z")
+    server.lab.expect_python("texture.text", RED)
     expect(page.get_by_label("Pattern Bx", exact=True).first).to_have_value("A(BA)^k A")
     server.take_problems()
 
@@ -301,5 +336,5 @@ def test_a_kernel_that_was_restarted_behind_a_gap_is_not_taken_for_the_old_one(s
     restarted_elsewhere(server)
     server.gate.open()
     notices = server.page.get_by_text("The kernel was restarted.")
-    expect(notices).to_have_count(server.views, timeout=60_000)
+    expect(notices).to_have_count(server.views)
     server.take_problems()

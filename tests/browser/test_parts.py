@@ -164,3 +164,26 @@ def test_the_studio_notebook_shows_its_saved_state_and_then_runs(visit: Visit) -
         expect(page.locator(".fnb-status-line")).to_contain_text("Solved in")
         expect(notebook.field("Canvas width in metres")).to_have_value("8")
         assert notebook.take_problems() == []
+
+
+LOOKS = """part => [...document.querySelectorAll(`.fnb-${part} *`)].map(e => {
+    const { padding, borderRadius, borderWidth, display, fontSize, height } = getComputedStyle(e);
+    return [e.className, padding, borderRadius, borderWidth, display, fontSize, e.checkVisibility() && height];
+})"""
+
+
+def test_a_part_looks_the_same_beside_those_of_other_bundles(show: Show) -> None:
+    looks = {}
+    for code in (
+        "Studio(model)",
+        "GrammarEditor('S -> Skip(0)')",
+        "from IPython.display import display\ndisplay(Studio(model), GrammarEditor('S -> Skip(0)'))",
+        "from IPython.display import display\ndisplay(GrammarEditor('S -> Skip(0)'), Studio(model))",
+    ):
+        lab = show(code)
+        if "Studio" in code:
+            expect(lab.page.locator("[data-shape]")).to_have_count(17)
+        for part in ("part-studio .fnb-toolbar", "part-studio .fnb-panel", "texture-editor"):
+            if found := lab.page.evaluate(LOOKS, part):
+                assert found == looks.setdefault(part, found), code
+    assert len(looks) == 3

@@ -242,7 +242,7 @@ def test_the_code_of_what_is_played(watch: Watch) -> None:
     expect(page.locator(".fnb-code-text")).to_contain_text("def words_judged(")
     lab.button("x: Sizing").click()
     expect(page.locator(".fnb-code-title")).to_contain_text(
-        "solver.sizing.size_axis · facade_nb/solver/sizing/system.py"
+        "solver.sizing.system.size_axis · facade_nb/solver/sizing/system.py"
     )
     page.locator(".fnb-event", has_text="ActiveSetStep").first.click()
     expect(page.locator(".fnb-code-title")).to_contain_text("solver.trace.active_set.steps")

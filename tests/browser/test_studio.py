@@ -343,7 +343,7 @@ def test_save_and_open(studio: Notebook, tmp_path: Path) -> None:
     faulty = tmp_path / "faulty.json"
     faulty.write_text(saved.read_text().replace('"width": 6.0', '"width": "<b>wide</b>"'))
     page.locator("input[type=file]").set_input_files(faulty)
-    notice = page.locator(".fnb-notice")
+    notice = page.locator(".fnb-notices .fnb-notice")
     expect(notice).to_contain_text("canvas.width")
     expect(notice).to_contain_text("<b>wide</b>")
     assert notice.locator("b").count() == 0

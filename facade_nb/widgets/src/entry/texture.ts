@@ -43,7 +43,8 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   el.append(root);
   const trouble = h("pre", { class: "fnb-tex-trouble", role: "alert", hidden: true });
   root.append(make(), trouble);
-  absence(root, session.kernel, end.signal, { what: "façade", needs: EDITS, unsent: () => session.waits });
+  const what = part === "view" ? "façade" : "grammar";
+  absence(root, session.kernel, end.signal, { what, needs: EDITS, unsent: () => session.waits });
   session.hold(() => {
     trouble.textContent = session.trouble;
     trouble.hidden = !session.trouble;

@@ -4,6 +4,7 @@
 import { h, mark } from "./dom.ts";
 import { icon } from "./icons.ts";
 import type { Kernel } from "./kernel.ts";
+import { historyKey, isHosts } from "./keys.ts";
 
 const TEXTS = 'textarea, input:not([type]), input[type="text"], input[type="search"], input[type="number"]';
 const CONTROLS = 'button, select, input, textarea, [role="slider"]';
@@ -52,14 +53,14 @@ export function absence(root: HTMLElement, kernel: Kernel, signal: AbortSignal, 
     if (kernel.live || kernel.presence === "saved") return;
     const control = held(event.target);
     if (!control) return;
-    // A text can be walked through and copied; but nothing of ours must read the keys.
+    // A text can be walked through and copied, and the host has its keys; but nothing of ours must read the others.
     const text = control.matches(TEXTS);
-    if (text && event instanceof MouseEvent) return;
+    const key = event instanceof KeyboardEvent ? event : null;
+    if (key ? isHosts(key) : text && event instanceof MouseEvent) return;
     event.stopPropagation();
     if (event.type === "change") control.setAttribute("data-changed", "");
-    const key = event instanceof KeyboardEvent ? event : null;
     // The browser's own undo would move the caret, in a field that it may not write to.
-    const undoes = !!key && (key.ctrlKey || key.metaKey) && (/^[zy]$/i.test(key.key) || /^Key[ZY]$/.test(key.code));
+    const undoes = !!key && historyKey(key) !== null;
     if (undoes || (!text && key?.key !== "Tab")) event.preventDefault();
   };
   for (const name of ["keydown", "pointerdown", "mousedown", "click", "input", "change", "drop"])

@@ -1,13 +1,13 @@
 // Fields that edit one place of the design. A field shows its draft where there is one, else the design's value, and is
 // never written to while Python has not answered what was typed in it.
 
-import { h, mark, setText } from "./dom.ts";
+import { focused, h, mark, setText } from "./dom.ts";
 import { type IconName, icon } from "./icons.ts";
 import { historyKey } from "./keys.ts";
 import { type Range, stepByKeys } from "./stepping.ts";
 import { keyOf, type Store } from "./store.ts";
 import type { DraftState, Fault, Path } from "./types.ts";
-import { isFocused, write } from "./writing.ts";
+import { write } from "./writing.ts";
 
 export interface Field {
   el: HTMLElement;
@@ -42,8 +42,8 @@ function showText(store: Store, input: HTMLInputElement | HTMLTextAreaElement, o
   if (input.value === text) return;
   // "6." and "6,0" mean what the design says: leave them be while they are being typed.
   const same = Number(input.value.replace(",", ".")) === Number(text) && input.value.trim() !== "" && text !== "";
-  if (input.type === "text" && input.inputMode === "decimal" && same && isFocused(input)) return;
-  write(input, text, store.undoing && isFocused(input));
+  if (input.type === "text" && input.inputMode === "decimal" && same && focused(input) === input) return;
+  write(input, text, store.undoing && focused(input) === input);
 }
 
 /** A number of metres, or a whole number; arrow keys step it. */
@@ -122,7 +122,7 @@ export function nameField(options: { label: string; value: () => string; commit:
   return {
     el: input,
     update() {
-      if (!isFocused(input) && !input.readOnly) input.value = options.value();
+      if (focused(input) !== input && !input.readOnly) input.value = options.value();
       input.size = Math.max(2, options.value().length);
     },
   };

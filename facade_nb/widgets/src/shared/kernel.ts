@@ -93,7 +93,9 @@ export class Kernel {
       _: unknown,
       { header, content }: { header: { msg_type: string }; content: { restart?: boolean } },
     ) => {
-      if (header.msg_type === "shutdown_reply") this.part(content.restart ? "was restarted" : "was shut down");
+      if (header.msg_type !== "shutdown_reply") return;
+      if (content.restart) forgetSubshells(connection);
+      this.part(content.restart ? "was restarted" : "was shut down");
     };
     const look = () => {
       const { status } = connection;
@@ -168,4 +170,12 @@ export class Kernel {
     this.channel.on(name, callback);
     this.watching?.signal.addEventListener("abort", () => this.channel.off(name, callback));
   }
+}
+
+/**
+ * Where somebody else has restarted the kernel, JupyterLab 4.6 goes on sending to a thread that the new one does not have:
+ * of widgets that are made then, nothing would be heard. They speak to the main thread instead.
+ */
+function forgetSubshells(connection: Connection): void {
+  if (connection.status !== "restarting" && connection.commsOverSubshells) connection.commsOverSubshells = "disabled";
 }

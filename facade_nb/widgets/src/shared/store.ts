@@ -122,9 +122,9 @@ export class Store {
     return this.live ? undefined : this.left().findLast((edit) => keyOf(edit.path) === key)?.value;
   }
 
-  /** Whether there are edits that have not reached the kernel. */
+  /** Whether there are edits that have not reached the kernel; where it has gone, of any view. */
   get waits(): boolean {
-    return this.edits().length > 0;
+    return this.edits().length > 0 || (this.kernel.presence === "gone" && this.left().length > 0);
   }
 
   /** Milliseconds that the message under way has been waited for. */
@@ -155,7 +155,7 @@ export class Store {
     }
     this.flush();
     // In the browser's model all views of the channel find it, those that are made later too.
-    if (this.kernel.presence === "gone" && this.waits) {
+    if (this.kernel.presence === "gone" && this.edits().length > 0) {
       const keys = new Set(this.edits().map(({ path }) => keyOf(path)));
       this.channel.set("unsent", [...this.left().filter(({ path }) => !keys.has(keyOf(path))), ...this.edits()]);
     }

@@ -5,6 +5,9 @@ import { mark } from "./dom.ts";
 
 type Root = Document | ShadowRoot;
 
+/** What ends the rules that all bundles have, at the end of fields.css. */
+const OWN = "@layer fnb-own;";
+
 const sheets = new Map<string, CSSStyleSheet>();
 /** How many views hold a sheet, by where they stand. */
 const holders = new WeakMap<Root, Map<CSSStyleSheet, number>>();
@@ -19,24 +22,34 @@ function sheetOf(css: string): CSSStyleSheet {
   return sheet;
 }
 
-function count(root: Root, sheet: CSSStyleSheet, by: 1 | -1): void {
+/** A bundle's sheets. What is common goes before all else: a bundle that comes later must not undo what another one adds. */
+function sheetsOf(css: string): { common: CSSStyleSheet | null; own: CSSStyleSheet } {
+  const [common, own] = css.split(OWN);
+  return own === undefined ? { common: null, own: sheetOf(css) } : { common: sheetOf(common ?? ""), own: sheetOf(own) };
+}
+
+function count(root: Root, sheet: CSSStyleSheet, by: 1 | -1, first: boolean): void {
   const counts = holders.get(root) ?? new Map<CSSStyleSheet, number>();
   holders.set(root, counts);
   const now = (counts.get(sheet) ?? 0) + by;
   counts.set(sheet, now);
   const others = root.adoptedStyleSheets.filter((other) => other !== sheet);
   if (now > 0 !== others.length < root.adoptedStyleSheets.length)
-    root.adoptedStyleSheets = now > 0 ? [...others, sheet] : others;
+    root.adoptedStyleSheets = now <= 0 ? others : first ? [sheet, ...others] : [...others, sheet];
 }
 
 /** Have the sheet wherever the element stands, until the signal ends. Some hosts attach it only later, or in a shadow tree. */
 export function adoptStyle(css: string, el: HTMLElement, signal: AbortSignal): void {
-  const sheet = sheetOf(css);
+  const { common, own } = sheetsOf(css);
   let at: Root | null = null;
+  const tell = (root: Root, by: 1 | -1) => {
+    if (common) count(root, common, by, true);
+    count(root, own, by, false);
+  };
   const move = (to: Root | null) => {
     if (to === at) return;
-    if (to) count(to, sheet, 1);
-    if (at) count(at, sheet, -1);
+    if (to) tell(to, 1);
+    if (at) tell(at, -1);
     at = to;
   };
   const settle = () => {

@@ -185,6 +185,8 @@ export interface Connection {
   readonly connectionStatusChanged: Signal<unknown>;
   readonly disposed: Signal<unknown>;
   readonly iopubMessage: Signal<{ header: { msg_type: string }; content: { restart?: boolean } }>;
+  /** Which thread of the kernel hears comms. JupyterLab has it, from 4.4 on. */
+  commsOverSubshells?: string;
   requestCommInfo(content: { target_name: string }): Promise<{ content: { comms?: Record<string, unknown> } }>;
 }
 

@@ -1,14 +1,11 @@
 // Writing into a field that somebody may be typing in.
 
+import { focused } from "./dom.ts";
+
 type Area = HTMLInputElement | HTMLTextAreaElement;
 
 /** Fields that an input method is at work in: their text is half a text, and must be let alone. */
 export const composed = new WeakSet<EventTarget>();
-
-/** Whether a field has the caret, also within a shadow root. */
-export function isFocused(field: HTMLElement): boolean {
-  return (field.getRootNode() as Document | ShadowRoot).activeElement === field;
-}
 
 /** Where two texts differ: how much is the same before, and how long the differing piece is in each. */
 export function difference(old: string, now: string): { from: number; gone: number; come: number } {
@@ -34,7 +31,7 @@ export function write(field: Area, text: string, follow = false): void {
   field.value = now;
   const caret = from + come;
   if (follow) field.setSelectionRange(caret, caret);
-  else if (isFocused(field)) field.setSelectionRange(moved(start), moved(end)); // elsewhere it might take the focus
+  else if (focused(field) === field) field.setSelectionRange(moved(start), moved(end)); // elsewhere it might take the focus
   field.scrollTo?.(left, top);
   if (follow) reveal(field);
 }

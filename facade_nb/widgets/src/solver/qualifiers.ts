@@ -1,7 +1,7 @@
 // The four cases of the paper's Figure 4 side by side: the words of both layers to scale over the façade they make, and
 // the qualifiers as switches. Python solves a case again when one of its switches is thrown.
 
-import { h, mark, setText, svg } from "../shared/dom.ts";
+import { focused, h, mark, setText, svg } from "../shared/dom.ts";
 import { parseDrawing } from "../shared/drawing.ts";
 import { formatNumber, holdBack } from "../shared/fields.ts";
 import { type IconName, icon } from "../shared/icons.ts";
@@ -10,7 +10,6 @@ import { announce } from "../shared/presence.ts";
 import { stepByKeys } from "../shared/stepping.ts";
 import { themeOf, watchDress } from "../shared/theme.ts";
 import type { WidgetModel } from "../shared/types.ts";
-import { isFocused } from "../shared/writing.ts";
 import { hueOf } from "./letters.ts";
 import { Links, linked, target } from "./links.ts";
 import { type Bytes, byteLength, unpack } from "./packing.ts";
@@ -157,7 +156,7 @@ class Card {
     setText(this.cost, one.cost === null ? "" : `J = ${formatNumber(one.cost)} m`);
     this.reset.hidden = !one.changed;
     this.committed = formatNumber(one.canvas.x);
-    if (!isFocused(this.width)) this.width.value = this.committed;
+    if (focused(this.width) !== this.width) this.width.value = this.committed;
     this.patterns.replaceChildren(
       ...one.patterns.map(({ layer, text }) => h("code", { title: `Layer ${layer}` }, text)),
     );

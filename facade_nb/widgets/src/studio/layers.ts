@@ -1,9 +1,8 @@
-import { h, keyed, mark, type Row } from "../shared/dom.ts";
+import { focused, h, keyed, mark, type Row } from "../shared/dom.ts";
 import { button, choiceField, type Field, faultBox, holdBack, nameField } from "../shared/fields.ts";
 import { icon, setIcon } from "../shared/icons.ts";
 import { keyOf } from "../shared/store.ts";
 import { AXES, type Axis, type LayerState } from "../shared/types.ts";
-import { isFocused } from "../shared/writing.ts";
 import { type Context, emptyNote, type MakePart, markPicked } from "./common.ts";
 
 /** The stack, topmost layer first. */
@@ -184,7 +183,7 @@ function layerSide({ store }: Context, axis: Axis, layer: () => LayerState): Fie
       )
         options.replaceChildren(...groups.map((other) => h("option", { value: other })));
       const draft = store.get("drafts").find((other) => keyOf(other.path) === keyOf(groupPath));
-      if (!isFocused(group) && !store.pending(groupPath)) group.value = String(draft?.value ?? side().group);
+      if (focused(group) !== group && !store.pending(groupPath)) group.value = String(draft?.value ?? side().group);
       mark(group, "data-default", side().group === "default");
       if (!store.pending(maskPath)) mask = side().mask;
       showChips(side().letters);

@@ -68,7 +68,7 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
     marks.style.transform = `translate(${-area.scrollLeft}px, ${-area.scrollTop}px)`;
   });
   session.hold(() => {
-    if (!session.typing) write(area, session.text, session.undoing);
+    write(area, session.text, session.undoing); // in every editor what was typed in one, also while it is under way
     area.readOnly = !session.live;
     undo.disabled = !session.live || !session.canUndo;
     redo.disabled = !session.live || !session.canRedo;
@@ -86,7 +86,7 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
         const go = h(
           "button",
           { type: "button", class: "fnb-tex-fault" },
-          h("strong", {}, place),
+          h("strong", {}, `${place}:`),
           " ",
           h("span", {}, fault.message),
           /^\s*\n/.test(fault.excerpt) ? null : h("pre", {}, fault.excerpt),

@@ -86,7 +86,7 @@ export class Session extends Shared {
   get canRedo(): boolean {
     return this.channel.get<boolean>("can_redo");
   }
-  /** Whether a text is on its way: the field must not be written to. */
+  /** Whether a text is on its way. */
   get typing(): boolean {
     return this.own("text") !== undefined;
   }
@@ -211,6 +211,7 @@ export class Session extends Shared {
   protected end(): void {
     for (const own of [this.scene, this.tiles]) if (own) renderer().release(own);
     this.scene = this.tiles = this.common = null;
+    if (this.kernel.presence === "gone") return; // a view that is made later shows what was entered, and says so
     this.flying = null;
     this.queue = [];
   }

@@ -1,8 +1,7 @@
 // Moving about in front of the façade, with pointer, wheel and keys; a click looks into a pixel.
 
-import { setTraits } from "../shared/dom.ts";
+import { focused, setTraits } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
-import { isFocused } from "../shared/writing.ts";
 import type { Session } from "./session.ts";
 import { distanceOf, type Look, meet, sightOf, targetOf } from "./sight.ts";
 import type { Pair } from "./types.ts";
@@ -100,7 +99,7 @@ export function steering(
   canvas.addEventListener(
     "wheel",
     (event) => {
-      if (!isFocused(canvas)) return; // the page scrolls until the picture is chosen
+      if (focused(canvas) !== canvas) return; // the page scrolls until the picture is chosen
       event.preventDefault();
       event.stopPropagation();
       dolly(Math.exp(limit(event.deltaY, -400, 400) * (event.deltaMode ? 0.05 : 0.0015)));

@@ -1,6 +1,6 @@
 // A widget model as the parts see it, without a manager: traits, events, and what was sent.
 
-import type { State, WidgetManager, WidgetModel } from "../../src/shared/types.ts";
+import type { Connection, State, WidgetManager, WidgetModel } from "../../src/shared/types.ts";
 
 type Listener = (...args: unknown[]) => void;
 
@@ -43,6 +43,46 @@ export class FakeModel implements WidgetModel {
   /** What was asked for, without the counting of views. */
   get asked(): Record<string, unknown>[] {
     return this.sent.filter((message) => message.op !== "view");
+  }
+}
+
+class Signal<A> {
+  private readonly slots = new Set<(sender: unknown, argument: A) => void>();
+  connect(slot: (sender: unknown, argument: A) => void): void {
+    this.slots.add(slot);
+  }
+  disconnect(slot: (sender: unknown, argument: A) => void): void {
+    this.slots.delete(slot);
+  }
+  emit(argument: A): void {
+    for (const slot of [...this.slots]) slot(null, argument);
+  }
+  get size(): number {
+    return this.slots.size;
+  }
+}
+
+/** The connection that Jupyter has to its kernel. */
+export class FakeConnection implements Connection {
+  status = "idle";
+  connectionStatus = "connected";
+  isDisposed = false;
+  commsOverSubshells = "perCommTarget";
+  comms: Record<string, unknown> = { m1: {} };
+  readonly statusChanged = new Signal<unknown>();
+  readonly connectionStatusChanged = new Signal<unknown>();
+  readonly disposed = new Signal<unknown>();
+  readonly iopubMessage = new Signal<{ header: { msg_type: string }; content: { restart?: boolean } }>();
+  requestCommInfo() {
+    return Promise.resolve({ content: { comms: this.comms } });
+  }
+  turn(values: Partial<Pick<FakeConnection, "status" | "connectionStatus" | "isDisposed">>): void {
+    Object.assign(this, values);
+    this.statusChanged.emit(null);
+    this.connectionStatusChanged.emit(null);
+  }
+  say(restart: boolean): void {
+    this.iopubMessage.emit({ header: { msg_type: "shutdown_reply" }, content: { restart } });
   }
 }
 

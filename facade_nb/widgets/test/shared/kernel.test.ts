@@ -4,48 +4,9 @@ import { h } from "../../src/shared/dom.ts";
 import { nameField } from "../../src/shared/fields.ts";
 import { Kernel } from "../../src/shared/kernel.ts";
 import { Store } from "../../src/shared/store.ts";
-import type { Connection } from "../../src/shared/types.ts";
-import { FakeModel, fakeState } from "./fake.ts";
+import { FakeConnection, FakeModel, fakeState } from "./fake.ts";
 
 const BX = ["patterns", "Bx", "text"];
-
-class Signal<A> {
-  private readonly slots = new Set<(sender: unknown, argument: A) => void>();
-  connect(slot: (sender: unknown, argument: A) => void): void {
-    this.slots.add(slot);
-  }
-  disconnect(slot: (sender: unknown, argument: A) => void): void {
-    this.slots.delete(slot);
-  }
-  emit(argument: A): void {
-    for (const slot of [...this.slots]) slot(null, argument);
-  }
-  get size(): number {
-    return this.slots.size;
-  }
-}
-
-class FakeConnection implements Connection {
-  status = "idle";
-  connectionStatus = "connected";
-  isDisposed = false;
-  comms: Record<string, unknown> = { m1: {} };
-  readonly statusChanged = new Signal<unknown>();
-  readonly connectionStatusChanged = new Signal<unknown>();
-  readonly disposed = new Signal<unknown>();
-  readonly iopubMessage = new Signal<{ header: { msg_type: string }; content: { restart?: boolean } }>();
-  requestCommInfo() {
-    return Promise.resolve({ content: { comms: this.comms } });
-  }
-  turn(values: Partial<Pick<FakeConnection, "status" | "connectionStatus" | "isDisposed">>): void {
-    Object.assign(this, values);
-    this.statusChanged.emit(null);
-    this.connectionStatusChanged.emit(null);
-  }
-  say(restart: boolean): void {
-    this.iopubMessage.emit({ header: { msg_type: "shutdown_reply" }, content: { restart } });
-  }
-}
 
 let connection: FakeConnection;
 let model: FakeModel;
@@ -95,6 +56,17 @@ describe("a kernel that ends", () => {
     expect(told).toEqual(["was restarted", "died and was started anew"]);
   });
 
+  it("takes its threads with it, where the application does not know that", () => {
+    connection.say(true);
+    expect(connection.commsOverSubshells).toBe("disabled");
+  });
+
+  it("leaves its threads to the application that restarts it", () => {
+    connection.turn({ status: "restarting" });
+    connection.say(true);
+    expect(connection.commsOverSubshells).toBe("perCommTarget");
+  });
+
   it("leaves what was typed in the browser's model, for every view", () => {
     store.set(BX, "A");
     store.set(BX, "AB");
@@ -106,7 +78,8 @@ describe("a kernel that ends", () => {
       { path: BX, value: "AB" },
       { path: ["canvas", "width"], value: "7" },
     ]);
-    expect(new Store(model, end.signal).unsent(BX)).toBe("AB");
+    const later = new Store(model, end.signal);
+    expect([later.unsent(BX), later.waits]).toEqual(["AB", true]);
   });
 
   it("is no error where a message cannot be sent", () => {
@@ -205,6 +178,18 @@ describe("the notice", () => {
     group.dispatchEvent(new Event("change", { bubbles: true })); // it had been typed in, and was left now
     expect(change).not.toHaveBeenCalled();
     expect(press).toHaveBeenCalledTimes(1);
+
+    const went: string[] = [];
+    document.addEventListener("keydown", ({ key }) => went.push(key), { signal: end.signal });
+    const pressed = (key: string, ctrlKey: boolean) =>
+      field.dispatchEvent(new KeyboardEvent("keydown", { key, ctrlKey, bubbles: true, cancelable: true }));
+    expect([pressed("z", true), pressed("a", true), pressed("x", false), pressed("s", true)]).toEqual([
+      false, // the browser's own undo
+      true,
+      true,
+      true,
+    ]);
+    expect(went).toEqual(["s"]); // the host's alone
 
     connection.turn({ connectionStatus: "connected" });
     model.emit("msg:custom", { kind: "pong", heard: {} });

@@ -1,10 +1,9 @@
 // Words: for each pattern the table of its counters and choices, every word drawn to scale against canvas ± μ, kept or
 // dropped and why (the paper's 5.1, Eq. 7). With sampled sizes of unsized symbols it is the paper's Figure 7.
 
-import { h, mark, setText } from "../../shared/dom.ts";
+import { focused, h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
 import { stepByKeys } from "../../shared/stepping.ts";
-import { isFocused } from "../../shared/writing.ts";
 import { AxisChoice } from "../axes.ts";
 import { type Candidate, combined, type GroupNote, inOrder, type Judged, judge, type WordEvent } from "../bounds.ts";
 import { boxes, type DrawnLetter, lettersLegend, spelled } from "../letters.ts";
@@ -154,7 +153,7 @@ class WordsView implements View {
       return;
     }
     const mu = Math.min(this.mu ?? round.tolerance, round.tolerance);
-    if (!isFocused(this.tolerance)) this.tolerance.value = formatNumber(mu);
+    if (focused(this.tolerance) !== this.tolerance) this.tolerance.value = formatNumber(mu);
     mark(
       this.tolerance,
       "title",
