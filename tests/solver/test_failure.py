@@ -249,7 +249,7 @@ class TestMore:
         )
 
     def test_letters_too_small_for_the_canvas(self) -> None:
-        error = refused(design({"A": 0.001}, {"a": "A^k"}, ["a"], 1000.0))
+        error = refused(design({"A": 0.001}, {"a": "A^k"}, ["a"], 1000.0), time_limit=None)
         assert str(error).startswith(
             "Pattern 'a' would need words of more than 20,000 letters to fill the canvas, which is 1000 m wide; "
             "no word may have more."
@@ -418,7 +418,7 @@ class TestDisplay:
         for text in ("A^k", "A", "A|AA", "A^kA^m"):
             one = design({"A": size}, {"wall": text}, ["wall"], width)
             try:
-                assert solve(one).x.groups["g"].columns
+                assert solve(one, time_limit=None).x.groups["g"].columns
             except NoLayout as error:
                 assert str(error).startswith("Pattern 'wall'") and len(str(error)) < 400
 
