@@ -12,7 +12,7 @@ from itertools import chain
 from unicodedata import category, decomposition, normalize
 from unicodedata import name as unicode_name
 
-from .letters import MARKED, class_of
+from .characters import MARKED, class_of
 
 __all__ = ["described", "is_foreign", "is_unseen", "meant", "sign_classes"]
 

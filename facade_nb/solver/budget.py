@@ -14,23 +14,13 @@ from math import inf
 from pathlib import Path
 from typing import Literal
 
+from . import tuning
 from .effort import Effort, Stopped
 
 __all__ = ["Clock", "Progress", "Stage", "Stopped"]
 
 Stage = Literal["words", "analysis", "candidates", "alignment", "attempt", "explanation", "merging"]
 
-_MOMENT = 0.15
-"""Seconds that merging may take when the search has used up its time."""
-
-_LAST = 0.5
-"""Seconds that the last attempt may take."""
-
-MEMORY = 400_000_000
-"""Bytes by which the process may grow during a search; what earlier ones have left counts, up to a half of it."""
-
-_LOOK = 0.02
-"""Seconds between two looks at the memory."""
 
 _STATM = Path("/proc/self/statm")
 _PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
@@ -111,7 +101,7 @@ class Clock:
         How far the call has come.
     asked, over, full
         Whether it was asked to stop; whether at some check the time was over, or the process had grown by more than
-        `MEMORY`.
+        `tuning.MEMORY`.
     """
 
     def __init__(
@@ -128,7 +118,7 @@ class Clock:
         self.progress = Progress()
         self.asked = self.over = self.full = False
         self._start, self._look = (_resident(), self._begin) if parent is None else (0, inf)
-        self._size = self._start - min(_left.bytes, max(0, MEMORY // 2))
+        self._size = self._start - min(_left.bytes, max(0, tuning.MEMORY // 2))
         self.allot(1.0)
 
     @property
@@ -147,14 +137,14 @@ class Clock:
         And a little memory of its own, for that of the search may not be given back yet.
         """
         self._until(self._part)
-        self._size = max(self._size, _resident() - MEMORY + MEMORY // 4)
+        self._size = max(self._size, _resident() - tuning.MEMORY + tuning.MEMORY // 4)
 
     def _until(self, end: float) -> None:
         self._end, self.check.most = end, end * self._most
 
     def last_attempt(self) -> Callable[[], None]:
         """A check for what takes milliseconds, when the time is up and there is nothing yet: it has its own moment."""
-        end = max(self.seconds, self._part * (self.limit or 0.0)) + _LAST
+        end = max(self.seconds, self._part * (self.limit or 0.0)) + tuning.LAST_ATTEMPT
 
         def check() -> None:
             if self._should_stop is not None and self._should_stop():
@@ -164,7 +154,7 @@ class Clock:
                 self.over = True
                 raise Stopped
 
-        return Effort(check, most=_LAST, within=self._within) if self._most < inf else check
+        return Effort(check, most=tuning.LAST_ATTEMPT, within=self._within) if self._most < inf else check
 
     def _asked(self) -> None:
         """Raise `Stopped` where the time is over, or the memory, or nobody wants an answer."""
@@ -176,8 +166,8 @@ class Clock:
             self.over = True
             raise Stopped
         if now > self._look:
-            self._look = now + _LOOK
-            if _resident() - self._size > MEMORY:
+            self._look = now + tuning.MEMORY_LOOK
+            if _resident() - self._size > tuning.MEMORY:
                 self.full = True
                 raise Stopped(full=True)
 
@@ -195,7 +185,7 @@ class Clock:
         end = (
             inf
             if self.limit is None and not self.asked
-            else (self.seconds if spent else self.limit or 0.0) + _MOMENT
+            else (self.seconds if spent else self.limit or 0.0) + tuning.MERGING_MOMENT
         )
 
         def check() -> None:
@@ -221,7 +211,7 @@ class _Left:
     def note(self, start: int) -> None:
         """A call is over that began at some size of the process."""
         left = self.bytes + _resident() - start
-        if left > MEMORY // 4:
+        if left > tuning.MEMORY // 4:
             _give_back()
             left = self.bytes + _resident() - start
         self.bytes = max(0, left)

@@ -11,17 +11,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf
 
-__all__ = ["ALIGNED", "EXTENDED", "RELAXED", "SIZED", "SWEPT", "Effort", "Stopped", "spend"]
+from . import tuning
 
-_CALL = 5e-5
-"""What is done between two looks at the clock takes so many seconds, about; in sweeps:"""
-SWEPT = 6e-4
-ALIGNED = 3e-4
-"""It takes so many to price an alignment in Python, and to size one:"""
-SIZED = 1e-3
-EXTENDED = 4e-5
-"""In the paper's search, to make a path longer by a column, and to bound one by a linear programme:"""
-RELAXED = 4e-4
+__all__ = ["Effort", "Stopped", "spend"]
 
 
 class Stopped(Exception):
@@ -57,7 +49,7 @@ class Effort:
     def __init__(
         self,
         check: Callable[[], None] | None = None,
-        call: float = _CALL,
+        call: float = tuning.CALL,
         most: float = inf,
         within: Effort | None = None,
     ) -> None:

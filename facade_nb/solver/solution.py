@@ -13,6 +13,7 @@ from math import inf
 from ..design.errors import DesignError, NoLayout
 from ..design.limits import range_faults
 from ..design.model import AXES, Axis, Design
+from . import tuning
 from .alignment.core.binding import Session, session, start_afresh
 from .analysis.systems import analyse
 from .assembly.axes import axis_layout, axis_warnings, cut_warnings
@@ -36,17 +37,11 @@ __all__ = ["TOLERANCES", "forget", "solve"]
 TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
 """Fractions of the canvas; the paper's schedule, and, by its last, what the default objective works within."""
 
-_ANSWER = 500_000
-"""Bytes as which an answer counts at least: no more than 64 are kept."""
 
 _SLOWLY = (
     "There was no memory for the compiled search; the search in Python took its place, which takes longer and finds "
     "the same."
 )
-
-_REMEDIES = 0.6
-"""Effort (seconds, see `effort`) of trying what would help, where there is no layout; of it for one change:"""
-_REMEDY = 0.2
 
 
 def solve(
@@ -221,7 +216,7 @@ class _Run:
                         group.forget()
                     weight += best.solved.weight if best.solved else 0.0
                 if all(best.complete for _, best in known.values()):
-                    CACHE.answers.put(key, known, max(_ANSWER, weight))
+                    CACHE.answers.put(key, known, max(tuning.ANSWER_BYTES, weight))
         return known
 
     def _axis(self, axes: Sequence[Axis]) -> dict[Axis, tuple[AxisSearch, Best]]:
@@ -252,7 +247,7 @@ class _Run:
                 other = adopted(walk, before)
                 best.solved = other if other is not None and other.beats(best.solved) else best.solved
         if best.solved is not None and not self.trial:
-            CACHE.earlier.put(key, best.solved, max(_ANSWER / 2, best.solved.weight))
+            CACHE.earlier.put(key, best.solved, max(tuning.ANSWER_BYTES / 2, best.solved.weight))
         return best
 
     def _best(self, walk: AxisSearch, cap: float = inf) -> Best:
@@ -301,14 +296,14 @@ class _Run:
         """Why there is no layout; a trial does not ask."""
         if self.trial:
             return NoLayout("")
-        end = self.clock.check.seconds + _REMEDIES
+        end = self.clock.check.seconds + tuning.REMEDIES
 
         def works(design: Design, tolerance: float | None) -> Tried | None:
             left = end - self.clock.check.seconds
             if left <= 0:
                 raise Stopped
             tolerances = self.tolerances if tolerance is None else (tolerance,)
-            clock = Clock(None, parent=self.clock, most=min(left, _REMEDY))
+            clock = Clock(None, parent=self.clock, most=min(left, tuning.REMEDY))
             run = _Run(design, self.objective, tolerances, self.search, clock, None, trial=True)
             try:
                 return run.tried(None if other else walk.problem.axis)

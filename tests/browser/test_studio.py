@@ -80,9 +80,9 @@ def test_a_wider_canvas_has_more_bays(studio: Notebook) -> None:
 
 
 PATIENT = """
-from facade_nb.solver import solution as solving
-hurried = solving._REMEDIES, solving._REMEDY
-solving._REMEDIES, solving._REMEDY = 600.0, 600.0
+from facade_nb.solver import tuning
+hurried = tuning.REMEDIES, tuning.REMEDY
+tuning.REMEDIES, tuning.REMEDY = 600.0, 600.0
 Studio(model)
 """
 
@@ -102,7 +102,7 @@ def test_a_change_that_helps_is_one_click_away(show: Show) -> None:
         status(studio, "Solved in")
         studio.expect_python("model.message", "")
     finally:
-        studio.python("[setattr(solving, '_REMEDIES', hurried[0]), setattr(solving, '_REMEDY', hurried[1])]")
+        studio.python("[setattr(tuning, 'REMEDIES', hurried[0]), setattr(tuning, 'REMEDY', hurried[1])]")
 
 
 @pytest.mark.parametrize(("side", "dx", "dy"), [("width", 120, 0), ("height", 0, -60)])

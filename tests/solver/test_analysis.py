@@ -13,8 +13,8 @@ import pytest
 
 from facade_nb import NoLayout, gallery, solve
 from facade_nb.design.model import AXES
+from facade_nb.solver import tuning
 from facade_nb.solver.analysis.systems import analyse
-from facade_nb.solver.analysis.terms import MAX_VARIANTS
 from facade_nb.solver.model.problem import axis_problem
 from tests.oracle.analysing import analysed, between, stacked, texts
 
@@ -316,9 +316,11 @@ def test_alternatives_of_one_length_are_analysed() -> None:
 
 
 def test_too_many_alternatives() -> None:
-    ways = MAX_VARIANTS.bit_length()
+    ways = tuning.MAX_VARIANTS.bit_length()
     found = analysed({"P": "(A|B)" * ways, "Q": "A"}, {"A": 1, "B": 2})
-    assert found.unanalysed == {"P": f"there are more than {MAX_VARIANTS} ways to choose its alternatives"}
+    assert found.unanalysed == {
+        "P": f"there are more than {tuning.MAX_VARIANTS} ways to choose its alternatives"
+    }
     assert found.equations == ()
     contents = "; ".join(f"{s} := A|B" for s in "abcdef")
     assert analysed({"P": "abcdef; " + contents}, {"A": 1, "B": 2}).unanalysed == found.unanalysed

@@ -11,28 +11,24 @@ import pytest
 from facade_nb import Design, Layout, NoLayout, solve
 from facade_nb.design import Counter, Symbol, parse
 from facade_nb.design.tree import MAX_LETTERS
-from facade_nb.solver import Letter, Objective, align, words
+from facade_nb.solver import Letter, Objective, align, tuning, words
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment import single as alignment
 from facade_nb.solver.alignment.core.search import search_best as search
 from facade_nb.solver.alignment.group import make_group
 from facade_nb.solver.alignment.lone import lone
-from facade_nb.solver.diagnosis import explanation as failure
-from facade_nb.solver.selection import searches
-from facade_nb.solver.sizing import system as sizing
-from facade_nb.solver.words import counter_values as counting
 from facade_nb.solver.words import instances
 from tests.oracle.designs import design, make_design
 
 PLAIN = Objective.paper()
 
 BOUNDS: dict[str, list[tuple[ModuleType, str, int]]] = {
-    "words": [(instances, "_MAX_FEW", 3), (instances, "MAX_WORDS", 3)],
-    "words on a grid": [(instances, "_MAX_FEW", 3), (instances, "MAX_WORDS", 3), (counting, "_FEW", 0)],
-    "letters in all": [(instances, "_MAX_TOTAL", 9)],
+    "words": [(tuning, "MAX_WORDS_OF_FEW", 3), (tuning, "MAX_WORDS", 3)],
+    "words on a grid": [(tuning, "MAX_WORDS_OF_FEW", 3), (tuning, "MAX_WORDS", 3), (tuning, "SUM_FEW", 0)],
+    "letters in all": [(tuning, "MAX_LETTERS_IN_ALL", 9)],
     "letters of a word": [(instances, "MAX_SPELLED", 3)],
-    "copies of what has no size": [(instances, "MAX_COPIES", 1)],
-    "paths": [(searches, "_NODES", 6)],
+    "copies of what has no size": [(tuning, "MAX_COPIES", 1)],
+    "paths": [(tuning, "PATHS", 6)],
 }
 
 
@@ -88,7 +84,7 @@ class TestAnyDesign:
     def test_paths_that_are_cut_are_told(self, monkeypatch: pytest.MonkeyPatch) -> None:
         one = design({"A": 1.0, "B": 0.8, "C": 0.7}, {"a": "A(BA)^3", "b": "C^7"}, ["a", "b"], 6.0)
         full = answer(one, Objective())
-        monkeypatch.setattr(searches, "_NODES", 2)
+        monkeypatch.setattr(tuning, "PATHS", 2)
         cut = answer(one, Objective())
         assert isinstance(full, Layout) and isinstance(cut, Layout)
         assert full.x.proven and not cut.x.proven and not cut.complete
@@ -134,7 +130,7 @@ class TestLongWords:
         one = design({"A": 1.0, "B": 0.8, "C": {"size": 0.7, "max": 0.78}}, rows, ["a", "b"], 55.0)
         small = solve(one, time_limit=None)
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(sizing, "LONG", 0)
+            patch.setattr(tuning, "LONG_AXIS", 0)
             solving.forget()
             long = solve(one, time_limit=None)
         assert long.x.sizes == pytest.approx(small.x.sizes, abs=1e-7)
@@ -154,7 +150,7 @@ class TestLongWords:
     def test_any_random_design_is_sized_alike(self, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
         one = make_design(seed)
         small = answer(one, Objective())
-        monkeypatch.setattr(sizing, "LONG", 0)
+        monkeypatch.setattr(tuning, "LONG_AXIS", 0)
         long = answer(one, Objective())
         assert isinstance(long, Layout) == isinstance(small, Layout)
         if isinstance(long, Layout) and isinstance(small, Layout):
@@ -194,7 +190,7 @@ class TestInstances:
         self, monkeypatch: pytest.MonkeyPatch
     ) -> None:
         assert self.of("A^k e m; m := A", 10.0, A=1.0).left == float("inf")
-        monkeypatch.setattr(instances, "_MAX_FEW", 4)
+        monkeypatch.setattr(tuning, "MAX_WORDS_OF_FEW", 4)
         assert self.of("A^k", 10.0, A=1.0).left > 1.0
         assert self.of("A^k e m; m := A", 10.0, A=1.0).left == 0.0
 
@@ -242,7 +238,7 @@ def test_values_of_some_candidates_only_are_told(monkeypatch: pytest.MonkeyPatch
     one = design({"A": 1.0, "P": 0.5}, {"a": "A^k", "u": "P^k"}, [("a", "g", "u", "g")], 4.0, 9.0)
     with pytest.raises(NoLayout, match="and no value fits both: across it can be 2, 3, 4, 5, 6, up"):
         solve(one)
-    monkeypatch.setattr(failure, "_CANDIDATES", 1)
+    monkeypatch.setattr(tuning, "COMPARED", 1)
     with pytest.raises(
         NoLayout, match="no value fits both, as far as the first 1 candidates say: across it can be 2"
     ):
@@ -266,7 +262,7 @@ class TestLists:
         assert full is not None and full.proven and full.gap == 0.0
         cut: list[alignment.Alignment] = []
         for n in range(1, 80):
-            monkeypatch.setattr(alignment, "_TURNS", {"best": (n, n, n), "ida": (n, n, n)})
+            monkeypatch.setattr(tuning, "ALIGN_TURNS", {"best": (n, n, n), "ida": (n, n, n)})
             for method in alignment.SEARCHES:
                 try:
                     one = align(rows, 5.2, 2.0, PLAIN, method)

@@ -13,7 +13,7 @@ import pytest
 from facade_nb import gallery, solve
 from facade_nb.design.errors import NoLayout
 from facade_nb.design.model import Design
-from facade_nb.solver import Letter
+from facade_nb.solver import Letter, tuning
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment import group as grouping
 from facade_nb.solver.alignment.core import binding as compiled
@@ -94,7 +94,7 @@ class TestSearch:
 
     @pytest.mark.parametrize("seed", range(40))
     def test_tall(self, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setattr(grouping, "_TALL", 1)
+        monkeypatch.setattr(tuning, "TALL", 1)
         both(lambda: [case_group(random_case(1000 + seed))])
 
     @pytest.mark.parametrize("seed", range(40))
@@ -131,7 +131,7 @@ class TestDives:
     @pytest.mark.parametrize("seed", range(60))
     def test_random(self, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
         if seed % 2:
-            monkeypatch.setattr(grouping, "_TALL", 1)
+            monkeypatch.setattr(tuning, "TALL", 1)
         case = random_case(4000 + seed)
         slow, fast = Dives([case_group(case)], 0.0), CompiledDives([case_group(case)], 0.0)
         for _ in range(60):
@@ -236,7 +236,7 @@ class TestControl:
         assert not core._alive - before
 
     def test_an_instance_that_has_grown_is_replaced(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setattr(compiled, "_LARGE", 0)
+        monkeypatch.setattr(tuning, "LARGE_INSTANCE", 0)
         seen = []
 
         def look() -> None:  # in a thread of its own, where nothing is left of other tests
@@ -274,7 +274,7 @@ class TestControl:
     def test_what_takes_too_much_memory_makes_room_for_a_last_attempt(
         self, monkeypatch: pytest.MonkeyPatch
     ) -> None:
-        monkeypatch.setattr(compiled, "_LARGE", 0)
+        monkeypatch.setattr(tuning, "LARGE_INSTANCE", 0)
         search = best_first([self.hard()])
         core = compiled._core()
         assert compiled.start_afresh()

@@ -9,19 +9,17 @@ from IPython.core.interactiveshell import InteractiveShell
 
 from facade_nb import Design, DesignError, NoLayout, solve
 from facade_nb.design import Canvas, Suggestion, Symbol, edit
-from facade_nb.solver import Objective
-from facade_nb.solver import solution as solving
+from facade_nb.solver import Objective, tuning
 from facade_nb.solver.assembly import shapes as merging
-from facade_nb.solver.diagnosis import obstacles
 from tests.oracle.designs import design, make_design
 
 
 @pytest.fixture(autouse=True)
 def plenty_of_time(monkeypatch: pytest.MonkeyPatch) -> None:
     """What would help is looked for until it is found, however busy the machine is."""
-    monkeypatch.setattr(solving, "_REMEDIES", 6.0)
-    monkeypatch.setattr(solving, "_REMEDY", 2.0)
-    monkeypatch.setattr(obstacles, "_ASIDE", 2.0)
+    monkeypatch.setattr(tuning, "REMEDIES", 6.0)
+    monkeypatch.setattr(tuning, "REMEDY", 2.0)
+    monkeypatch.setattr(tuning, "ASIDE", 2.0)
 
 
 def refused(one: Design, **options: object) -> NoLayout:

@@ -13,7 +13,7 @@ import pytest
 from facade_nb import Design, DesignError, NoLayout, gallery, solve
 from facade_nb.design import edit
 from facade_nb.design.model import AXES
-from facade_nb.solver import Objective
+from facade_nb.solver import Objective, tuning
 from facade_nb.solver import solution as solving
 from facade_nb.solver.cache import CACHE, Kept
 from facade_nb.solver.selection import clusters as running
@@ -25,7 +25,7 @@ Outcome = dict[str, Any] | tuple[str, ...]
 
 @pytest.fixture(autouse=True)
 def nothing_kept(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    monkeypatch.setattr(solving, "_REMEDIES", 0.0)  # what would help is not what is at stake here
+    monkeypatch.setattr(tuning, "REMEDIES", 0.0)  # what would help is not what is at stake here
     solving.forget()
     yield
     solving.forget()
@@ -313,8 +313,8 @@ class TestReuse:
 
     def test_trials_push_nothing_out(self, monkeypatch: pytest.MonkeyPatch) -> None:
         """What is tried in order to say what would help is not kept."""
-        monkeypatch.setattr(solving, "_REMEDIES", 6.0)
-        monkeypatch.setattr(solving, "_REMEDY", 3.0)
+        monkeypatch.setattr(tuning, "REMEDIES", 6.0)
+        monkeypatch.setattr(tuning, "REMEDY", 3.0)
         solve(self.ONE)
         before = len(CACHE.answers)
         with pytest.raises(NoLayout) as caught:

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from facade_nb.design import Counter, DesignError, Pattern, Symbol, parse
 from facade_nb.design.model import AXES
 from facade_nb.design.pattern import Concat, Count, Sym
-from facade_nb.solver import Objective
+from facade_nb.solver import Objective, tuning
 from facade_nb.solver.cache import CACHE
 from facade_nb.solver.candidates.stream import candidates
 from facade_nb.solver.model.problem import axis_problem
@@ -27,7 +27,6 @@ from facade_nb.solver.words.lengths import measure
 from tests.oracle.designs import make_design
 from tests.oracle.nasty import NASTY
 
-counting: Any = import_module("facade_nb.solver.words.counter_values")
 words: Any = import_module("facade_nb.solver.words.enumeration").words
 
 SIZES = {"A": 1.0, "B": 0.7, "C": 0.35}
@@ -100,7 +99,7 @@ class TestSums:
     @pytest.fixture(params=[0, 10**9], ids=["grid", "few"], autouse=True)
     def few(self, request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
         """With and without knowing dead ends."""
-        monkeypatch.setattr(counting, "_FEW", request.param)
+        monkeypatch.setattr(tuning, "SUM_FEW", request.param)
 
     @settings(max_examples=60, deadline=None)
     @given(tables, st.floats(0.0, 4.0), st.floats(0.0, 2.0))
@@ -128,7 +127,7 @@ class TestSums:
 
     def test_some_of_too_many(self, monkeypatch: pytest.MonkeyPatch) -> None:
         """A hundred thousand ways to make 30 m: those taken differ in all counters, and are the same every time."""
-        monkeypatch.setattr(counting, "_FEW", 0)
+        monkeypatch.setattr(tuning, "SUM_FEW", 0)
         own = {name: [(n, n * 0.5) for n in range(60)] for name in "abcd"}
         sums = Sums(own, 45.0)
         found, left = sums.nearest(30.0, 15.0, 200)
@@ -144,7 +143,7 @@ class TestInstances:
         pattern = parse("A^k B^l C^m")
         every = instances(pattern, symbol, Counter, 12.0)
         assert every.left == inf
-        monkeypatch.setattr(listing, "MAX_WORDS", 50)
+        monkeypatch.setattr(tuning, "MAX_WORDS", 50)
         few = instances(pattern, symbol, Counter, 12.0, canvas=8.0)
         assert 12 <= len(few.words) <= 50 < len(every.words)
         kept = {tuple(w.counters.values()) for w in few.words}
@@ -156,7 +155,7 @@ class TestInstances:
         assert order == sorted(order)
 
     def test_letters_are_bounded(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setattr(listing, "_MAX_TOTAL", 100)
+        monkeypatch.setattr(tuning, "MAX_LETTERS_IN_ALL", 100)
         found = instances(parse("A^k"), symbol, Counter, 30.0, canvas=20.0)
         assert [len(w) for w in found.words] == [18, 19, 20, 21, 22] and found.left == pytest.approx(3.0)
 

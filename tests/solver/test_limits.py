@@ -15,10 +15,9 @@ import pytest
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.design import Counter, Symbol, edit, parse
-from facade_nb.solver import Letter, Objective, align
+from facade_nb.solver import Letter, Objective, align, tuning
 from facade_nb.solver import budget as clock
 from facade_nb.solver import solution as solving
-from facade_nb.solver.alignment.core import binding as compiled
 from facade_nb.solver.analysis.systems import analyse
 from facade_nb.solver.assembly.shapes import merge
 from facade_nb.solver.budget import Clock, Stopped
@@ -201,14 +200,14 @@ class TestTimeLimit:
         code = """
 import resource
 from facade_nb import NoLayout, gallery, solve
-from facade_nb.solver import budget as clock
+from facade_nb.solver import tuning
 from tests.oracle.designs import design
 from tests.oracle.nasty import NASTY
 solve(gallery.load("figure-7"))
 rows = {"a": "A(BA)^k", "b": "A C^l"}
 long = design({"A": 1.0, "B": 0.8, "C": 1.8}, rows, ["a", "b"], 1801.0)
 names = ("words of thousands of letters", "1000 m, three counters", "alternatives and a counter")
-clock.MEMORY, clock._LOOK = 20_000_000, 0.0
+tuning.MEMORY, tuning.MEMORY_LOOK = 20_000_000, 0.0
 begin = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 ended = []
 for one in (long, *(NASTY[name] for name in names), long):
@@ -225,8 +224,8 @@ print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - begin) // 1024)
         assert int(done.stdout) < 150
 
     def test_a_search_is_given_up_that_takes_too_much(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setattr(clock, "MEMORY", -1)
-        monkeypatch.setattr(clock, "_LOOK", 0.0)
+        monkeypatch.setattr(tuning, "MEMORY", -1)
+        monkeypatch.setattr(tuning, "MEMORY_LOOK", 0.0)
         with pytest.raises(
             NoLayout, match=r"^Out of memory after .* Larger letters or a smaller canvas would help"
         ) as caught:
@@ -406,7 +405,7 @@ def test_a_layout_depends_on_one_axis_only_where_it_is_edited() -> None:
 
 def test_an_alignment_that_takes_too_much_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Words of placeholders under the paper's objective: where a piece stands costs nothing."""
-    monkeypatch.setattr(compiled, "_MOST", 2**25)
+    monkeypatch.setattr(tuning, "INSTANCE_BYTES", 2**25)
     rows = [
         [Letter(s, 1.0 + 0.1 * k, transparent=t) for k, s in enumerate(text)]
         for text, t in (("ABABABABABAB", False), ("CzCoCzCoCz", True), ("DfDfDfDfDf", True))
@@ -430,7 +429,7 @@ def test_memory_that_ends_in_the_middle_of_a_large_allocation(
     megabytes: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Then much of it may still be free; it is out of memory all the same, and no fault of the compiled code."""
-    monkeypatch.setattr(compiled, "_MOST", megabytes * 2**20)
+    monkeypatch.setattr(tuning, "INSTANCE_BYTES", megabytes * 2**20)
     design = bench_anytime.stack(26, 1, 0.34)
     walk = AxisSearch(axis_problem(design, "x"), Objective(), 0.5 * design.canvas.width)
     walk.enumerate({})

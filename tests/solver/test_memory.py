@@ -16,7 +16,7 @@ import pytest
 
 from facade_nb import NoLayout, gallery, solve
 from facade_nb.design import edit
-from facade_nb.solver import Letter, Objective, align
+from facade_nb.solver import Letter, Objective, align, tuning
 from facade_nb.solver import budget as clock
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment.core import binding as compiled
@@ -209,7 +209,7 @@ class TestWhatEarlierCallsLeave:
         monkeypatch.setattr(clock, "_resident", lambda: own[0])
         monkeypatch.setattr(clock, "_left", clock._Left())
         monkeypatch.setattr(clock, "_give_back", lambda: None)
-        monkeypatch.setattr(clock, "_LOOK", -1.0)
+        monkeypatch.setattr(tuning, "MEMORY_LOOK", -1.0)
         return own
 
     @staticmethod
@@ -217,15 +217,15 @@ class TestWhatEarlierCallsLeave:
         """By how much the process may grow in a call; it keeps all that."""
         begin, one = size[0], Clock(None)
         with suppress(Stopped):
-            while size[0] < begin + 10 * clock.MEMORY:
+            while size[0] < begin + 10 * tuning.MEMORY:
                 size[0] += step
                 one.check()
         one.close()
         return size[0] - begin
 
     def test_counts(self, size: list[int]) -> None:
-        assert self.grows_by(size) == pytest.approx(clock.MEMORY, abs=2e7)
-        assert self.grows_by(size) == pytest.approx(clock.MEMORY / 2, abs=2e7)  # never less than a half
+        assert self.grows_by(size) == pytest.approx(tuning.MEMORY, abs=2e7)
+        assert self.grows_by(size) == pytest.approx(tuning.MEMORY / 2, abs=2e7)  # never less than a half
 
     def test_what_the_system_gets_back_does_not(
         self, size: list[int], monkeypatch: pytest.MonkeyPatch
@@ -242,7 +242,7 @@ class TestWhatEarlierCallsLeave:
     def test_what_others_take_does_not(self, size: list[int]) -> None:
         """A table that the notebook reads between two calls."""
         size[0] += 10**9
-        assert self.grows_by(size) == pytest.approx(clock.MEMORY, abs=2e7)
+        assert self.grows_by(size) == pytest.approx(tuning.MEMORY, abs=2e7)
 
 
 class TestKept:

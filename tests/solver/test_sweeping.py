@@ -9,7 +9,7 @@ import pytest
 from facade_nb import solve
 from facade_nb.design import edit
 from facade_nb.design.model import Symbol
-from facade_nb.solver import Letter, Objective, align
+from facade_nb.solver import Letter, Objective, align, tuning
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment.core.binding import CompiledDives
 from facade_nb.solver.alignment.core.search import search_best as search
@@ -20,7 +20,6 @@ from facade_nb.solver.alignment.reference.dives import Dives
 from facade_nb.solver.alignment.single import alignment_of
 from facade_nb.solver.budget import Stopped
 from facade_nb.solver.model.problem import axis_problem
-from facade_nb.solver.selection import clusters as running
 from facade_nb.solver.selection.axis import AxisSearch
 from facade_nb.solver.sizing.system import size_axis, strain
 from tests.bench import bench_anytime
@@ -227,7 +226,7 @@ class TestAnytime:
     ) -> None:
         """Stopped after so many checks, not seconds: long before the search has come to any alignment."""
         design = bench_anytime.stack(16, 1)
-        monkeypatch.setattr(running, "_SLOW", 0.0)
+        monkeypatch.setattr(tuning, "SLOW", 0.0)
         solving.forget()
         calls = iter(range(10**9))
         layout = solve(design, time_limit=None, should_stop=lambda: next(calls) > 3_000)

@@ -8,8 +8,7 @@ from math import inf
 
 import pytest
 
-from facade_nb.solver import Letter, Objective, align
-from facade_nb.solver.alignment import group as grouping
+from facade_nb.solver import Letter, Objective, align, tuning
 from facade_nb.solver.alignment.core.search import search_best as search
 from facade_nb.solver.alignment.group import Group, make_group
 from facade_nb.solver.alignment.reference.dives import Dives
@@ -53,7 +52,7 @@ def stack(rows: int, cells: int, seed: int, jitter: float = 0.0) -> tuple[list[t
 @pytest.fixture
 def tall(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Every group with a rigid band counts as tall."""
-    monkeypatch.setattr(grouping, "_TALL", 1)
+    monkeypatch.setattr(tuning, "TALL", 1)
     yield
 
 
@@ -63,7 +62,7 @@ class TestSameAnswer:
         case = case_of(seed)
         group = group_of(case)
         found = search([group]).best
-        grouping._TALL = 99  # type: ignore[attr-defined]  # the fixture puts it back
+        tuning.TALL = 99  # the fixture puts it back
         expected = search([group_of(case)]).best
         assert (found is None) == (expected is None), case
         if found is not None and expected is not None:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from facade_nb import Design, NoLayout, gallery, solve
-from facade_nb.solver import Objective
+from facade_nb.solver import Objective, tuning
 from facade_nb.solver import solution as front
 from tests.oracle.designs import design, make_design
 
@@ -62,7 +62,6 @@ def test_of_long_words(objective: str) -> None:
 
 def test_what_rescues_a_search_rescues_a_traced_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """Best first gives up soon under the paper's objective; the paper's search finds the answer in either case."""
-    from facade_nb.solver.selection import searches
     from facade_nb.solver.selection.clusters import GroupSearch
 
     rescues = 0
@@ -73,7 +72,7 @@ def test_what_rescues_a_search_rescues_a_traced_one(monkeypatch: pytest.MonkeyPa
         otherwise(self)
         rescues += self.log is not None and bool(self._found.ties)
 
-    monkeypatch.setattr(searches, "_NODES", 10_000)
+    monkeypatch.setattr(tuning, "PATHS", 10_000)
     monkeypatch.setattr(GroupSearch, "_otherwise", counted)
     for seed in range(20):
         one = make_design(9_500 + seed)

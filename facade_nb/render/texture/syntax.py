@@ -25,9 +25,9 @@ from typing import Any
 from lark import Lark, Token, Transformer
 from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
+from ...design.characters import letters_in
 from ...design.errors import cut, quoted
 from ...design.grammar import show
-from ...design.letters import letters_in
 from ...design.names import nfc
 
 __all__ = [

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...design.characters import letters_in
 from ...design.errors import DesignError, Fault, quoted
-from ...design.letters import letters_in
 from ...design.names import nfc
 
 if TYPE_CHECKING:

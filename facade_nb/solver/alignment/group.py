@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+from .. import tuning
 from ..model.letters import Letter
 from ..model.objective import Objective
 from .bands import Band
@@ -12,11 +13,6 @@ from .elements import Option, Position
 from .pairs import PairTable, choose_reference
 
 __all__ = ["Group", "lone_unsized", "make_group", "unsizable"]
-
-_TALL = 6
-"""From so many rigid bands on, a group's columns are looked for by their skeleton."""
-_PAIRED = 12
-"""With more bands than this, pairs say too little for what they take to be compared."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +149,7 @@ def make_group(
             if band.soft:
                 others = (other for other in bands if other is not band)
                 band.fill(sorted({size for other in others for size in other.backs()}), tolerance)
-    reference = choose_reference(bands) if 1 < len(bands) <= _PAIRED else None
+    reference = choose_reference(bands) if 1 < len(bands) <= tuning.PAIRED else None
     rigid = sum(not any(letter.transparent for letter in band.letters) for band in bands)
     weights = [
         (min(objective.empty, objective.loose) if band.soft and not objective.plain else objective.empty)
@@ -178,7 +174,7 @@ def make_group(
         ),
         guards=tuple(tuple(o for o, other in enumerate(bands) if other.top < band.bottom) for band in bands),
         weights=tuple(weights),
-        tall=not objective.plain and rigid >= _TALL,
+        tall=not objective.plain and rigid >= tuning.TALL,
         reference=reference,
         pairs=()
         if reference is None

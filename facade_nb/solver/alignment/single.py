@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
 
 from ...design.errors import NoLayout
+from .. import tuning
 from ..budget import Stopped
 from ..effort import Effort
 from ..model.letters import Letter
@@ -24,12 +25,6 @@ __all__ = ["SEARCHES", "Alignment", "Element", "align", "alignment_of"]
 
 Element = tuple[Letter, ...]
 SEARCHES = ("best", "ida")
-
-_TURNS: Mapping[str, Sequence[int]] = {"best": (20_000, 150_000, 1_000_000), "ida": (4_000, 30_000, 100_000)}
-"""After so many partial alignments a search gives way to the other; after the last, the best so far is taken."""
-
-_PATH = 2e-4
-"""Seconds that a partial alignment takes in Python."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,8 +131,8 @@ def _searched(group: Group, first: str) -> Found:
     second = next(own for own in SEARCHES if own != first)
     best = Found(cut=True)
     ends: Ends | None = None
-    for turn in zip(_TURNS[first], _TURNS[second], strict=True):
-        check = Effort(call=_PATH)
+    for turn in zip(tuning.ALIGN_TURNS[first], tuning.ALIGN_TURNS[second], strict=True):
+        check = Effort(call=tuning.ALIGN_PATH)
         for search, nodes in zip((first, second), turn, strict=True):
             try:
                 if search == "ida":
@@ -153,7 +148,7 @@ def _searched(group: Group, first: str) -> Found:
             for priced in found.ties:
                 best.offer(priced, 1)
             # the second one may take twice as long as the first one took
-            check = Effort(call=_PATH, most=max(1.0, 2.0 * check.seconds))
+            check = Effort(call=tuning.ALIGN_PATH, most=max(1.0, 2.0 * check.seconds))
     return best
 
 

@@ -17,6 +17,7 @@ from ...design.model import Counter
 from ...design.modes import shared
 from ...design.pattern import Alt, Concat, Count, Empty, Mirror, Node, Sym
 from ...design.text import spell
+from .. import tuning
 from .linear import Bounds, form_text
 
 __all__ = [
@@ -34,11 +35,6 @@ __all__ = [
     "trim",
 ]
 
-MAX_VARIANTS = 32
-"""Most ways to choose the alternatives of a pattern that are looked at."""
-
-MAX_TERMS = 2_000
-"""Most terms, and most letters in the base of one."""
 
 Exponent = Mapping[str, int]
 """A number of times: coefficients by variable, ``""`` the constant."""
@@ -170,7 +166,7 @@ class Counters:
             if name:
                 end = self.variables[name].bounds.low if factor > 0 else self.variables[name].bounds.high
                 if end is None:
-                    return -MAX_TERMS
+                    return -tuning.MAX_TERMS
                 total += factor * int(end)
         return total
 
@@ -222,8 +218,8 @@ def _choices(parts: Sequence[Sequence[Runs]]) -> list[Runs]:
 
 def check_ways(ways: int) -> None:
     """Refuse a pattern with too many ways to choose its alternatives (`Tricky`)."""
-    if ways > MAX_VARIANTS:
-        raise Tricky(f"there are more than {MAX_VARIANTS} ways to choose its alternatives")
+    if ways > tuning.MAX_VARIANTS:
+        raise Tricky(f"there are more than {tuning.MAX_VARIANTS} ways to choose its alternatives")
 
 
 def _counted(base: Runs, count: Count, counters: Counters) -> Runs:
@@ -284,8 +280,8 @@ def _expanded(runs: Runs) -> tuple[tuple[str, bool], ...]:
 
 
 def _check_terms(terms: int) -> None:
-    if terms > MAX_TERMS:
-        raise Tricky(f"it has more than {MAX_TERMS:,} terms")
+    if terms > tuning.MAX_TERMS:
+        raise Tricky(f"it has more than {tuning.MAX_TERMS:,} terms")
 
 
 def _root(letters: tuple[tuple[str, bool], ...]) -> tuple[tuple[str, bool], ...]:

@@ -8,8 +8,9 @@ from math import inf
 
 from ...design.errors import NoLayout, Suggestion, quoted
 from ...design.model import Axis, Design
+from .. import tuning
 from ..analysis.systems import Analysis, analyse
-from ..budget import MEMORY, Clock, Stopped
+from ..budget import Clock, Stopped
 from ..model.letters import Word
 from ..model.problem import AxisProblem
 from ..selection.axis import AxisSearch
@@ -21,8 +22,6 @@ from .remedies import Remedies, nice, size_of
 
 __all__ = ["explain", "ran_out"]
 
-_CANDIDATES = 20_000
-"""Of so many candidates the values of counters are compared."""
 _SURE = ("analysis", "letters", "time", "memory", "stop")
 """What does not depend on which words there are, or says itself that some were left out."""
 
@@ -65,7 +64,7 @@ def ran_out(design: Design, clock: Clock, problems: Sequence[AxisProblem]) -> No
     if clock.asked:
         text, advice = f"Stopped after {clock.seconds:.1f} s", ""
     elif clock.full:
-        text = f"Out of memory after {clock.seconds:.1f} s (the search has taken {MEMORY // 10**6} MB)"
+        text = f"Out of memory after {clock.seconds:.1f} s (the search has taken {tuning.MEMORY // 10**6} MB)"
         advice = " Larger letters or a smaller canvas would help"
     else:
         text = f"{'Out of time' if clock.over else 'Given up'} after {clock.seconds:.1f} s"
@@ -331,7 +330,7 @@ def _balance(
 def _tied(blame: Blame, values: Mapping[Axis, set[tuple[int, ...]]], whole: bool) -> NoLayout:
     """`whole`: these are all values that there are."""
     names = names_of(blame.shared)
-    known = "" if whole else f", as far as the first {_CANDIDATES:,} candidates say"
+    known = "" if whole else f", as far as the first {tuning.COMPARED:,} candidates say"
     text = (
         f"{'Counters' if len(blame.shared) > 1 else 'Counter'} {names} is used both across and up, and no value fits "
         f"both{known}: across it can be {_list(values['x'])}, up {_list(values['y'])}."
@@ -346,7 +345,7 @@ def _tied(blame: Blame, values: Mapping[Axis, set[tuple[int, ...]]], whole: bool
 def _values(walk: AxisSearch, names: Sequence[str]) -> tuple[set[tuple[int, ...]], bool]:
     """Values of counters of the first candidates, and whether these are all."""
     order = walk.in_order()
-    values = {tuple(c.counters[n] for n in names) for c in islice(order, _CANDIDATES)}
+    values = {tuple(c.counters[n] for n in names) for c in islice(order, tuning.COMPARED)}
     return values, next(order, None) is None
 
 

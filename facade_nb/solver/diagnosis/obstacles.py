@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import chain, islice
 
 from ...design.errors import NoLayout, quoted
+from .. import tuning
 from ..analysis.systems import analyse
 from ..budget import Stopped
 from ..candidates.stream import CandidateStream
@@ -22,10 +23,6 @@ _BREAKS = {
     "C3": "unoccludable, and nothing that is not opaque may stand before it",
     "C4": "attached, and no gap may open beside it",
 }
-_ASIDE = 0.3
-"""Effort (seconds) that a trial may take that only the explanation needs."""
-_LIKELY = 8
-"""So many candidates are tried to see whether an axis can be aligned at all."""
 
 
 def one_group(blame: Blame, walk: AxisSearch) -> AxisSearch:
@@ -49,12 +46,12 @@ def aligns(blame: Blame, walk: AxisSearch, unsure: bool = True) -> bool:
         walk.objective,
         walk.tolerance,
         walk.method,
-        Effort(blame.clock.check, most=_ASIDE),
+        Effort(blame.clock.check, most=tuning.ASIDE),
         found=dict(walk.found),
     )
     try:
         stream = CandidateStream(trial.problem, trial.words(), trial.tolerance, trial.objective, trial.check)
-        likely = (stream.take() for _ in range(_LIKELY))
+        likely = (stream.take() for _ in range(tuning.TRIED))
         return any(c is not None and trial.solve(trial.case(c)) is not None for c in likely)
     except Stopped:
         return unsure
@@ -112,7 +109,7 @@ def obstacle(blame: Blame, walk: AxisSearch) -> NoLayout:
 
 def _no_room(blame: Blame, walk: AxisSearch, helper: Remedies, along: str) -> NoLayout | None:
     """An unsized symbol that would have to be of no length: without it there is an alignment."""
-    problem, end = walk.problem, blame.clock.check.seconds + _ASIDE
+    problem, end = walk.problem, blame.clock.check.seconds + tuning.ASIDE
     for name, pattern in problem.patterns:
         for symbol in sorted(pattern.placeholders):
             if problem.symbol[symbol].size is not None:

@@ -9,13 +9,12 @@ from typing import NamedTuple
 from ...design.edit import take
 from ...design.errors import DesignError, Suggestion, quoted
 from ...design.model import Axis, Counter, Design, Symbol
+from .. import tuning
 from ..budget import Stopped
 
 __all__ = ["Remedies", "Tried", "Works", "nice", "relaxed", "size_of"]
 
 _EXTENT: dict[Axis, str] = {"x": "width", "y": "height"}
-_FACTORS = (1.01, 1.02, 1.05, 1.1, 1.2, 1.35, 1.5, 2.0, 3.0, 5.0)
-_FINER = 4
 
 
 class Tried(NamedTuple):
@@ -91,7 +90,7 @@ class Remedies:
     def _nearest(self, make: Callable[[float], Suggestion], now: float) -> list[Suggestion]:
         """Go away from a value in growing steps, both ways; then back to where it just works."""
         before = {1: now, -1: now}
-        for factor in _FACTORS:
+        for factor in tuning.FACTORS:
             for way, value in ((1, _nicer(now * factor)), (-1, _nicer(now / factor))):
                 if self.over:
                     return []
@@ -101,7 +100,7 @@ class Remedies:
         return []
 
     def _back(self, make: Callable[[float], Suggestion], bad: float, good: float) -> float:
-        for _ in range(_FINER):
+        for _ in range(tuning.FINER):
             middle = _nicer((bad + good) / 2)
             if middle in (bad, good) or self.over:
                 break

@@ -11,8 +11,8 @@ from itertools import count, islice
 from math import inf
 from typing import TYPE_CHECKING
 
+from .. import tuning
 from ..alignment.core.binding import start_afresh
-from ..alignment.heuristic.local_search import LETTERS
 from ..budget import Stopped
 from ..candidates.stream import CandidateStream
 from ..model.precision import EPS
@@ -22,17 +22,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Anytime"]
 
-_LIKELY = {"sweep": 24, "mend": 3, "dive": 3}
-"""In these ways a layout is looked for when the time is up, of so many candidates."""
-
-_LONG = 0.5
-"""After so much effort of searches (seconds), candidates are swept, with this part of it:"""
-_LOOK = 0.3
-
 
 def _short(case: Case) -> bool:
     """Whether its words can be swept: a search of longer ones takes much memory before it begins."""
-    return all(len(word) <= LETTERS for word in case.candidate.words.values())
+    return all(len(word) <= tuning.SWEPT_LETTERS for word in case.candidate.words.values())
 
 
 class Anytime:
@@ -64,7 +57,7 @@ class Anytime:
             ):
                 run.give_up()
         try:
-            for way, most in _LIKELY.items():
+            for way, most in tuning.LIKELY.items():
                 for case in islice(self._likely(walk), most):
                     if way != "dive" and not _short(case):
                         continue
@@ -103,11 +96,11 @@ class Anytime:
     def around(self, walk: AxisSearch, cost: float) -> Solved | None:
         """A layout of another candidate that costs less, while the search of some takes long."""
         spent = sum(run.spent for run in walk.searches.runs.values())
-        if spent < _LONG or self._looked > _LOOK * spent:
+        if spent < tuning.LONG_EFFORT or self._looked > tuning.SWEPT_PART * spent:
             return None
         begin = walk.check.seconds
         if self._others is None:
-            self._others = islice(self._likely(walk), _LIKELY["sweep"])
+            self._others = islice(self._likely(walk), tuning.LIKELY["sweep"])
         other = next(filter(_short, self._others), None)
         if other is not None and not other.runs:
             walk.open(other)

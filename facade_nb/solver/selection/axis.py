@@ -8,12 +8,13 @@ from heapq import heappop, heappush, heapreplace
 from itertools import islice, product
 from math import inf
 
+from .. import tuning
 from ..alignment.group import Group
 from ..alignment.pricing import Priced
 from ..budget import Progress, Stopped
 from ..candidates.bounds import GroupKey
 from ..candidates.stream import Candidate, CandidateStream, candidates
-from ..effort import SIZED, Effort
+from ..effort import Effort
 from ..model.letters import Word
 from ..model.objective import Objective
 from ..model.precision import EPS
@@ -22,9 +23,9 @@ from ..sizing.system import Sized, size_axis
 from ..words.enumeration import axis_words
 from ..words.instances import Instances, Range
 from .anytime import Anytime
-from .clusters import GROWTH, STEP, TIES, GroupSearch
+from .clusters import GroupSearch
 from .observer import AxisObserver, sizing
-from .searches import BAND_LETTER, Searches, Setting, weight_of
+from .searches import Searches, Setting, weight_of
 
 __all__ = ["AxisSearch", "Best", "Case", "Solved"]
 
@@ -54,7 +55,7 @@ class Solved:
         system = self.sized.system
         letters = sum(len(band.letters) for group in self.groups for band in group.bands)
         return (
-            BAND_LETTER * letters
+            tuning.LETTER_BYTES * letters
             + sum({id(priced): weight_of(priced) for priced, _ in self.parts}.values())
             + system.matrix.nbytes
             + 200 * len(system.lower)
@@ -279,7 +280,7 @@ class AxisSearch:
                         break
                     heappush(queue, (candidate.bound, len(self.cases)))
                     self.cases.append(self.case(candidate))
-                    steps.append(STEP * self.problem.canvas)
+                    steps.append(tuning.FIRST_STEP * self.problem.canvas)
                 floor = min(stream.bound, queue[0][0] if queue else inf)
                 if not queue or queue[0][0] > top + EPS:
                     break
@@ -292,7 +293,7 @@ class AxisSearch:
                     heapreplace(queue, (self.cases[n].floor, n))
                     continue
                 limit = min(top, own + steps[n])
-                steps[n] *= GROWTH
+                steps[n] *= tuning.STEP_GROWTH
                 case = self.cases[n]
                 self.progress.at("alignment", self.problem.axis, candidate=n + 1, of=len(self.cases))
                 solved = self._turn(case, limit, top)
@@ -400,14 +401,14 @@ class AxisSearch:
     def size(self, case: Case, ties: Sequence[Sequence[Priced]]) -> Solved | None:
         """Size every combination of equally good structures; the least deviation wins."""
         best: Solved | None = None
-        for combination in islice(product(*ties), 2 * TIES):
+        for combination in islice(product(*ties), 2 * tuning.TIES):
             parts: dict[int, tuple[Priced, int]] = {}
             for cluster, priced in zip(case.clusters, combination, strict=True):
                 parts.update({g: (priced, k) for k, g in enumerate(cluster)})
             own = tuple(parts[g] for g in range(len(case.groups)))
             with sizing(self.trace, self.problem.axis):
                 sized = size_axis(case.groups, own, self.problem.canvas, self.setting.symbol)
-            self.check.add(SIZED)
+            self.check.add(tuning.SIZED)
             if sized is None:
                 continue
             solved = Solved(

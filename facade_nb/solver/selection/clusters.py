@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from math import inf
 
+from .. import tuning
 from ..alignment.core.binding import CompiledDives, CompiledSearch, best_first, dives
 from ..alignment.found import Found
 from ..alignment.group import Group
@@ -17,35 +18,17 @@ from ..alignment.pricing import Priced
 from ..alignment.reference.best_first import BestFirst
 from ..alignment.reference.dives import Dives
 from ..budget import Stopped
-from ..effort import SWEPT, Effort
+from ..effort import Effort
 from ..model.precision import EPS
 
-__all__ = ["GROWTH", "STEP", "TIES", "GroupSearch"]
-
-TIES = 4
-"""So many equally good structures are kept."""
-STEP = 0.004
-"""How far above its lower bound a candidate goes first, as a fraction of the canvas."""
-GROWTH = 1.5
-"""Each turn takes it so many times further."""
-_TURN = 150
-"""After so many paths a search gives way to those of other candidates."""
-_SLOW = 0.03
-"""A search of more effort than this (seconds) is helped by sweeps; where there are placeholders, which take longer:"""
-_SLOW_ELASTIC = 0.5
-_BUDGET = 4_000
-"""Of so many partial alignments the paper's search has to come to something at first; then of four times as many."""
-_TOLD = 200
-"""A word that stands alone is searched like others where somebody watches, if it has no more letters."""
-_LONG = 3_000
-"""A search of more paths than this is a long one, and dives help it."""
+__all__ = ["GroupSearch"]
 
 
 class GroupSearch:
     """The search of one cluster of groups, by either method, shared by all candidates that give it the same words.
 
     Among structures that are equally good, which come first depends on the limits that a search went through. So
-    it goes through the same ones every time, each further from its lower bound by `GROWTH`. Where the best answer
+    it goes through the same ones every time, each further from its lower bound by `STEP_GROWTH`. Where the best answer
     so far allows less than the next of them it goes no further than that; if it ends there with more answers than
     are kept, the search is repeated in steps. That makes an answer the same whatever was searched before.
 
@@ -73,16 +56,19 @@ class GroupSearch:
         self._dives: Dives | CompiledDives | None = None
         self._ends: Ends | None = None
         self._sweeps = (
-            sweeps(groups, Effort(self._effort, SWEPT), fits)
+            sweeps(groups, Effort(self._effort, tuning.SWEPT), fits)
             if accept is None and can_sweep(groups)
             else None
         )
         self._swept: Priced | None = None
         self._was_swept = False
-        self._slow = _SLOW if all(group.stiff for group in groups) else _SLOW_ELASTIC
+        self._slow = tuning.SLOW if all(group.stiff for group in groups) else tuning.SLOW_ELASTIC
         self.spent = self._dived = 0.0
         self._again = False
-        told = log is not None and sum(len(band.letters) for group in groups for band in group.bands) <= _TOLD
+        told = (
+            log is not None
+            and sum(len(band.letters) for group in groups for band in group.bands) <= tuning.TOLD_LETTERS
+        )
         alone = lone(groups) if known is None and accept is None and not told else None
         if known is not None:
             self._found, self.done = Found(*known), True
@@ -94,12 +80,18 @@ class GroupSearch:
     def _begin(self) -> None:
         method, nodes, check, accept = self._options
         self._first = best_first(
-            self.groups, keep=TIES, nodes=nodes, check=check, accept=accept, log=self.log, turn=_TURN
+            self.groups,
+            keep=tuning.TIES,
+            nodes=nodes,
+            check=check,
+            accept=accept,
+            log=self.log,
+            turn=tuning.TURN_PATHS,
         )
         self._ida = method == "ida"
         self._found, self.done = self._first.found, self._first.done
         self._base = self._found.bound
-        self._step = STEP * max((group.canvas for group in self.groups), default=1.0)
+        self._step = tuning.FIRST_STEP * max((group.canvas for group in self.groups), default=1.0)
         self._stepwise = True
         self._goal: float | None = None
 
@@ -129,7 +121,9 @@ class GroupSearch:
     @property
     def long(self) -> bool:
         """The search has taken long."""
-        return not self.done and ((self._sweeps is not None and self.slow) or self._found.nodes >= _LONG)
+        return not self.done and (
+            (self._sweeps is not None and self.slow) or self._found.nodes >= tuning.LONG_PATHS
+        )
 
     @property
     def slow(self) -> bool:
@@ -147,7 +141,7 @@ class GroupSearch:
         able = self._sweeps is not None or self._was_swept
         if at_once or self.slow:
             self._sweep()
-        if (sweep and able) or (self._found.nodes < _LONG and self._swept is not None):
+        if (sweep and able) or (self._found.nodes < tuning.LONG_PATHS and self._swept is not None):
             return
         if self._dives is None:
             self._dives = dives(self.groups, self.floor, check, self._fits)
@@ -175,14 +169,14 @@ class GroupSearch:
         """Where sweeps have come to nothing that can be sized: make something that can of what they have come to."""
         _, _, check, _ = self._options
         if not self._settled and self._was_swept and self._swept is None and self._strain is not None:
-            self._swept = mended(self.groups, self._strain, Effort(check, SWEPT))
+            self._swept = mended(self.groups, self._strain, Effort(check, tuning.SWEPT))
 
     def polish(self) -> Iterator[None]:
         """Make the best that is known better, bit by bit."""
         _, _, check, accept = self._options
         if self._settled or accept is not None or not self._was_swept or not self.known or self._fits is None:
             return
-        for better in polished(self.groups, self.known[0], self._fits, Effort(check, SWEPT)):
+        for better in polished(self.groups, self.known[0], self._fits, Effort(check, tuning.SWEPT)):
             self._swept = better
             yield
 
@@ -210,7 +204,7 @@ class GroupSearch:
                 if rung > top and not self._again:
                     self._stepwise, self._goal = False, limit
                 else:
-                    self._step, self._goal = self._step * GROWTH, rung
+                    self._step, self._goal = self._step * tuning.STEP_GROWTH, rung
             goal = self._goal
             self._go_to(goal)
             if self.paused:
@@ -218,7 +212,7 @@ class GroupSearch:
             self._goal = None
             if goal >= limit:
                 break
-        if self.done and not self._stepwise and len(self._found.ties) >= TIES:
+        if self.done and not self._stepwise and len(self._found.ties) >= tuning.TIES:
             self._again = True
             self._begin()
             self._go_on(limit, top)
@@ -238,7 +232,7 @@ class GroupSearch:
             if self.cut and self._plain:
                 self._otherwise()
         else:
-            budget = _BUDGET if self.log is None else inf  # a trace would tell everything again
+            budget = tuning.PAPER_PATHS if self.log is None else inf  # a trace would tell everything again
             while not self.done:
                 self._found = self._paper(limit, budget, self.log)
                 if budget >= self._options[1] or not self._found.cut:
@@ -254,7 +248,7 @@ class GroupSearch:
         return search_ida(
             self.groups,
             cap=limit,
-            keep=TIES,
+            keep=tuning.TIES,
             nodes=int(min(nodes, budget)),
             check=check,
             accept=accept,
@@ -268,7 +262,7 @@ class GroupSearch:
         Nobody is told of it: a network has the steps of one search.
         """
         first, self._first = self._found, None
-        other = self._paper(inf, _BUDGET, None)
+        other = self._paper(inf, tuning.PAPER_PATHS, None)
         better = other.best is not None and (first.best is None or other.best.cost < first.best.cost)
         if better or not other.cut:
             other.nodes += first.nodes

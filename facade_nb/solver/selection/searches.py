@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from ...design.model import Symbol
+from .. import tuning
 from ..alignment.group import Group, lone_unsized, make_group
 from ..alignment.pricing import Priced
 from ..budget import Progress
@@ -20,13 +21,7 @@ from ..sizing.system import size_axis, strain
 from .clusters import GroupSearch
 from .observer import AxisObserver
 
-__all__ = ["BAND_LETTER", "Searches", "Setting", "weight_of"]
-
-_NODES = 1_000_000
-"""A search of more paths gives up; under the paper's objective, and where structures are refused, of fewer."""
-
-_ELEMENT, BAND_LETTER = 500, 150
-"""Bytes that an element of a structure takes, and a letter of a band."""
+__all__ = ["Searches", "Setting", "weight_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +46,9 @@ class Setting:
 
 def weight_of(priced: Priced) -> float:
     """Bytes that a structure takes, about."""
-    return _ELEMENT + _ELEMENT * sum(len(column) for columns in priced.structure for column in columns)
+    return tuning.ELEMENT_BYTES + tuning.ELEMENT_BYTES * sum(
+        len(column) for columns in priced.structure for column in columns
+    )
 
 
 class _Rows:
@@ -91,7 +88,7 @@ class Searches:
         for key, run in self.runs.items():
             if run.done and not run.cut:
                 letters = sum(len(band.letters) for group in run.groups for band in group.bands)
-                weight = BAND_LETTER * (1 + letters) + sum(map(weight_of, run.ties))
+                weight = tuning.LETTER_BYTES * (1 + letters) + sum(map(weight_of, run.ties))
                 CACHE.groups.put(self._known_as(key), (run.ties, run.floor), weight)
             for group in run.groups:
                 group.forget()
@@ -137,7 +134,7 @@ class Searches:
         known: tuple[list[Priced], float] | None = None,
     ) -> GroupSearch:
         """A search of groups that are aligned together; with `accept`, of structures that will do only."""
-        nodes = _NODES if accept is None and not self._setting.objective.plain else _NODES // 50
+        nodes = tuning.PATHS if accept is None and not self._setting.objective.plain else tuning.PATHS // 50
         log = None
         if self._setting.trace is not None:
             names = [self._setting.problem.groups[g][0] for g in cluster]

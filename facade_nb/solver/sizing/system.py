@@ -21,6 +21,7 @@ from math import sqrt
 import numpy as np
 
 from ...design.model import Symbol
+from .. import tuning
 from ..alignment.group import Group
 from ..alignment.pricing import Priced
 from ..budget import Stopped
@@ -34,11 +35,6 @@ __all__ = ["Placement", "Sized", "size_axis", "strain"]
 _Place = tuple[int, int, int, int]
 """Group, row, column, and place in the element."""
 
-LONG = 1000
-"""With more letters than this only sizes are variables, where all else follows from them."""
-
-_CELLS = 12_000_000
-"""Most numbers in the matrices of a system: a solver for small ones would take minutes, and memory."""
 
 _SOME = 0.1
 """A part of its size that a letter should have."""
@@ -134,7 +130,7 @@ class _Builder:
     def system(self) -> System:
         """The matrices."""
         n, m, k, e = len(self.keys), len(self.by), len(self.lengths), len(self.equations)
-        if n * (n + m + k + e) > _CELLS:
+        if n * (n + m + k + e) > tuning.SIZING_CELLS:
             raise Stopped(full=True)
         variables = np.array(self.variables).reshape(n, 5)
         lower, upper = np.zeros(n + m + k + e), np.zeros(n + m + k + e)
@@ -220,7 +216,7 @@ def _are_long(groups: Sequence[Group], parts: Sequence[tuple[Priced, int]]) -> b
 
     That is so where each letter stands in one column as a whole, is opaque, and is no part of a content.
     """
-    if sum(len(band.letters) for group in groups for band in group.bands) <= LONG:
+    if sum(len(band.letters) for group in groups for band in group.bands) <= tuning.LONG_AXIS:
         return False
     return all(
         all(letter.opaque and not letter.transparent for letter in band.letters)

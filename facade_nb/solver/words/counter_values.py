@@ -15,11 +15,11 @@ from random import Random
 
 import numpy as np
 
+from .. import tuning
+
 __all__ = ["Sums"]
 
-_CELLS = 4096
 _NEAR = 1e-9
-_FEW = 2000
 
 
 class Sums:
@@ -48,24 +48,24 @@ class Sums:
             ::-1
         ]
         self._tables = [sorted(tables[name], key=_metres) for name in self._names]
-        self._cell = max(limit, _NEAR) / _CELLS
+        self._cell = max(limit, _NEAR) / tuning.SUM_CELLS
         # where there are few sums, dead ends cost less than knowing them
-        few = prod(map(len, self._tables)) <= _FEW
+        few = prod(map(len, self._tables)) <= tuning.SUM_FEW
         self._up_to = None if few else self._counted()
 
     def _counted(self) -> list[list[float]]:
         """Per table: how many sums of it and those after it there are up to each cell, about."""
-        counts = np.zeros(_CELLS + 2)
+        counts = np.zeros(tuning.SUM_CELLS + 2)
         counts[0] = 1.0
         found = [list(accumulate(counts.tolist(), initial=0.0))]
         for table in reversed(self._tables):
-            after, counts = counts, np.zeros(_CELLS + 2)
+            after, counts = counts, np.zeros(tuning.SUM_CELLS + 2)
             for _, size in table:
                 if self._check is not None:
                     self._check()
                 shift = int(size / self._cell)
-                if shift <= _CELLS + 1:
-                    counts[shift:] += after[: _CELLS + 2 - shift]
+                if shift <= tuning.SUM_CELLS + 1:
+                    counts[shift:] += after[: tuning.SUM_CELLS + 2 - shift]
             found.append(list(accumulate(counts.tolist(), initial=0.0)))
         return found[::-1]
 
@@ -74,8 +74,8 @@ class Sums:
         if self._up_to is None:
             return 1.0
         tables = len(self._tables) - k
-        first = min(max(0, int(low / self._cell) - tables - 1), _CELLS + 2) if low > 0 else 0
-        last = min(int(high / self._cell) + 1, _CELLS + 1) if high > -self._cell else -1
+        first = min(max(0, int(low / self._cell) - tables - 1), tuning.SUM_CELLS + 2) if low > 0 else 0
+        last = min(int(high / self._cell) + 1, tuning.SUM_CELLS + 1) if high > -self._cell else -1
         return self._up_to[k][last + 1] - self._up_to[k][first] if last >= first else 0.0
 
     def within(

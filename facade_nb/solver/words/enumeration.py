@@ -14,19 +14,16 @@ from ...design.fields import describe
 from ...design.limits import LEAST_LENGTH, MOST_COUNT, MOST_LENGTH
 from ...design.model import Counter, Symbol
 from ...design.pattern import parse
+from .. import tuning
 from ..budget import Progress
 from ..cache import CACHE
 from ..model.letters import Word
 from ..model.precision import EPS
 from ..model.problem import AxisProblem
-from .instances import MAX_COPIES, Instances, Range, instances, ranges
+from .instances import Instances, Range, instances, ranges
 
 __all__ = ["axis_words", "words"]
 
-_LETTER, _WORD = 8, 500
-"""Bytes that a letter takes in a word, and a word without letters."""
-_MAX_SAMPLES = 1_000_000
-"""Most words that sampled sizes make of one."""
 _SPAN = f"sizes lie between {LEAST_LENGTH:f} and {MOST_LENGTH:,.0f}"
 
 
@@ -94,7 +91,12 @@ def axis_words(
             except DesignError as error:
                 raise DesignError(Fault(f"patterns.{name}", str(error))) from None
             known = own, max((_opaque(word) for word in own.words), default=0.0)
-            CACHE.words.put(key, known, _WORD + sum(_WORD + _LETTER * len(word) for word in own.words))
+            CACHE.words.put(
+                key,
+                known,
+                tuning.WORD_BYTES
+                + sum(tuning.WORD_BYTES + tuning.WORD_LETTER_BYTES * len(word) for word in own.words),
+            )
         found[name], opaque[name] = known
     return found
 
@@ -215,7 +217,7 @@ def words(
     if found.endless and found.left < inf:
         names = ", ".join(map(repr, found.endless))
         warnings.warn(
-            f"Counter {names} repeats nothing that has a size; it was tried up to {MAX_COPIES} only.",
+            f"Counter {names} repeats nothing that has a size; it was tried up to {tuning.MAX_COPIES} only.",
             stacklevel=2,
         )
     kept: list[Word] = []
@@ -247,8 +249,9 @@ def _is_range(value: object) -> bool:
 
 def _sample(word: Word, unsized: Sequence[str], step: float, limit: float) -> Iterator[Word]:
     most = max(0, floor((limit - word.size) / step + EPS))
-    if most ** len(unsized) > _MAX_SAMPLES:
-        text = f"expected a larger step: {most:,} samples of {listed(unsized)} each make over {_MAX_SAMPLES:,} words"
+    if most ** len(unsized) > tuning.MAX_SAMPLES:
+        samples = f"{most:,} samples of {listed(unsized)} each make over {tuning.MAX_SAMPLES:,} words"
+        text = f"expected a larger step: {samples}"
         raise DesignError(Fault("unsized_step", text))
     for multiples in product(range(1, most + 1), repeat=len(unsized)):
         size = dict(zip(unsized, (m * step for m in multiples), strict=True))

@@ -13,6 +13,7 @@ from ...design.limits import nearest_zero
 from ...design.model import Counter, Symbol
 from ...design.pattern import Pattern
 from ...design.tree import MAX_LETTERS, Concat, Count, Node, check_room, concatenation, spellings, walk
+from .. import tuning
 from ..cache import CACHE
 from ..model.letters import Letter, Word
 from ..model.precision import EPS
@@ -20,9 +21,7 @@ from .counter_values import Sums
 from .lengths import TOO_MANY, Growth, Way, measure
 
 __all__ = [
-    "MAX_COPIES",
     "MAX_SPELLED",
-    "MAX_WORDS",
     "Instances",
     "Range",
     "instances",
@@ -30,20 +29,10 @@ __all__ = [
     "ranges",
 ]
 
-MAX_COPIES = 16
-"""A counter that repeats only letters without a size could go on for ever; it is tried up to this count."""
-
-MAX_WORDS = 2000
-"""A pattern with three counters or more is left with about so many words, those nearest to the canvas."""
 
 MAX_SPELLED = MAX_LETTERS
 """Most letters of a word that a counter makes long."""
 
-_MAX_FEW = 20_000
-"""So many for one or two counters."""
-
-_MAX_TOTAL = 400_000
-"""Most letters in all words of a pattern together: the words nearest to the canvas come first."""
 
 _WAY = ""
 """In tables of counters: the choice of alternatives. No counter has that name."""
@@ -65,7 +54,7 @@ class Instances:
     shortest
         The shortest word of the pattern, whether or not it is within the limit.
     endless
-        Counters that repeat nothing with a size, cut off at `MAX_COPIES`.
+        Counters that repeat nothing with a size, cut off at `tuning.MAX_COPIES`.
     left
         Words that were left out, as there are too many, or as they have too many letters, miss the canvas by at least
         so many metres; one with an unsized letter, which takes what is left, may miss it by nothing.
@@ -99,7 +88,7 @@ def instances(
     Parameters
     ----------
     canvas
-        With it, where there are more words than `MAX_WORDS` (or their letters are too many), those nearest to it
+        With it, where there are more words than `tuning.MAX_WORDS` (or their letters are too many), those nearest to it
         are kept.
     low
         Does not hold for words with an unsized letter, which takes what is left.
@@ -125,7 +114,9 @@ def instances(
         if canvas is None:
             found, _ = sums.within(least - EPS, limit + 1e-7)
         else:
-            found, missed = sums.nearest(canvas, least - EPS, _MAX_FEW if few else MAX_WORDS)
+            found, missed = sums.nearest(
+                canvas, least - EPS, tuning.MAX_WORDS_OF_FEW if few else tuning.MAX_WORDS
+            )
             left = min(left, _by(missed, kind.open), _by(max(0.0, kind.missed - canvas), kind.open))
         chosen += [
             (size, tuple(values[name] for name in pattern.counters), values[_WAY]) for size, values in found
@@ -223,7 +214,7 @@ def _reaches_spelled(
         for name, own in bounds.items()
     }
     tried = [zero]
-    if all(abs(value) <= MAX_COPIES for value in ends.values()):
+    if all(abs(value) <= tuning.MAX_COPIES for value in ends.values()):
         tried.append(ends)
     for name, own in bounds.items():
         for step in (1, -1):
@@ -237,7 +228,7 @@ def _reaches_spelled(
                     sizes = [word.size for word in speller.words(pattern, {**zero, name: value})]
                 except DesignError:  # words that are too long to be spelled
                     break
-                if max(sizes) > limit + EPS or (abs(value) > MAX_COPIES and max(sizes) <= EPS):
+                if max(sizes) > limit + EPS or (abs(value) > tuning.MAX_COPIES and max(sizes) <= EPS):
                     tried.append({**zero, name: value})
                     break
                 value += step
@@ -375,8 +366,8 @@ class _Kind:
                     check_room(MAX_LETTERS + 1)
                 if free:
                     self.free.add(name)
-                    far = end is None or abs(end - value) > MAX_COPIES
-                    if name not in self._common and abs(value - zero) >= MAX_COPIES and far:
+                    far = end is None or abs(end - value) > tuning.MAX_COPIES
+                    if name not in self._common and abs(value - zero) >= tuning.MAX_COPIES and far:
                         self.endless.add(name)
                         if growth.length(value) > growth.length(zero):
                             self.missed = -inf
@@ -402,7 +393,7 @@ class _Kind:
 def _few_letters(
     chosen: list[tuple[float, tuple[int, ...], int]], canvas: float, ways: Sequence[Way], names: Sequence[str]
 ) -> tuple[list[tuple[float, tuple[int, ...], int]], float]:
-    """Those nearest to the canvas, until they have `_MAX_TOTAL` letters; by how much one that is left out misses it."""
+    """Those nearest to the canvas, as many as may have letters; by how much one that is left out misses it."""
     total = 0.0
     chosen.sort(key=lambda own: abs(own[0] - canvas))
     kept: list[tuple[float, tuple[int, ...], int]] = []
@@ -413,7 +404,7 @@ def _few_letters(
         added = zip(names, values, strict=True)
         letters = own.letters + sum(g.length(v) for name, v in added if (g := own.growth.get(name)))
         long = letters > max(MAX_SPELLED, own.letters)
-        full = full or (not long and bool(kept) and total + letters > _MAX_TOTAL)
+        full = full or (not long and bool(kept) and total + letters > tuning.MAX_LETTERS_IN_ALL)
         if long or full:
             left = min(left, _by(abs(size - canvas), own.open))
         else:
@@ -570,7 +561,7 @@ def _one_by_one(
                     break
                 still = still + 1 if inside == before else 0
                 end = bounds.max if step == 1 else bounds.min
-                if still >= MAX_COPIES and (end is None or abs(end - value) > MAX_COPIES):
+                if still >= tuning.MAX_COPIES and (end is None or abs(end - value) > tuning.MAX_COPIES):
                     endless.add(name)
                     break
                 fits.append(value)

@@ -27,8 +27,9 @@ from struct import Struct, unpack, unpack_from
 from typing import Any
 from weakref import WeakKeyDictionary, WeakSet, finalize, ref
 
+from ... import tuning
 from ...budget import Stopped
-from ...effort import ALIGNED, Effort, spend
+from ...effort import Effort, spend
 from ...model.precision import EPS
 from ..elements import Option
 from ..found import Found
@@ -52,22 +53,12 @@ __all__ = [
 ]
 
 _MODULE = File(__file__).parent / "core.wasm"
-_LARGE = 64 * 2**20
-"""An instance whose memory has grown to so many bytes is let go of once nothing is left in it."""
-_MOST = 2**29
-"""So many bytes of addresses are reserved for an instance, and it may not grow beyond; the clock stops it before."""
-_GUARD = 2**16
-"""Addresses in front of which and behind which nothing may be."""
 _UNLIMITED = float(2**53)
-_PER_SECOND = 4e8
-"""So much work, as it counts it, is done in a second of a usual machine."""
 
 _BAD_FILE = 8
 _ENDED, _PAUSED, _LEFT, _PRICE = range(4)
 _SEARCH, _DIVES, _GROUP = range(3)
 _BOX = [Struct(f"<{n}d") for n in range(9)]
-_MANY = 8
-"""So many things that are no longer needed are let go of at once, or fewer where memory is short."""
 
 
 @cache
@@ -89,9 +80,9 @@ def _module() -> tuple[Any, Any]:
     # By default gigabytes are reserved for each instance, so that no access need be checked. Each is, with less; which
     # costs nothing that can be measured as long as what a processor reads ahead in vain may be anything: here it may,
     # for all code and data are our own.
-    config.memory_reservation = _MOST
+    config.memory_reservation = tuning.INSTANCE_BYTES
     config.memory_reservation_for_growth = 0
-    config.memory_guard_size = _GUARD
+    config.memory_guard_size = tuning.GUARD_BYTES
     config.memory_may_move = False
     config.cranelift_flag_set("enable_heap_access_spectre_mitigation", "false")
     with suppress(
@@ -131,7 +122,7 @@ class _Core:
 
         engine, module = _module()
         self._store = wasmtime.Store(engine)
-        self._store.set_limits(memory_size=_MOST)
+        self._store.set_limits(memory_size=tuning.INSTANCE_BYTES)
         linker = wasmtime.Linker(engine)
         me = ref(self)  # wasmtime keeps what it may call until the store is gone
 
@@ -182,7 +173,7 @@ class _Core:
     @property
     def large(self) -> bool:
         """It takes much memory, and nothing is left in it."""
-        return self.empty and self.size > _LARGE
+        return self.empty and self.size > tuning.LARGE_INSTANCE
 
     def _call(self, name: str, *arguments: float) -> None:
         """Call a function, its arguments in the box: to wasmtime each parameter and result takes microseconds."""
@@ -207,7 +198,7 @@ class _Core:
             raise Stopped(full=True)
         effort = check if isinstance(check, Effort) else None
         if effort is not None and effort.left < inf:
-            self._call("allow", max(0.0, effort.left) * _PER_SECOND)
+            self._call("allow", max(0.0, effort.left) * tuning.WORK_PER_SECOND)
         self._raised, self.busy, self.told = None, True, ()
         self._check = check if effort is None else effort.look
         try:
@@ -223,7 +214,7 @@ class _Core:
         raised, self._raised = self._raised, None
         *told, work = self._answer()
         self.told = tuple(told)
-        spend(check, work / _PER_SECOND)
+        spend(check, work / tuning.WORK_PER_SECOND)
         if raised is not None:
             raise raised
         if effort is not None and effort.left < 0:
@@ -258,7 +249,7 @@ class _Core:
 
     def owned(self, owner: object, kind: int, number: float) -> None:
         """Let go of something when its owner is no more."""
-        if len(self._dead) >= _MANY or self.size > _LARGE // 4:
+        if len(self._dead) >= tuning.LET_GO or self.size > tuning.LARGE_INSTANCE // 4:
             self._bury()
         self._alive.add((kind, number))
         finalize(owner, self._dead.append, (kind, number)).atexit = False
@@ -410,7 +401,7 @@ def start_afresh() -> bool:
     """
     own = _local.sessions[-1]
     core = own.core
-    if core is None or core.busy or (not core.broken and core.size <= _LARGE):
+    if core is None or core.busy or (not core.broken and core.size <= tuning.LARGE_INSTANCE):
         return False
     own.close()
     return True
@@ -480,7 +471,7 @@ class CompiledSearch:
                 structure = _structure(self.groups, self._core.integers(self._structure))
                 expected = self.expected
                 known = expected is not None and expected.structure == structure
-                spend(self.check, ALIGNED)
+                spend(self.check, tuning.ALIGNED)
                 item = expected if known else price(self.groups, structure)
                 if item is not None and (self.accept is None or self.accept(item)):
                     found.offer(item, self.keep)
@@ -547,7 +538,7 @@ class CompiledDives:
         status, limit, _, structure, _ = self._ask("dives_dive", self.best is not None)
         if status != _PRICE:
             return False
-        spend(self.check, ALIGNED)
+        spend(self.check, tuning.ALIGNED)
         priced = price(self.groups, _structure(self.groups, self._core.integers(structure)))
         if (
             priced is None

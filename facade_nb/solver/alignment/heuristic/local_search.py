@@ -17,21 +17,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import inf
 from statistics import median
 
+from ... import tuning
 from ...model.precision import EPS
 from ..group import Group
 from ..pricing import Columns, Priced, price
 from .placement import Table, with_gaps, without_gaps
 from .runs import Cuts
 
-__all__ = ["LETTERS", "can_sweep", "mended", "polished", "sweeps"]
-
-_SWEEPS = 12
-_ROUNDS = 3
-"""So often unsized symbols are given the sizes that they have come to."""
-_LESS = 0.98
-"""To this part a step has to lessen the strain."""
-LETTERS = 60
-"""Words of more letters take too long: there are as many ways to lay one as the cube of its length."""
+__all__ = ["can_sweep", "mended", "polished", "sweeps"]
 
 
 def can_sweep(groups: Sequence[Group]) -> bool:
@@ -42,7 +35,7 @@ def can_sweep(groups: Sequence[Group]) -> bool:
     bands = [band for group in groups for band in group.bands]
     return (
         any(len(group.bands) > 1 for group in groups)
-        and max(len(band.letters) for band in bands) <= LETTERS
+        and max(len(band.letters) for band in bands) <= tuning.SWEPT_LETTERS
         and not any(group.objective.plain for group in groups)
         and all(band.cuts or not any(letter.transparent for letter in band.letters) for band in bands)
         and all(any(not a.transparent for band in group.bands for a in band.letters) for group in groups)
@@ -81,7 +74,7 @@ def mended(
     while now > 0.0:
         for changed, other in _changed(tables, cuts, check):
             left = strain(other)
-            if left < _LESS * now:
+            if left < tuning.LESS_STRAIN * now:
                 cuts, now, priced = changed, left, other
                 break
         else:
@@ -114,7 +107,7 @@ def _rounds(
     """Sweeps, with the sizes that unsized symbols have come to; with the spots at which all letters stand."""
     least = inf
     assumed = _assumed(groups)
-    for _ in range(_ROUNDS if assumed else 1):
+    for _ in range(tuning.SWEEP_ROUNDS if assumed else 1):
         cheapest: Priced | None = None
         for own in _swept(groups, assumed, check):
             yield own
@@ -205,7 +198,7 @@ def _settled(table: Table, cuts: Cuts) -> Cuts:
     """Columns that neither a sweep nor joining them makes cheaper."""
     cuts = table.joined(cuts)
     cost = table.cost(cuts)
-    for _ in range(_SWEEPS):
+    for _ in range(tuning.SWEEPS):
         wide = with_gaps(cuts)
         for b in table.order:
             wide = table.laid(wide, b)

@@ -17,6 +17,7 @@ from math import inf
 
 import numpy as np
 
+from ... import tuning
 from ...model.precision import EPS
 from ..elements import Option
 from ..group import Group
@@ -25,12 +26,6 @@ from .runs import Bools, Cuts, Floats, Row, Sum
 
 __all__ = ["Table", "with_gaps", "without_gaps"]
 
-_PLACES = 160
-"""Places closer than this part of the canvas count as one."""
-_ELEMENTS = 300_000
-"""With more elements than this between places, wide columns are not looked at to begin with."""
-_SPANS = 300_000
-"""A row with placeholders may join so many columns for one of its letters that no more elements are looked at."""
 _NEVER = 1e6
 """Instead of infinity, where sums are taken apart again."""
 
@@ -120,15 +115,15 @@ class Table:
         """The cheapest columns between positions near which rows have boundaries, which are at `ends`."""
         every = np.unique(np.concatenate(list(ends.values())))
         canvas = self.group.canvas
-        cells = np.unique(np.round(every / (canvas / _PLACES)).astype(int), return_index=True)[1]
+        cells = np.unique(np.round(every / (canvas / tuning.PLACES)).astype(int), return_index=True)[1]
         places = every[cells]
         m = len(places)
         at = np.zeros((len(self._rows), m), dtype=np.intp)
         for b, own in ends.items():
-            at[b] = self._rows[b].nearest(own, places, canvas / _PLACES)
+            at[b] = self._rows[b].nearest(own, places, canvas / tuning.PLACES)
             at[b, 0], at[b, -1] = 0, self._rows[b].last
         i, j = np.triu_indices(m, 1)
-        keep = places[j] - places[i] <= places[-1] * min(1.0, _ELEMENTS / (len(i) * len(at)))
+        keep = places[j] - places[i] <= places[-1] * min(1.0, tuning.ELEMENTS / (len(i) * len(at)))
         keep |= (i == 0) & (j == m - 1)
         i, j = i[keep], j[keep]
         cost = np.full((m, m), inf)
@@ -281,7 +276,7 @@ class Table:
         spanned = np.concatenate([[0.0], np.cumsum(pieces)])
         bare = np.where(others.some | self.group.waived, 0.0, _NEVER)
         # solid runs, in as many columns joined as there is time for
-        most = max(1, min(m, _SPANS // (m * (n + 1) ** 2 + 1)))
+        most = max(1, min(m, tuning.SPANS // (m * (n + 1) ** 2 + 1)))
         i, j = np.triu_indices(m + 1, 1)
         near = np.flatnonzero(j - i <= most)
         near = near[np.lexsort((i[near], j[near]))]  # by where they end

@@ -18,7 +18,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf
 
-from ...effort import RELAXED, spend
+from ... import tuning
+from ...effort import spend
 from ...model.precision import EPS
 from ..bands import Band
 from ..elements import Option
@@ -35,8 +36,6 @@ __all__ = ["Meeting"]
 
 _ERROR = 0.1 * EPS
 """The linear programmes are at least that exact, metres."""
-_IDLE = 1000
-"""After so many joined alignments in a row that were no better than what was known, the pass goes on forward alone."""
 
 
 class Meeting:
@@ -98,7 +97,7 @@ class Meeting:
         for halves in self.arrived.values():
             halves.sort(key=_cost)
         self._walk(self.backward, self._join_all)
-        if self._idle >= _IDLE and not self.found.cut:
+        if self._idle >= tuning.IDLE_JOINS and not self.found.cut:
             self._walk(self.forward, self._finish)
 
     def _walk(self, side: Side, meet: Callable[[Half], bool]) -> None:
@@ -108,7 +107,7 @@ class Meeting:
         if root.bound > self.limit + EPS or not meet(root):
             return
         stack = [(root, iter(side.onward(root, self.limit)))]
-        while stack and (side is self.forward or self._idle < _IDLE):
+        while stack and (side is self.forward or self._idle < tuning.IDLE_JOINS):
             half, children = stack[-1]
             child = None if half.dropped else next(children, None)
             if child is None:
@@ -151,7 +150,7 @@ class Meeting:
         key = tuple([column for _, column in half.laid()])
         known = side.relaxed.get(key)
         if known is None:
-            spend(self.check, RELAXED)
+            spend(self.check, tuning.RELAXED)
             relaxed = Relaxation(side, half)
             known = side.relaxed[key] = relaxed.value - _ERROR, relaxed.positive() - _ERROR
         bound, positive = known[0] + later, known[1] + later
@@ -200,7 +199,7 @@ class Meeting:
                 break
             if not other.dropped:
                 self._join(key, other, half)
-            if self._idle >= _IDLE:
+            if self._idle >= tuning.IDLE_JOINS:
                 break
         return True
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from math import inf
 
+from ... import tuning
 from ...model.precision import EPS
 from ..found import Found
 from ..group import Group
@@ -25,11 +26,6 @@ from .guides import Guide
 from .halves import Side
 
 __all__ = ["Deepening", "Ends"]
-
-_GROWTH = 2.0
-"""Each limit is that many times further from the lower bound."""
-_DEAR = 1000
-"""After a pass with more partial alignments, which will not be shorter next time, the limit grows faster."""
 
 
 class Ends:
@@ -195,7 +191,9 @@ class Deepening:
             if done or self._threshold >= self.limit or beyond == inf:
                 return thinned
             self._threshold = min(self.limit, max(beyond, self.ends.least + self._step))
-            self._step *= _GROWTH if found.nodes - before < _DEAR else _GROWTH**3
+            self._step *= (
+                tuning.LIMIT_GROWTH if found.nodes - before < tuning.DEAR_PASS else tuning.LIMIT_GROWTH**3
+            )
 
     def result(self) -> Found:
         """What is known now."""

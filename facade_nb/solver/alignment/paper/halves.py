@@ -11,7 +11,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import inf
 
-from ...effort import EXTENDED, spend
+from ... import tuning
+from ...effort import spend
 from ...model.precision import EPS
 from ..elements import Option
 from ..group import Group
@@ -167,7 +168,7 @@ class Side:
         )
         self.beyond = min(self.beyond, laid + beyond)
         for column in columns:
-            spend(lattice.check, EXTENDED)
+            spend(lattice.check, tuning.EXTENDED)
             child = self._extend(half, column)
             if child is None:
                 continue

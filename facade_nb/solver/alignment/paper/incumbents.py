@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from math import inf
 
+from ... import tuning
 from ..group import Group
 from ..observer import Observer
 from ..pricing import Priced, Structure
@@ -19,9 +20,6 @@ from .prealignment import control_group, control_guides
 from .word_pairs import merged_guides
 
 __all__ = ["incumbents"]
-
-_NODES = 300
-"""Partial alignments that each of these searches may take up."""
 
 
 def incumbents(
@@ -40,18 +38,18 @@ def incumbents(
         search = Deepening(
             Ends(groups, check, guides, ends), cap=cap, keep=1, check=check, accept=accept, alone=True
         )
-        search.go(_NODES)
+        search.go(tuning.INCUMBENT_PATHS)
         return search.result().best
 
     def apart(own: Sequence[Group], guides: Sequence[Guide] = ()) -> Structure | None:
         search = Deepening(Ends(own, check, guides), keep=1, check=check, alone=True)
         if search.ends.least < inf:
-            search.go(_NODES)
+            search.go(tuning.INCUMBENT_PATHS)
         best = search.result().best
         return None if best is None else best.structure
 
     search = Deepening(ends, cap=cap, keep=keep, check=check, accept=accept, alone=True)
-    search.go(_NODES)
+    search.go(tuning.INCUMBENT_PATHS)
     for priced in search.result().ties:
         cap = min(cap, priced.cost)
         yield priced

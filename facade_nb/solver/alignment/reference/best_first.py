@@ -16,6 +16,7 @@ from heapq import heappop, heappush
 from itertools import count
 from math import inf
 
+from ... import tuning
 from ...model.precision import EPS
 from ..found import Found
 from ..group import Group
@@ -27,8 +28,6 @@ from .paths import Path
 
 __all__ = ["BestFirst"]
 
-_STEP = 0.002
-"""How much dearer than a path the first of its columns may be, as a fraction of the canvas, where they are many."""
 
 _GRID = 1e10
 """Bounds are rounded to a part of a metre that is less than what tells costs apart."""
@@ -175,7 +174,7 @@ class BestFirst:
 
         The path goes back into the queue to wait for its turn to make more.
         """
-        step = path.step or _STEP * self.network.groups[path.group].canvas
+        step = path.step or tuning.TALL_STEP * self.network.groups[path.group].canvas
         upto = min(limit, max(bound, path.made) + step)
         for least, child in self.network.children(path, path.made, upto):
             if least <= limit + EPS:

@@ -13,6 +13,7 @@ from heapq import heappop, heappush
 from itertools import count
 from math import inf
 
+from ... import tuning
 from ...model.precision import EPS
 from ..bands import Band
 from ..group import Group
@@ -22,14 +23,6 @@ from .network import Network, ceiling
 from .paths import Path
 
 __all__ = ["Dives"]
-
-_DEPTHS = 40
-_MOST = 24
-"""So many columns of a path are looked at, of each width, in a tall stack."""
-_PATIENCE = 5
-"""After so many dives without an answer, dearer ones are looked for."""
-_STEP = 0.003
-"""How much dearer than a path the first of its columns may be, as a fraction of the canvas."""
 
 
 class _BothWays:
@@ -93,7 +86,7 @@ class Dives:
     ) -> None:
         tall = any(group.tall for group in groups)
         plain = any(group.objective.plain for group in groups)  # there next to every column costs nothing
-        self.network = Network(groups, check, most=_MOST if tall or plain else inf)
+        self.network = Network(groups, check, most=tuning.DIVE_COLUMNS if tall or plain else inf)
         self.network.sizable = accept is not None
         self.check, self._accept = check, accept
         self.best: Priced | None = None
@@ -112,7 +105,7 @@ class Dives:
         """Go through the network once; whether a better alignment was found."""
         if self.done:
             return False
-        if self._idle >= _PATIENCE or not any(self._waiting):
+        if self._idle >= tuning.DIVE_PATIENCE or not any(self._waiting):
             if self.best is not None or self._limit >= self._ceiling:
                 self.done = not any(self._waiting)
             else:
@@ -152,7 +145,7 @@ class Dives:
 
     def _begin(self) -> None:
         """Everything anew, below the limit."""
-        self._waiting = [[] for _ in range(_DEPTHS * len(self.network.groups) + 1)]
+        self._waiting = [[] for _ in range(tuning.DIVE_DEPTHS * len(self.network.groups) + 1)]
         if self.network.bind(self._limit):
             self._push(self.network.later[0], self.network.root())
 
@@ -177,14 +170,16 @@ class Dives:
     def _depth(self, path: Path) -> int:
         groups = self.network.groups
         if self.network.complete(path):
-            return _DEPTHS * len(groups)
+            return tuning.DIVE_DEPTHS * len(groups)
         bands = groups[path.group].bands
         done = sum((p >> 2) / (2 * max(1, len(b.letters))) for b, p in zip(bands, path.state, strict=True))
-        return path.group * _DEPTHS + min(_DEPTHS - 1, int(_DEPTHS * done / len(bands)))
+        return path.group * tuning.DIVE_DEPTHS + min(
+            tuning.DIVE_DEPTHS - 1, int(tuning.DIVE_DEPTHS * done / len(bands))
+        )
 
     def _go_on(self, path: Path, bound: float) -> bool:
         """Make the columns that raise the bound least; the path waits for its turn to make more."""
-        network, step = self.network, path.step or _STEP * self._canvas
+        network, step = self.network, path.step or tuning.DIVE_STEP * self._canvas
         while True:
             upto = min(self._limit, max(bound, path.made) + step)
             children = network.children(path, path.made, upto)

@@ -6,6 +6,7 @@ from bisect import bisect_right
 from collections.abc import Callable
 from math import inf
 
+from ... import tuning
 from ...model.precision import EPS
 from ..elements import Option
 from ..group import Group
@@ -17,9 +18,6 @@ __all__ = ["Made", "Maker", "edges"]
 
 Made = dict[tuple[State, bool], tuple[float, list[Edge]]]
 """Edges by the node that they leave: up to which rise of the bound they were made, and they, the least first."""
-
-_FURTHER = 0.01
-"""Edges are made a little further than asked, as a fraction of the canvas: limits grow in small steps."""
 
 
 def edges(
@@ -42,7 +40,7 @@ def edges(
     kept = {} if made_before is None else made_before
     known = kept.get((state, owed))
     if known is None or known[0] < limit:
-        further = limit + _FURTHER * group.canvas
+        further = limit + tuning.FURTHER * group.canvas
         fresh = Maker(group, state, owed, further, check).make()
         fresh.sort(key=_by_rise)
         known = kept[state, owed] = (further, fresh)

@@ -24,6 +24,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import tuning
 from ...model.precision import EPS
 from ..bands import Band
 from ..group import Group
@@ -31,16 +32,6 @@ from ..group import Group
 __all__ = ["Skeleton", "greatest_width"]
 
 _Array = NDArray[np.float64]
-
-_COARSE = 20
-"""The first cells are this part of the canvas."""
-_ROUNDS = 6
-_CELLS = 150
-"""No more cells than this."""
-_BINS = 14
-"""Into so many steps ω is divided."""
-_WINDOW = 6
-"""A row that may stand at more letters than this, on average, says too little to be asked."""
 
 
 def greatest_width(group: Group, limit: float) -> float:
@@ -103,10 +94,10 @@ class Skeleton:
 
     def _build(self) -> None:
         """From coarse to fine: cells that no alignment within the limit can use are dropped, the others are split."""
-        size = self._group.canvas / _COARSE
+        size = self._group.canvas / tuning.SKELETON_COARSE
         low, high = self._places(size)
         end_low, end_high = self._ends(size)
-        for _ in range(_ROUNDS):
+        for _ in range(tuning.SKELETON_ROUNDS):
             if self._check is not None:
                 self._check()
             if not end_low.size:
@@ -124,7 +115,7 @@ class Skeleton:
             if self.root > self._limit + EPS:
                 self.root = inf
                 return
-            if low.size + end_low.size > _CELLS // 2:
+            if low.size + end_low.size > tuning.SKELETON_CELLS // 2:
                 break
             self.width = min(self.width, float(end_high.max()))
             low, high = self._split(low, high)
@@ -214,13 +205,13 @@ class Skeleton:
         """Least cost of a column from cell i to cell j."""
         least, most = np.maximum(0.0, low[j] - high[i]), high[j] - low[i]
         steps = np.concatenate(
-            [[0.0, 1e-8], np.linspace(0.0, min(self._limit, self._group.tolerance), _BINS)[1:]]
+            [[0.0, 1e-8], np.linspace(0.0, min(self._limit, self._group.tolerance), tuning.SKELETON_BINS)[1:]]
         )
         total = np.zeros((steps.size, i.size))
         at = np.arange(i.size)
         for band, prefix, a, z in zip(self._bands, self._prefix, first, last, strict=True):
             ai, zi, aj, zj = a[i], z[i], a[j], z[j]
-            if float(np.mean((zi - ai + 1) * (zj - aj + 1))) > _WINDOW**2:
+            if float(np.mean((zi - ai + 1) * (zj - aj + 1))) > tuning.SKELETON_WINDOW**2:
                 continue
             own = np.full((steps.size + 1, i.size), inf)
             own[0] = np.where((np.minimum(zi, zj) >= np.maximum(ai, aj)), self._by_empty * least, inf)
