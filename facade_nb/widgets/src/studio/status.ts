@@ -44,12 +44,13 @@ function describe(store: Store): [state: string, sentence: string] {
   if (presence === "gone") return ["off", "The kernel has gone: the façade as it was last, read only"];
   if (presence === "away") return ["waiting", "No connection to the kernel: read only until it is back"];
   if (store.waiting > PATIENCE) return ["waiting", "The kernel is busy; edits will follow when it answers"];
-  if (status.message) return ["none", status.message];
+  // What is at fault comes first: what the solver says is about the design as it was before.
   if (drafts.length) {
     const [first] = drafts;
     const where = first ? first.path.slice(0, 2).reverse().join(" in ") : "";
     return ["fault", drafts.length > 1 ? `${drafts.length} fields are at fault` : `At fault: ${where}`];
   }
+  if (status.message) return ["none", status.message];
   if (status.busy) return ["busy", "Solving…"];
   if (!status.solved) return ["off", "Nothing to solve yet"];
   if (!status.solved.complete) return ["warn", `Best layout found in ${time(status.milliseconds)}, not proven`];
