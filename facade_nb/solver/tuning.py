@@ -125,7 +125,7 @@ ALIGN_PATH = 2e-4
 
 # The compiled search (alignment/core/)
 
-INSTANCE_BYTES = 2**29
+INSTANCE_BYTES = 3 * 2**28
 """Addresses that are reserved for an instance, beyond which it may not grow; the clock stops it before."""
 GUARD_BYTES = 2**16
 """Addresses in front of it and behind it where nothing may be."""

@@ -146,7 +146,7 @@ import random, resource
 from facade_nb import gallery
 from facade_nb.design import edit
 from facade_nb.widgets.studio.model import FacadeModel
-resource.setrlimit(resource.RLIMIT_AS, (1_200_000_000, 1_200_000_000))
+resource.setrlimit(resource.RLIMIT_AS, (1_500_000_000, 1_500_000_000))
 model = FacadeModel(gallery.load("figure-7"))
 draw = random.Random(3)
 for n in range(40):
