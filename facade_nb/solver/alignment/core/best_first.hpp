@@ -1,4 +1,4 @@
-// The best-first search: the same as search.BestFirst, which has the reasons. It stops wherever a structure leaves the
+// The best-first search: the same as reference/best_first.py, which has the reasons. It stops wherever a structure leaves the
 // queue that could be among the best, to be judged in Python.
 #pragma once
 

@@ -1,7 +1,7 @@
-"""The best-first search and the dives in WebAssembly: the same steps as `search` and `dive`, many times faster.
+"""The best-first search and the dives in WebAssembly: the same steps as `reference`, many times faster.
 
-`core/` is a transcription of `network`, `making`, `stepping`, `paths`, `pairs`, `shortfall`, `skeleton`, `seen`,
-`pricing`, `search` and `dive` into C++, built into `core/core.wasm` by `make core` and run by wasmtime. It takes the
+The headers beside this file are a transcription of `reference` (with `pairs` and `pricing`) into C++, a module each,
+built into `core.wasm` by `make core` and run by wasmtime. It takes the
 same decisions in the same order, and tests hold it to that: as many paths, the same structures. It finds what a
 structure costs, but not its sizes: each one that could be among the best is priced again in Python.
 

@@ -1,4 +1,4 @@
-// Good alignments soon: the same as dive.py, which has the reasons. Structures that are cheap enough are judged in Python.
+// Good alignments soon: the same as dives.py, which has the reasons. Structures that are cheap enough are judged in Python.
 #pragma once
 
 #include <queue>

@@ -1,4 +1,4 @@
-// The transposition table: the same as seen.py, which has the reasons.
+// The transposition table: the same as dominance.py, which has the reasons.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The edges that leave a node: the same as making.py and stepping.py, which have the reasons.
+// The edges that leave a node: the same as edges.py and tall_edges.py, which have the reasons.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// An alignment group, ready to be aligned: the same as columns.Group, which it is read from.
+// An alignment group, ready to be aligned: the same as group.Group, which it is read from.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Words and the elements that may stand in a column: the same as columns.py, which has the reasons.
+// Words and the elements that may stand in a column: the same as bands.py and elements.py, which has the reasons.
 #pragma once
 
 #include <cmath>
