@@ -13,6 +13,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
+import shutil
 import signal
 import sys
 import tempfile
@@ -28,21 +29,25 @@ TOOLS = ROOT / "node_modules" / ".bin"
 PYTHON = BIN / "python"
 PYTEST = (PYTHON, "-m", "pytest", "-q", "--durations=8")
 CORES = os.cpu_count() or 1
+NICE = ("nice", "-n", "10") if shutil.which("nice") else ()
 GRACE = 20.0  # seconds that a step has to end when it is told to
 
 
 @dataclass(frozen=True)
 class Step:
-    """A command; `alone` if it takes all cores itself."""
+    """A command, and how many of the cores it is given.
+
+    A step that is given none is in nobody's way, and nobody in its: the others give way to it (`nice`).
+    """
 
     command: Sequence[str | Path]
-    alone: bool = False
+    cores: int = 1
 
 
-# In the order in which they are started. The browser tests wait for a browser and a kernel by turns, so they take one
-# core for themselves; beside them the checks pass on the others, and then the Python tests have all.
+# In the order in which they are started. The browser tests take the longest, for a browser and a kernel wait for each
+# other by turns. They use a fifth of a core, and their clock is a hand's: so all else runs beside them and gives way.
 STEPS: dict[str, Step] = {
-    "browser": Step((*PYTEST, "tests/browser")),
+    "browser": Step((*PYTEST, "tests/browser"), cores=0),
     "mypy": Step((BIN / "mypy",)),
     "ruff": Step((BIN / "ruff", "check")),
     "format": Step((BIN / "ruff", "format", "--check")),
@@ -53,7 +58,7 @@ STEPS: dict[str, Step] = {
     "core": Step((PYTHON, ROOT / "scripts" / "core.py", "--check")),
     "vitest": Step((TOOLS / "vitest", "run")),
     "pytest": Step(
-        (*PYTEST, "-n", "auto", "--dist", "loadfile", "tests", "--ignore=tests/browser"), alone=True
+        (*PYTEST, "-n", "auto", "--dist", "loadfile", "tests", "--ignore=tests/browser"), cores=CORES
     ),
 }
 GROUPS = {
@@ -92,17 +97,17 @@ class Runner:
         """Start the steps in their order, each when there is room for it, and wait for all."""
         async with asyncio.TaskGroup() as group:
             for name in names:
-                need = CORES if STEPS[name].alone else 1
-                for _ in range(need):
+                for _ in range(STEPS[name].cores):
                     await self._free.acquire()
-                group.create_task(self._one(name, need))
+                group.create_task(self._one(name, STEPS[name]))
 
-    async def _one(self, name: str, cores: int) -> None:
+    async def _one(self, name: str, step: Step) -> None:
         with tempfile.TemporaryFile() as out:
             start = time.monotonic()
             print(f"[test] {name} begins", flush=True)
             process = await asyncio.create_subprocess_exec(
-                *map(str, STEPS[name].command),
+                *(NICE if step.cores else ()),
+                *map(str, step.command),
                 cwd=ROOT,
                 env=self._environment,
                 stdin=asyncio.subprocess.DEVNULL,
@@ -117,7 +122,7 @@ class Runner:
                 await _end(process)
             seconds = time.monotonic() - start
             self.results[name] = Result(status, seconds, _show(name, seconds, out))
-            for _ in range(cores):
+            for _ in range(step.cores):
                 self._free.release()
 
 

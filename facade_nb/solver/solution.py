@@ -74,7 +74,8 @@ def solve(
         Seconds, or None for no limit. When they are over, the best layout so far is returned, and its
         `complete` is False.
     should_stop
-        A function that is called now and then. If it returns true, the search ends as at the time limit.
+        A function that is called now and then. If it returns true, the search ends at once: with the best layout
+        so far if every axis has come to one, else with `NoLayout`.
 
     Raises
     ------
