@@ -23,7 +23,13 @@ ROOT = Path(__file__).resolve().parent.parent
 CORE = ROOT / "facade_nb" / "solver" / "alignment" / "core"
 MODULE = CORE / "core.wasm"
 CACHE = ROOT / ".venv" / "core"
-TARGET = ("-target", "wasm32-wasi", "-O3", "-DNDEBUG")
+TARGET = (
+    "-target",
+    "wasm32-wasi",
+    "-mcpu=generic+bulk_memory+nontrapping_fptoint+sign_ext",
+    "-O3",
+    "-DNDEBUG",
+)
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-Wno-invalid-offsetof")
 
 

@@ -59,23 +59,28 @@ class Effort:
 
     def __call__(self) -> None:
         """Count a call, and ask."""
-        self.add(self._call)
+        own: Effort | None = self  # loops, for this is called more often than anything else
+        while own is not None:
+            own.seconds += self._call
+            own = own._above
         self.look()
 
     def add(self, seconds: float) -> None:
         """Count what was done without a call."""
-        self.seconds += seconds
-        if self._above is not None:
-            self._above.add(seconds)
+        own: Effort | None = self
+        while own is not None:
+            own.seconds += seconds
+            own = own._above
 
     def look(self) -> None:
         """Ask whether to go on, and count nothing."""
-        if self.seconds > self.most:
-            raise Stopped
-        if self._above is not None:
-            self._above.look()
-        if self._ask is not None:
-            self._ask()
+        own: Effort | None = self
+        while own is not None:
+            if own.seconds > own.most:
+                raise Stopped
+            if own._ask is not None:
+                own._ask()
+            own = own._above
 
     @property
     def left(self) -> float:

@@ -131,6 +131,8 @@ GUARD_BYTES = 2**16
 """Addresses in front of it and behind it where nothing may be."""
 LARGE_INSTANCE = 64 * 2**20
 """Bytes beyond which an instance is let go of once nothing is left in it."""
+IDLE_INSTANCE = 32 * 2**20
+"""Bytes up to which an instance is kept for the next call, once nothing is left in it."""
 LET_GO = 8
 """Things no longer needed that are let go of at once, or fewer where memory is short."""
 WORK_PER_SECOND = 4e8

@@ -180,7 +180,8 @@ class TestAddresses:
             tried.append(self)
             raise wasmtime.WasmtimeError("mmap failed to reserve 0x20000000 bytes: Cannot allocate memory")
 
-        monkeypatch.setattr(compiled._Core, "_make", none)
+        monkeypatch.setattr(compiled._Instance, "__init__", none)
+        monkeypatch.setattr(compiled, "_idle", [])
         without = solve(one)
         (told,) = set(without.warnings) - set(expected.warnings)
         assert told.startswith(
@@ -199,6 +200,44 @@ class TestAddresses:
         with pytest.raises(NoLayout, match=r"^Out of memory after") as caught:
             solve(gallery.load("figure-7"))
         assert caught.value.constraint == "memory"
+
+
+class TestIdle:
+    """An instance goes on to the next call, if it is small: its pages need not be got again."""
+
+    @pytest.fixture
+    def made(self, monkeypatch: pytest.MonkeyPatch) -> list[compiled._Instance]:
+        found: list[compiled._Instance] = []
+        begin = compiled._Instance.__init__
+
+        def watched(self: compiled._Instance) -> None:
+            begin(self)
+            found.append(self)
+
+        monkeypatch.setattr(compiled._Instance, "__init__", watched)
+        monkeypatch.setattr(compiled, "_idle", [])
+        return found
+
+    def test_is_used_again_and_the_answer_is_the_same(self, made: list[compiled._Instance]) -> None:
+        answers = []
+        for _ in range(3):
+            solving.forget()
+            answers.append(solve(gallery.load("teaser")))
+        assert len(made) == 1 and compiled._idle == made
+        assert answers[0] == answers[1] == answers[2]
+
+    def test_never_more_than_one(self, made: list[compiled._Instance]) -> None:
+        with compiled.session() as outer:
+            outer.get()
+            solve(gallery.load("residential-house"))
+        assert len(made) == 2 and len(compiled._idle) == 1
+
+    def test_a_large_one_is_let_go_of(
+        self, made: list[compiled._Instance], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setattr(tuning, "IDLE_INSTANCE", 0)
+        solve(gallery.load("residential-house"))
+        assert len(made) == 1 and compiled._idle == []
 
 
 class TestWhatEarlierCallsLeave:

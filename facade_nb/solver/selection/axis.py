@@ -246,9 +246,9 @@ class AxisSearch:
 
     def leave(self) -> None:
         """Let go of its candidates, so that nothing refers to itself and waits for the garbage collector."""
+        for group in {id(own): own for case in self.cases for own in case.groups}.values():
+            group.forget()
         for case in self.cases:
-            for group in case.groups:
-                group.forget()
             case.runs.clear()
         self.cases.clear()
         self.soon.forget()

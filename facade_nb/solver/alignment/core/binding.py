@@ -8,7 +8,7 @@ structure costs, but not its sizes: each one that could be among the best is pri
 A trace is made by the search in Python. Where there is no wasmtime (in a browser, say), or no room for an instance,
 that is used for everything.
 
-A `session` has an instance of its own, made when it is first needed and closed when the session ends, whatever still
+A `session` has an instance to itself, got when it is first needed and given back when the session ends, whatever still
 refers to it then: nothing waits for the garbage collector. `solve` and `align` are sessions.
 """
 
@@ -97,8 +97,64 @@ class _NoRoom(Exception):
     """There is no memory for an instance."""
 
 
+class _Instance:
+    """An instance of the module: its functions and its memory. One `_Core` at a time has it.
+
+    Raises what wasmtime raises where there is no memory for it.
+
+    Attributes
+    ----------
+    owner
+        Who is asked whether to go on.
+    """
+
+    def __init__(self) -> None:
+        import wasmtime
+
+        engine, module = _module()
+        self.owner: ref[_Core] | None = None
+        self.store: Any = wasmtime.Store(engine)
+        try:
+            self.store.set_limits(memory_size=tuning.INSTANCE_BYTES)
+            linker = wasmtime.Linker(engine)
+            me = ref(self)  # wasmtime keeps what it may call until the store is gone
+
+            def check() -> int:
+                own = me()
+                core = None if own is None or own.owner is None else own.owner()
+                return 1 if core is None else core.asked()
+
+            linker.define_func("host", "check", wasmtime.FuncType([], [wasmtime.ValType.i32()]), check)
+            for wanted in module.imports:  # the C++ library could write a message; it has nowhere to write to
+                if wanted.module != "host":
+                    linker.define_func(wanted.module, str(wanted.name), wanted.type, lambda *_: _BAD_FILE)
+            exports: Any = linker.instantiate(self.store, module).exports(self.store)
+            self.functions: dict[str, Any] = {
+                str(own.name): exports[str(own.name)] for own in module.exports if str(own.name) != "memory"
+            }
+            self.memory: Any = exports["memory"]
+            self.functions["_initialize"](self.store)
+            self.box = int(self.functions["box_at"](self.store))
+        except BaseException:
+            self.store.close()
+            raise
+
+    @property
+    def size(self) -> int:
+        """Its memory, in bytes."""
+        return int(self.memory.data_len(self.store))
+
+    def close(self) -> None:
+        """Give its memory back."""
+        self.store.close()
+
+
+_idle: list[_Instance] = []
+"""At most one, empty and small: the next session has its pages already, where those of a new one must be got."""
+
+
 class _Core:
-    """One instance of the module, used by one thread.
+    """An instance as a session has it, used by one thread.
 
     Raises
     ------
@@ -109,36 +165,17 @@ class _Core:
     def __init__(self) -> None:
         import wasmtime
 
-        self._store: Any = None
         self.busy = self.broken = self.closed = False
         try:
-            self._make()
-        except (wasmtime.WasmtimeError, MemoryError, OSError) as error:
-            self.close()
-            raise _NoRoom from error
-
-    def _make(self) -> None:
-        import wasmtime
-
-        engine, module = _module()
-        self._store = wasmtime.Store(engine)
-        self._store.set_limits(memory_size=tuning.INSTANCE_BYTES)
-        linker = wasmtime.Linker(engine)
-        me = ref(self)  # wasmtime keeps what it may call until the store is gone
-
-        def check() -> int:
-            core = me()
-            return 1 if core is None else core._asked()
-
-        linker.define_func("host", "check", wasmtime.FuncType([], [wasmtime.ValType.i32()]), check)
-        for wanted in module.imports:  # the C++ library could write a message; it has nowhere to write to
-            if wanted.module != "host":
-                linker.define_func(wanted.module, str(wanted.name), wanted.type, lambda *_: _BAD_FILE)
-        exports: Any = linker.instantiate(self._store, module).exports(self._store)
-        self._functions: dict[str, Any] = {
-            str(own.name): exports[str(own.name)] for own in module.exports if str(own.name) != "memory"
-        }
-        self._memory: Any = exports["memory"]
+            own = self._instance = _idle.pop()
+        except IndexError:
+            try:
+                own = self._instance = _Instance()
+            except (wasmtime.WasmtimeError, MemoryError, OSError) as error:
+                self.closed = self.broken = True
+                raise _NoRoom from error
+        own.owner = ref(self)
+        self._store, self._functions, self._memory, self._box = own.store, own.functions, own.memory, own.box
         self._check: Callable[[], None] | None = None
         self._raised: BaseException | None = None
         self._symbols: dict[str, int] = {}
@@ -148,21 +185,29 @@ class _Core:
         self.told: tuple[float, ...] = ()
         self._deferred = Deferred()
         self._room = self._at = 0
-        self._functions["_initialize"](self._store)
-        self._box = int(self._functions["box_at"](self._store))
+        self._functions["begin"](self._store)
         _cores.add(self)
 
     def close(self) -> None:
         """Let go of everything at once; what still refers to it comes to an end where it is gone on with."""
-        if not self.closed:
-            self.closed = self.broken = True
-            if self._store is not None:
-                self._store.close()
+        if self.closed:
+            return
+        own = self._instance
+        kept = not (self.busy or self.broken or _idle) and self.size <= tuning.IDLE_INSTANCE
+        if kept:
+            self._dead = list(self._alive)
+            self._bury()
+        self.closed = self.broken = True
+        if kept and not _idle:
+            own.owner = None
+            _idle.append(own)
+        else:
+            own.close()
 
     @property
     def size(self) -> int:
         """Its memory, in bytes."""
-        return int(self._memory.data_len(self._store))
+        return self._instance.size
 
     @property
     def empty(self) -> bool:
@@ -221,7 +266,8 @@ class _Core:
             raise Stopped
         return self.told
 
-    def _asked(self) -> int:
+    def asked(self) -> int:
+        """Whether the search has to end: what the instance asks now and then."""
         if self._deferred.came:
             return 1
         if self._check is None:
@@ -383,6 +429,8 @@ def _made() -> _Core:
 def _close() -> None:
     for core in list(_cores):
         core.close()
+    while _idle:
+        _idle.pop().close()
     if _module.cache_info().currsize:
         engine, module = _module()
         module.close()

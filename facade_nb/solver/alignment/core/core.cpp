@@ -15,24 +15,38 @@
 extern "C" __attribute__((import_module("host"), import_name("check"))) int host_check();
 
 bool stopped = false;
+unsigned work_done = 0;
+unsigned work_until = 0;
 
 namespace {
 
-double spent = 0.0;  // work since it was last told
+constexpr unsigned kOften = 400000;  // of work, about a millisecond or two: so often the host is asked
+double spent = 0.0;  // work since it was last told, less `work_done`
 double allowed = HUGE_VAL;  // and how much there may be until then
+double since = 0.0;  // the host was asked, less `work_done`
+
+void count() {
+  spent += work_done;
+  since += work_done;
+  work_done = 0;
+}
+
+/// How much work there may be until it is looked at again.
+void look_again() {
+  const double least = std::fmin(allowed - spent, kOften - since);
+  work_until = stopped ? 0 : static_cast<unsigned>(std::fmax(std::floor(least), 0.0)) + 1;
+}
 
 }  // namespace
 
-bool check(unsigned work) {
-  constexpr unsigned kOften = 400000;  // about every millisecond or two
-  static unsigned done = 0;
-  done += work;
-  spent += work;
+bool look() {
+  count();
   if (spent > allowed) stopped = true;
-  if (!stopped && done > kOften) {
-    done = 0;
+  if (!stopped && since > kOften) {
+    since = 0.0;
     stopped = host_check() != 0;
   }
+  look_again();
   return stopped;
 }
 
@@ -73,9 +87,16 @@ std::vector<Group*> groups_of(double n) {
 
 /// How much was done, which does not depend on when the host was asked.
 void tell_work() {
+  count();
   box[5] = spent;
   spent = 0.0;
   allowed = HUGE_VAL;
+  look_again();
+}
+
+void go_on() {
+  stopped = false;
+  look_again();
 }
 
 /// Status, bound, nodes, and a structure that has left the queue; work.
@@ -123,18 +144,21 @@ EXPORT(numbers_at) void numbers_at() {
 EXPORT(group_new) void group_new() { box[0] = number(Group::read(numbers.data())); }
 
 // How much work there may be until the next answer
-EXPORT(allow) void allow() { allowed = box[0]; }
+EXPORT(allow) void allow() {
+  allowed = box[0];
+  look_again();
+}
 
 // How many groups, structures to keep, most nodes, nodes in a turn, whether Python judges → its number, and as `answer`
 EXPORT(search_new) void search_new() {
-  stopped = false;
+  go_on();
   auto* search = new Search(groups_of(box[0]), static_cast<int>(box[1]), box[2], box[3], box[4] != 0.0);
   answer(*search, stopped ? kStopped : kEnded);
   box[4] = number(search);
 }
 // Search, limit, whether it was paused → `answer`
 EXPORT(search_advance) void search_advance() {
-  stopped = false;
+  go_on();
   auto& search = *object<Search>(box[0]);
   answer(search, search.advance(box[1], box[2] != 0.0));
 }
@@ -146,7 +170,7 @@ EXPORT(search_judged) void search_judged() {
 
 // How many groups, least cost, whether only columns that can be sized → its number, and as `answer`
 EXPORT(dives_new) void dives_new() {
-  stopped = false;
+  go_on();
   auto* dives = new Dives(groups_of(box[0]), box[1], box[2] != 0.0);
   answer(*dives, stopped ? kStopped : kEnded);
   box[4] = number(dives);
@@ -158,7 +182,7 @@ EXPORT(dives_begin) void dives_begin() {
 }
 // Dives, whether there is an alignment already → `answer`
 EXPORT(dives_dive) void dives_dive() {
-  stopped = false;
+  go_on();
   auto& dives = *object<Dives>(box[0]);
   answer(dives, dives.dive(box[1] != 0.0));
 }
@@ -171,6 +195,14 @@ EXPORT(dives_missed) void dives_missed() {
 EXPORT(dives_found) void dives_found() {
   auto& dives = *object<Dives>(box[0]);
   answer(dives, dives.found(box[1]));
+}
+
+// Nothing is left of who had this instance before.
+EXPORT(begin) void begin() {
+  count();
+  spent = since = 0.0;
+  allowed = HUGE_VAL;
+  go_on();
 }
 
 // How many; among the numbers, of each which kind it is (0: search, 1: dives, 2: group) and its number

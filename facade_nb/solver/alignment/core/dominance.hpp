@@ -16,10 +16,11 @@ class Seen {
       known = &path;
       return false;
     }
+    double rest = -1.0;
     int equals = 0;
     for (const Path* other = known; other != nullptr; other = other->next) {
       check(40);
-      const int verdict = beats(*other, path);
+      const int verdict = beats(*other, path, rest);
       if (verdict > 0) return true;
       equals += verdict == 0;
     }
@@ -28,7 +29,7 @@ class Seen {
     while (*at != nullptr) {
       check(40);
       Path& other = **at;
-      other.dropped = other.dropped || beats(path, other) > 0;
+      other.dropped = other.dropped || beats(path, other, rest) > 0;
       if (other.dropped)
         *at = other.next;
       else
@@ -64,10 +65,11 @@ class Seen {
     return std::equal(a.state, a.state + bands(a), b.state);
   }
 
-  /// 1: `a` makes `b` needless; 0: as good as it in every respect; −1: neither.
-  int beats(const Path& a, const Path& b) const {
-    if (a.pinched && !b.pinched) return -1;
+  /// 1: `a` makes `b` needless; 0: as good as it in every respect; −1: neither. `rest`, the least width of what is left,
+  /// is the same for all paths that are alike; below 0 it is not known yet.
+  int beats(const Path& a, const Path& b, double& rest) const {
     const double dw = a.width - b.width;
+    if (a.cost > b.cost + kEps || dw > kEps || (a.pinched && !b.pinched)) return -1;
     double slack = 0.0;
     bool wider = false;
     for (int k = 0; k < a.n_ranges; ++k) {
@@ -81,8 +83,10 @@ class Seen {
     if (std::abs(dw) > kEps || wider) {
       if (network_.complete(a) || dw > 0) return -1;
       const Group& group = *network_.groups[a.group];
-      double rest = 0.0;
-      for (int k = 0; k < group.count(); ++k) rest = std::max(rest, group.bands[k]->at_least(a.state[k]));
+      if (rest < 0.0) {
+        rest = 0.0;
+        for (int k = 0; k < group.count(); ++k) rest = std::max(rest, group.bands[k]->at_least(a.state[k]));
+      }
       if (a.width + rest < group.canvas - group.tolerance) return -1;
       slack = group.prices.fit * std::abs(dw);
     }

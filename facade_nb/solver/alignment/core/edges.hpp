@@ -127,27 +127,35 @@ class Maker {
     }
     if (made_.size() >= enough_) return;
     const int b = order_[n];
-    const bool paired = group_.reference >= 0;
+    const bool chief = n == 0 && group_.reference >= 0;
+    const PairTable::Row* pairs = n > 0 ? rows_[b] : nullptr;
+    const double* row = pairs != nullptr ? pairs->data() : nullptr;
+    // none of these changes on the way, which the compiler cannot know
+    const double limit = limit_, mu = mu_, by_empty = by_empty_, by_loose = by_loose_;
+    const bool plain = plain_;
+    const Part before = part;
+    double rest = group_.reference >= 0 ? rest_[n + 1] : 0.0;
     for (const Option& option : *choices_[b]) {
-      if (paired && n == 0) enter(option);
-      const PairTable::Row* row = n > 0 ? rows_[b] : nullptr;
-      const double ahead = row != nullptr ? part.ahead + (*row)[option.target >> 2] : part.ahead;
+      if (chief) {
+        enter(option);
+        rest = rest_[1];
+      }
+      const double ahead = row != nullptr ? before.ahead + row[option.target >> 2] : before.ahead;
       const bool sized = !option.empty && !option.elastic;
       const double size = option.size;
-      const double high = std::max(part.high, option.least);
-      const double low = sized && size < part.low && (plain_ || !option.soft) ? size : part.low;
-      const double loose = sized ? part.loose + option.loose : part.loose;
-      const int empties = part.empties + option.empty;
+      const double high = std::max(before.high, option.least);
+      const double low = sized && size < before.low && (plain || !option.soft) ? size : before.low;
+      const double loose = sized ? before.loose + option.loose : before.loose;
+      const int empties = before.empties + option.empty;
       const double omega = low < kInf ? high - low : 0.0;
-      const double bound =
-          omega + by_empty_ * empties * high + by_loose_ * loose + ahead + (paired ? rest_[n + 1] : 0.0);
-      if (omega > mu_ || bound > limit_) {
-        if (!option.elastic && size > part.low && omega > std::min(mu_, limit_) && !option.transparent)
+      const double bound = omega + by_empty * empties * high + by_loose * loose + ahead + rest;
+      if (omega > mu || bound > limit) {
+        if (!option.elastic && size > before.low && omega > std::min(mu, limit) && !option.transparent)
           break;  // longer runs are dearer still
         continue;
       }
-      Part own{high, low, sized && size < part.low_all ? size : part.low_all, empties, loose, part.softs,
-               part.soft_sizes, part.elastic || option.elastic, ahead};
+      Part own{high, low, sized && size < before.low_all ? size : before.low_all, empties, loose, before.softs,
+               before.soft_sizes, before.elastic || option.elastic, ahead};
       if (sized && option.soft) {
         ++own.softs;
         own.soft_sizes += size;

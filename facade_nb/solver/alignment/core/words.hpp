@@ -9,10 +9,16 @@ constexpr double kInf = HUGE_VAL;
 constexpr double kEps = 1e-9;
 
 extern bool stopped;
+extern unsigned work_done;   // since it was last looked at
+extern unsigned work_until;  // where it is looked at again; 0 once stopped
+bool look();
 
 /// To be called often, with the work that was done since, in steps of some nanoseconds. Now and then it asks the host
 /// whether to go on; once that has said no, `stopped` says so, and everything returns as soon as it can.
-bool check(unsigned work);
+inline bool check(unsigned work) {
+  work_done += work;
+  return work_done >= work_until && look();
+}
 
 struct Letter {
   double size;  // metres; what is not `sized` has 0

@@ -51,9 +51,9 @@ class Seen:
 
     def _beats(self, a: Path, b: Path) -> int:
         """1: `a` makes `b` needless; 0: as good as it in every respect; -1: neither."""
-        if a.pinched and not b.pinched:
-            return -1
         dw = a.width - b.width
+        if a.cost > b.cost + EPS or dw > EPS or (a.pinched and not b.pinched):
+            return -1
         slack = 0.0
         wider = False
         for (_, low, high, up, more), (_, low_b, high_b, up_b, more_b) in zip(
