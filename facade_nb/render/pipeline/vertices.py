@@ -1,0 +1,44 @@
+"""What a vertex carries: all that the grammar needs to draw the façade that it belongs to (the texture paper's 6).
+
+Only the place differs among the vertices of a façade. The rest is the same at each of them, and so at each pixel.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+__all__ = ["SEEDS", "VERTEX"]
+
+VERTEX = np.dtype(
+    [
+        ("position", np.float32, 3),
+        ("place", np.float32, 2),
+        ("size", np.float32, 2),
+        ("start", np.float32, 2),
+        ("seed", np.float32, 2),
+        ("normal", np.float32, 3),
+        ("tangent", np.float32, 3),
+    ]
+)
+"""A vertex: 17 floats, 68 bytes.
+
+position
+    x east, y up, z south, metres.
+place
+    From the façade's lower left corner, seen from outside: along its width and its height, metres.
+size
+    Width and height of the whole façade, metres.
+start
+    Column and row of the start rule in the grammar's texture.
+seed
+    Of the façade, metres: whole multiples of 1/64 from 0 to below 16384, which a 32-bit float holds exactly.
+normal
+    Unit vector out of the façade.
+tangent
+    Unit vector along the façade's width. Height runs along the cross product of normal and tangent.
+
+Triangles are counter-clockwise where their front is seen.
+"""
+
+SEEDS = 1 << 20
+"""A seed is below so many steps of 1/64 m."""
