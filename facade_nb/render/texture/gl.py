@@ -78,6 +78,12 @@ class GlPainter:
             )
         return ""
 
+    @contextmanager
+    def entered(self) -> Iterator[Any]:
+        """Its `moderngl.Context`, for this thread alone until the block ends."""
+        with self._lock, self._context as context:
+            yield context
+
     @property
     def renderer(self) -> str:
         """What draws, as the driver calls it."""

@@ -23,7 +23,10 @@ PROFILES = {
 }
 """What stands before the body: desktop GL 3.3 and WebGL2."""
 
-_ROOMS = (2, 4, max(MAX_FRAMES, MAX_SEEDS))
+ROOMS = ("texture", "pipeline")
+"""Folders of `glsl` in which a name is looked up."""
+
+_HEIGHTS = (2, 4, max(MAX_FRAMES, MAX_SEEDS))
 _INCLUDE = re.compile(r'^#include "([\w.]+)"$', re.MULTILINE)
 _NAMES = {"Σrel": "rel", "Σabs": "abs", "Σv": "sum"}
 
@@ -38,7 +41,7 @@ def shader(
     bits: int = 16,
     defines: tuple[str, ...] = (),
 ) -> str:
-    """The source of a shader: ``sight.frag``, ``points.frag``, ``smooth.frag``, ``whole.vert``.
+    """The source of a shader: ``sight.frag``, ``points.frag``, ``smooth.frag``, ``whole.vert``, or one of a pass of the pipeline.
 
     Parameters
     ----------
@@ -51,7 +54,7 @@ def shader(
     defines
         Names to be defined: ``MIPS`` (tiles in the size that fits a pixel), ``EDGES`` (how near a boundary is),
         ``COLOR_ONLY`` (normals and specular values are passed over),
-        ``COUNT_FETCHES``.
+        ``DEEP`` (how far behind the façade colour comes from), ``PICK`` (which rule a pixel shows), ``COUNT_FETCHES``.
     """
     head = PROFILES[profile]
     if name.endswith(".frag"):
@@ -67,7 +70,8 @@ def _included(name: str, seen: set[str]) -> Iterator[str]:
     if name in seen:
         return
     seen.add(name)
-    text = files("facade_nb.render").joinpath("glsl", "texture", name).read_text("utf-8")
+    glsl = files("facade_nb.render") / "glsl"
+    text = next(own for own in (glsl / folder / name for folder in ROOMS) if own.is_file()).read_text("utf-8")
     at = 0
     for include in _INCLUDE.finditer(text):
         yield text[at : include.start()]
@@ -78,7 +82,7 @@ def _included(name: str, seen: set[str]) -> Iterator[str]:
 
 def room(height: int) -> int:
     """Room for a stack of that height: one of a few sizes, so that few shaders serve all grammars."""
-    return next(size for size in _ROOMS if size >= height)
+    return next(size for size in _HEIGHTS if size >= height)
 
 
 def _floats(bits: int) -> str:

@@ -21,6 +21,9 @@ Surface evaluate(Question question) {
   surface = Surface(vec4(0.0), vec4(0.0), vec4(0.0), ivec2(-1));
   frame_count = 0;
   margin = 1e9;
+#ifdef DEEP
+  deep = 0.0;
+#endif
 #ifdef COUNT_FETCHES
   fetches = 0;
 #endif

@@ -13,6 +13,9 @@ Frame frames[MAX_FRAMES];
 int frame_count;
 uvec2 seed_stack[MAX_SEEDS];
 float margin;                        // how near the pixel came to a boundary, in pixels
+#ifdef DEEP
+float deep;                          // how far behind the façade colour comes from, by what a pixel covers there
+#endif
 #ifdef COUNT_FETCHES
 int fetches;
 #endif

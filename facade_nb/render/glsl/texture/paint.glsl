@@ -5,6 +5,9 @@
 
 void paint(State now, int usage, vec3 shown, float alpha) {
   if (usage == USAGE_COLOR) {
+#ifdef DEEP
+    deep += (1.0 - surface.color.a) * alpha * (now.footprint - asked.footprint);
+#endif
     add(surface.color, shown, alpha);
     if (surface.rule.x < 0 && alpha > 0.0) surface.rule = now.rule;
   } else if (usage == USAGE_NORMAL) {

@@ -1,0 +1,23 @@
+// What the camera meets at each pixel, and nothing dear: place on the façade and its size; start rule and seed; normal and
+// how deep; tangent.
+
+uniform vec3 forward;
+
+in vec3 from_eye;
+in vec2 mesh_place;
+flat in vec2 mesh_size;
+flat in vec4 mesh_rule;
+flat in vec3 mesh_normal;
+flat in vec3 mesh_tangent;
+
+layout(location = 0) out highp vec4 out_place;
+layout(location = 1) out highp vec4 out_rule;
+layout(location = 2) out highp vec4 out_facing;
+layout(location = 3) out highp vec4 out_along;
+
+void main() {
+  out_place = vec4(mesh_place, mesh_size);
+  out_rule = mesh_rule;
+  out_facing = vec4(mesh_normal, dot(from_eye, forward));  // 0: there is nothing
+  out_along = vec4(mesh_tangent, 0.0);
+}

@@ -1,0 +1,45 @@
+// The grammar at every visible pixel: what the G-buffer says is asked of it. Normals leave it in the world's axes.
+#include "evaluate.glsl"
+#include "view.glsl"
+
+uniform highp sampler2D place;
+uniform highp sampler2D rule;
+uniform highp sampler2D facing;
+uniform highp sampler2D along;
+
+layout(location = 0) out highp vec4 out_color;
+layout(location = 1) out highp vec4 out_normal;    // of length 1 out of doors, 0 in a room; how near a boundary is, in pixels
+layout(location = 2) out highp vec4 out_specular;  // and how deep the pixel lies, behind walls too
+#ifdef PICK
+layout(location = 3) out highp ivec4 out_terminal;
+#endif
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec4 face = texelFetch(facing, at, 0);
+  out_color = vec4(0.0);
+  out_normal = vec4(0.0, 0.0, 0.0, 9.0);
+  out_specular = vec4(0.0);
+#ifdef PICK
+  out_terminal = ivec4(-1);
+#endif
+  if (face.w <= 0.0) return;
+  vec4 on = texelFetch(place, at, 0);
+  vec4 of_rule = texelFetch(rule, at, 0);
+  vec3 tangent = texelFetch(along, at, 0).xyz;
+  vec3 up = cross(face.xyz, tangent);
+  vec3 ray = ray_at(gl_FragCoord.xy);
+  vec3 own = vec3(dot(ray, tangent), dot(ray, up), dot(ray, face.xyz));
+  float spread = min(window.z, window.w);
+  Surface found = evaluate(Question(
+    ivec2(of_rule.xy), on.zw, clamp(on.xy, vec2(0.0), on.zw), own, uvec2(of_rule.zw * 64.0 + 0.5), vec2(0.0),
+    face.w * spread, spread
+  ));
+  out_color = found.color;
+  vec3 turned = 2.0 * (found.normal.xyz + (1.0 - found.normal.a) * vec3(0.5, 0.5, 1.0)) - 1.0;
+  out_normal = vec4(turned.x * tangent + turned.y * up + turned.z * face.xyz, min(margin, 9.0));
+  out_specular = vec4(found.specular.rgb, face.w + deep / spread);
+#ifdef PICK
+  out_terminal = ivec4(found.rule, 0, 0);
+#endif
+}

@@ -1,0 +1,95 @@
+"""What shaders are told of one picture, the same names here and in the browser."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..texture.daytime import Daytime
+from .scene import Scene
+from .sunlight import sunlight
+from .viewpoint import Frustum
+
+__all__ = ["Frame", "Looks", "visible"]
+
+
+@dataclass(frozen=True, slots=True)
+class Looks:
+    """What is drawn beside the façades.
+
+    Attributes
+    ----------
+    shadow, occlusion, smooth
+        Whether there are shadows of the sun, ambient occlusion, antialiasing of edges.
+    haze
+        Metres after which a third is left of what is seen; 0: none.
+    reach
+        How far occlusion looks, metres.
+    """
+
+    shadow: bool = True
+    occlusion: bool = True
+    smooth: bool = True
+    haze: float = 2600.0
+    reach: float = 1.4
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """One picture: scene, camera, hour, size."""
+
+    scene: Scene
+    frustum: Frustum
+    daytime: Daytime
+    pixels: tuple[int, int]
+    looks: Looks = field(default=Looks())
+
+    def runs(self, when: str) -> bool:
+        """Whether a pass that asks for this runs."""
+        if when == "shadow":
+            return self.looks.shadow and any(self.daytime.sun)
+        return bool(not when or getattr(self.looks, when))
+
+    def uniforms(self) -> dict[str, Any]:
+        """Values of all shaders; matrices (4, 4) among them, one for each way to look at the mesh."""
+        frustum, looks = self.frustum, self.looks
+        left, bottom, right, top = frustum.window
+        sun = sunlight(self.daytime.towards, frustum, self.scene.box)
+        shades = (float(self.runs("shadow")), float(self.runs("occlusion")))
+        return {
+            **self.daytime.uniforms(),
+            "camera": frustum.matrix,
+            "sun_near": sun.near,
+            "sun_far": sun.far,
+            "sun_texel": sun.texels,
+            "eye": tuple(map(float, frustum.eye)),
+            "across": tuple(map(float, frustum.right)),
+            "upward": tuple(map(float, frustum.up)),
+            "forward": tuple(map(float, frustum.ahead)),
+            "window": (left, bottom, (right - left) / self.pixels[0], (top - bottom) / self.pixels[1]),
+            "haze": looks.haze,
+            "reach": looks.reach,
+            "shades": shades,
+        }
+
+
+def visible(scene: Scene, through: NDArray[np.float64]) -> list[tuple[int, int]]:
+    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space; next to one another, one."""
+    chunks = scene.chunks
+    if not len(chunks):
+        return []
+    low, high = (chunks[name].astype(np.float64) for name in ("low", "high"))
+    planes = np.concatenate([through[3] + through[:3], through[3] - through[:3]])[[0, 1, 2, 3, 4]]
+    normals, offsets = planes[:, :3], planes[:, 3]
+    farthest = np.where(normals[:, None] > 0, high[None], low[None])
+    inside = ((farthest * normals[:, None]).sum(axis=2) + offsets[:, None] >= 0).all(axis=0)
+    runs: list[tuple[int, int]] = []
+    for first, count in zip(chunks["first"][inside].tolist(), chunks["count"][inside].tolist(), strict=True):
+        if runs and runs[-1][0] + runs[-1][1] == first:
+            runs[-1] = (runs[-1][0], runs[-1][1] + count)
+        else:
+            runs.append((first, count))
+    return runs

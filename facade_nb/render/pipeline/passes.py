@@ -1,0 +1,163 @@
+"""The passes of the pipeline as data: what each reads, writes and runs (the texture paper's 4).
+
+A pass can be added, left out or put in the place of another without touching the rest: what runs them, here and in the
+browser, knows no pass by name. `arranged` checks that each reads only what an earlier one has written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from ...design.errors import nearest
+
+__all__ = ["BUFFERS", "PASSES", "Buffer", "Pass", "arranged", "without"]
+
+
+@dataclass(frozen=True, slots=True)
+class Buffer:
+    """An image that passes write and read.
+
+    Attributes
+    ----------
+    name
+        As shaders call it.
+    channels
+        1 to 4.
+    kind
+        ``f1``: 8 bits from 0 to 1; ``f2``, ``f4``: floats; ``i4``: whole numbers; ``depth``.
+    side
+        Pixels of each side where it has a size of its own; 0: those of the picture.
+    part
+        How many of the picture's pixels go into one of it, across and up.
+    tells
+        What it holds, in a sentence.
+    """
+
+    name: str
+    channels: int
+    kind: Literal["f1", "f2", "f4", "i4", "depth"]
+    tells: str
+    side: int = 0
+    part: int = 1
+
+    def size(self, pixels: tuple[int, int]) -> tuple[int, int]:
+        """Width and height of it for a picture of so many pixels."""
+        if self.side:
+            return self.side, self.side
+        return -(-pixels[0] // self.part), -(-pixels[1] // self.part)
+
+
+@dataclass(frozen=True, slots=True)
+class Pass:
+    """A step of the pipeline.
+
+    Attributes
+    ----------
+    name
+        By which it is left out, measured and shown.
+    vertex, fragment
+        Its shaders, files of ``glsl``.
+    reads, writes
+        Names of buffers. Outputs are numbered in the order of `writes`.
+    draws
+        ``mesh``: the scene's triangles, seen through the matrix `through`; ``screen``: every pixel.
+    through
+        The name of that matrix.
+    defines
+        Given to the shader.
+    when
+        It runs only where this is true of the frame: ``sun``, ``shadow``, ``occlusion``, ``smooth``; empty: always.
+    tells
+        What it does, in a sentence.
+    """
+
+    name: str
+    fragment: str
+    reads: tuple[str, ...]
+    writes: tuple[str, ...]
+    tells: str
+    vertex: str = "whole.vert"
+    draws: Literal["mesh", "screen"] = "screen"
+    through: str = ""
+    defines: tuple[str, ...] = ()
+    when: str = ""
+
+
+SHADOW = 2048
+"""Texels of each side of a map of shadows."""
+
+BUFFERS: tuple[Buffer, ...] = (
+    Buffer("shadow_near", 1, "depth", "How far the sun sees, around the camera.", SHADOW),
+    Buffer("shadow_far", 1, "depth", "How far the sun sees, all over the scene.", SHADOW),
+    Buffer("place", 4, "f4", "Where on its façade a pixel lies, and how large that is, metres."),
+    Buffer("rule", 4, "f4", "With which rule its façade begins, and with which seed."),
+    Buffer("facing", 4, "f4", "Which way its façade looks, and how deep it lies before the camera, metres."),
+    Buffer("along", 4, "f2", "Which way its façade's width runs."),
+    Buffer("depth", 1, "depth", "Which triangle is in front."),
+    Buffer("color", 4, "f2", "What the grammar gives: colour, multiplied by alpha."),
+    Buffer("normal", 4, "f2", "Its normal, short in rooms; and how near a split is, in pixels."),
+    Buffer("specular", 4, "f4", "Its specular value, a lamp's colour in rooms; and how deep it lies, rooms behind the wall."),
+    Buffer("occlusion", 2, "f2", "How much of what is around a point is open, a few taps a pixel; and how deep it lies.", part=2),
+    Buffer("softened", 2, "f2", "The same without the pattern of the taps.", part=2),
+    Buffer("light", 4, "f2", "Light that comes from there, linear."),
+    Buffer("air", 4, "f2", "The same after the air between, and the sky."),
+    Buffer("toned", 4, "f1", "As a film has it; and how bright that is."),
+    Buffer("picture", 4, "f1", "Without the stairs of edges."),
+)  # fmt: skip
+"""All buffers, in the order in which they are first written."""
+
+_MESH = ("place", "rule", "facing", "along")
+PASSES: tuple[Pass, ...] = (
+    Pass("shadow near", "shadow.frag", (), ("shadow_near",), "Draws what the sun sees around the camera.",
+         "shadow.vert", "mesh", "sun_near", when="shadow"),
+    Pass("shadow far", "shadow.frag", (), ("shadow_far",), "Draws what the sun sees of all.",
+         "shadow.vert", "mesh", "sun_far", when="shadow"),
+    Pass("G-buffer", "gbuffer.frag", (), (*_MESH, "depth"), "Draws the mesh, and notes what the grammar will ask.",
+         "mesh.vert", "mesh", "camera"),
+    Pass("grammar", "grammar.frag", _MESH, ("color", "normal", "specular"),
+         "Evaluates the grammar once for each pixel that is seen.", defines=("MIPS", "EDGES", "DEEP")),
+    Pass("occlusion", "occlusion.frag", ("specular", "facing"), ("occlusion",),
+         "Looks how much its neighbours hide of a point's surroundings.", when="occlusion"),
+    Pass("soften", "soften.frag", ("occlusion",), ("softened",), "Evens that out.", when="occlusion"),
+    Pass("light", "light.frag", ("color", "normal", "specular", "facing", "softened", "shadow_near", "shadow_far"),
+         ("light",), "Adds up sun, sky, ground and lamps."),
+    Pass("air", "air.frag", ("light", "facing"), ("air",), "Lets haze take what is far; draws the sky."),
+    Pass("tone", "tone.frag", ("air",), ("toned",), "Exposes it."),
+    Pass("edges", "smooth_edges.frag", ("toned", "facing", "normal"), ("picture",),
+         "Smooths edges of the mesh and of splits."),
+)  # fmt: skip
+"""The pipeline."""
+
+
+def arranged(passes: Sequence[Pass] = PASSES, buffers: Sequence[Buffer] = BUFFERS) -> tuple[Pass, ...]:
+    """The passes, checked.
+
+    Raises
+    ------
+    ValueError
+        If one reads what none before it writes, names a buffer that there is not, or reads what it writes.
+    """
+    names = [own.name for own in buffers]
+    written: set[str] = set()
+    for own in passes:
+        for name in (*own.reads, *own.writes):
+            if name not in names:
+                raise ValueError(f"pass {own.name!r}: there is no buffer {name!r}{nearest(name, names)}")
+        for name in own.reads:
+            if name in own.writes:
+                raise ValueError(f"pass {own.name!r}: it reads {name!r}, which it writes itself")
+            if name not in written:
+                raise ValueError(f"pass {own.name!r}: it reads {name!r}, which no pass before it writes")
+        written.update(own.writes)
+    return tuple(passes)
+
+
+def without(names: Iterable[str], passes: Sequence[Pass] = PASSES) -> tuple[Pass, ...]:
+    """The passes but for some. Raises `ValueError` for an unknown name, or where another needs what is left out."""
+    left = set(names)
+    known = [own.name for own in passes]
+    for name in left - set(known):
+        raise ValueError(f"there is no pass {name!r}{nearest(name, known)}")
+    return arranged([own for own in passes if own.name not in left])

@@ -1,0 +1,221 @@
+"""Runs the passes with OpenGL, offscreen: OSMesa or EGL."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..texture.gl import GlPainter
+from ..texture.shaders import room, shader
+from ..texture.uploads import grammar_upload, tile_uploads
+from .frame import Frame, visible
+from .passes import BUFFERS, PASSES, Buffer, Pass, arranged
+from .scene import Scene
+from .vertices import VERTEX
+
+__all__ = ["Renderer", "renderer_of"]
+
+_FORMAT = "3f 2f 2f 2f 2f 3f 3f"
+_KINDS = {"f1": np.uint8, "f2": np.float16, "f4": np.float32, "i4": np.int32, "depth": np.float32}
+
+
+class Renderer:
+    """A scene on the graphics card, and the passes that draw it. Made by `renderer_of`; one thread at a time.
+
+    Parameters
+    ----------
+    scene
+        What is drawn.
+    painter
+        Whose context draws.
+    passes, buffers
+        The pipeline.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        painter: GlPainter,
+        passes: Sequence[Pass] = PASSES,
+        buffers: Sequence[Buffer] = BUFFERS,
+    ) -> None:
+        self.scene, self.painter = scene, painter
+        self.passes, self.buffers = arranged(passes, buffers), {own.name: own for own in buffers}
+        self._kept = ExitStack()
+        self._sized = ExitStack()
+        self._pixels = (0, 0)
+        self._images: dict[str, Any] = {}
+        self._targets: dict[str, Any] = {}
+        self._programs: dict[str, Any] = {}
+        self._meshes: dict[str, Any] = {}
+        self._held: dict[str, Any] = {}
+        self._maps: dict[str, bytes] = {}
+        with painter.entered() as context:
+            self._context = context
+            self._load()
+
+    def _keep(self, made: Any) -> Any:
+        self._kept.callback(made.release)
+        return made
+
+    def _load(self) -> None:
+        context, question = self._context, self.scene.question
+        self._vertices = self._keep(context.buffer(self.scene.vertices.tobytes() or bytes(VERTEX.itemsize)))
+        self._indices = self._keep(context.buffer(self.scene.indices.tobytes() or bytes(12)))
+        wide = "llvmpipe" in self.painter.renderer
+        for upload in (grammar_upload(question, wide=wide), *tile_uploads(question.atlas)):
+            image = context.texture(upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1)
+            image.filter = (context.NEAREST, context.NEAREST)
+            self._held[upload.name] = self._keep(image)
+        frames, seeds = map(room, question.stacks)
+        bits = question.texture.dtype.itemsize * 8
+        for own in self.passes:
+            program = self._keep(
+                context.program(
+                    vertex_shader=shader(own.vertex),
+                    fragment_shader=shader(own.fragment, frames=frames, seeds=seeds, bits=bits, defines=own.defines),
+                )
+            )
+            self._programs[own.name] = program
+            if own.draws == "mesh":
+                content = _content(program)
+                array = context.vertex_array(program, [(self._vertices, *content)], self._indices, skip_errors=True)
+            else:
+                array = context.vertex_array(program, [])
+            self._meshes[own.name] = self._keep(array)
+
+    def close(self) -> None:
+        """Give back what it holds of the card."""
+        with self.painter.entered():
+            self._sized.close()
+            self._kept.close()
+
+    def draw(
+        self,
+        frame: Frame,
+        wanted: Sequence[str] = ("picture",),
+        told: Callable[[str, float], None] | None = None,
+    ) -> dict[str, NDArray[Any]]:
+        """Run the passes, and read buffers back: each (h, w, channels), row 0 at the top.
+
+        Parameters
+        ----------
+        wanted
+            Names of buffers. One that no pass has written, because it was left out, is not in the answer.
+        told
+            Called after each pass with its name and its seconds; the pipeline then waits for each.
+
+        Raises
+        ------
+        ValueError
+            For pictures larger than the card can draw.
+        """
+        with self.painter.entered() as context:
+            most = context.info["GL_MAX_TEXTURE_SIZE"]
+            if max(frame.pixels) > most or min(frame.pixels) < 1:
+                raise ValueError(f"pixels: expected from 1 to {most} across and up; found {frame.pixels}")
+            self._make_room(frame.pixels)
+            uniforms = frame.uniforms()
+            written: set[str] = set()
+            for own in self.passes:
+                if not frame.runs(own.when):
+                    continue
+                begin = time.perf_counter()
+                if not self._unchanged(own, uniforms):
+                    self._run(own, uniforms, frame)
+                written.update(own.writes)
+                if told is not None:
+                    context.finish()
+                    told(own.name, time.perf_counter() - begin)
+            return {name: self._read(name) for name in wanted if name in written}
+
+    def _unchanged(self, own: Pass, uniforms: dict[str, Any]) -> bool:
+        """Whether a map of shadows is still that of the last picture: it depends on its matrix alone."""
+        if not own.through.startswith("sun"):
+            return False
+        matrix = uniforms[own.through].tobytes()
+        same = self._maps.get(own.name) == matrix
+        self._maps[own.name] = matrix
+        return same
+
+    def _run(self, own: Pass, uniforms: dict[str, Any], frame: Frame) -> None:
+        context, program = self._context, self._programs[own.name]
+        target = self._targets[own.name]
+        target.use()
+        target.viewport = (0, 0, *target.size)
+        for unit, (name, image) in enumerate({**self._held, **{n: self._images[n] for n in own.reads}}.items()):
+            if name in program:
+                image.use(unit)
+                program[name].value = unit
+        given = {**uniforms, "from_world": uniforms[own.through]} if own.through else uniforms
+        for name, value in given.items():
+            if name in program:
+                if isinstance(value, np.ndarray):
+                    program[name].write(np.ascontiguousarray(value.T, np.float32).tobytes())
+                else:
+                    program[name].value = value
+        if own.draws == "mesh":
+            target.clear(depth=1.0)
+            context.enable(context.DEPTH_TEST | context.CULL_FACE)
+            context.front_face, context.cull_face = "ccw", "back"
+            for first, count in visible(self.scene, uniforms[own.through]):
+                self._meshes[own.name].render(context.TRIANGLES, vertices=count, first=first)
+            context.disable(context.DEPTH_TEST | context.CULL_FACE)
+        else:
+            self._meshes[own.name].render(context.TRIANGLES, vertices=3)
+
+    def _make_room(self, pixels: tuple[int, int]) -> None:
+        """Images of the picture's size, kept until another is asked for."""
+        if pixels == self._pixels:
+            return
+        self._sized.close()
+        self._images, self._targets, self._pixels = {}, {}, pixels
+        self._maps.clear()
+        context = self._context
+
+        def keep(made: Any) -> Any:
+            self._sized.callback(made.release)
+            return made
+
+        for name, own in self.buffers.items():
+            size = own.size(pixels)
+            if own.kind == "depth":
+                image = context.depth_texture(size)
+                image.compare_func = ""
+            else:
+                image = context.texture(size, own.channels, dtype=own.kind)
+            image.filter = (context.NEAREST, context.NEAREST)
+            image.repeat_x = image.repeat_y = False
+            self._images[name] = keep(image)
+        for own_pass in self.passes:
+            colours = [self._images[n] for n in own_pass.writes if self.buffers[n].kind != "depth"]
+            depth = next((self._images[n] for n in own_pass.writes if self.buffers[n].kind == "depth"), None)
+            self._targets[own_pass.name] = keep(context.framebuffer(colours, depth))
+
+    def _read(self, name: str) -> NDArray[Any]:
+        own, image = self.buffers[name], self._images[name]
+        values = np.frombuffer(image.read(alignment=1), _KINDS[own.kind])
+        return np.ascontiguousarray(values.reshape(image.size[1], image.size[0], -1)[::-1])
+
+
+def _content(program: Any) -> tuple[str, ...]:
+    """The layout of a vertex and the attributes that a program reads; what it does not read is passed over."""
+    names = [name for name in VERTEX.names or () if name in program]
+    parts = dict(zip(VERTEX.names or (), _FORMAT.split(), strict=True))
+    layout = " ".join(part if name in names else f"{4 * int(part[0])}x" for name, part in parts.items())
+    return (layout, *names)
+
+
+@contextmanager
+def renderer_of(scene: Scene, painter: GlPainter, **options: Any) -> Iterator[Renderer]:
+    """A renderer that gives back what it holds when the block ends."""
+    own = Renderer(scene, painter, **options)
+    try:
+        yield own
+    finally:
+        own.close()

@@ -1,0 +1,120 @@
+"""What the pipeline draws: triangles that carry their façades, and the grammar that they ask."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..texture import Grammar
+from ..texture.evaluating import Question
+from ..texture.facades import Facade
+from .vertices import VERTEX
+
+__all__ = ["CHUNK", "Scene"]
+
+CHUNK = np.dtype([("first", np.uint32), ("count", np.uint32), ("low", np.float32, 3), ("high", np.float32, 3)])
+"""A part of a mesh: where its indices begin, how many they are, and the box around it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Triangles with their grammar.
+
+    Attributes
+    ----------
+    vertices
+        (v,) `VERTEX`.
+    indices
+        (3 t,) uint32, counter-clockwise where the front is seen.
+    grammar
+        Whose rules `start` names.
+    chunks
+        (c,) `CHUNK`: parts that are drawn, or passed over, as a whole. None: all is one.
+    """
+
+    vertices: np.ndarray
+    indices: NDArray[np.uint32]
+    grammar: Grammar
+    given_chunks: np.ndarray | None = field(default=None)
+
+    def __post_init__(self) -> None:
+        if self.vertices.dtype != VERTEX:
+            raise ValueError(f"vertices: expected an array of VERTEX; found {self.vertices.dtype}")
+        if self.indices.dtype != np.uint32 or self.indices.ndim != 1 or len(self.indices) % 3:
+            raise ValueError("indices: expected (3 t,) uint32")
+        if len(self.indices) and int(self.indices.max()) >= len(self.vertices):
+            raise ValueError(f"indices: expected numbers below {len(self.vertices)}; found {self.indices.max()}")
+
+    @cached_property
+    def chunks(self) -> np.ndarray:
+        """Parts that are drawn, or passed over, as a whole."""
+        if self.given_chunks is not None:
+            return self.given_chunks
+        chunks = np.zeros(1 if len(self.indices) else 0, CHUNK)
+        if len(chunks):
+            position = self.vertices["position"]
+            chunks[0] = (0, len(self.indices), position.min(axis=0), position.max(axis=0))
+        return chunks
+
+    @cached_property
+    def box(self) -> NDArray[np.float64]:
+        """Least and greatest coordinates (2, 3), metres; zeros where there is nothing."""
+        if not len(self.chunks):
+            return np.zeros((2, 3))
+        return np.stack([self.chunks["low"].min(axis=0), self.chunks["high"].max(axis=0)]).astype(np.float64)
+
+    @cached_property
+    def question(self) -> Question:
+        """What the evaluator is given of the grammar."""
+        return self.grammar.question((1.0, 1.0))
+
+    @property
+    def bytes(self) -> dict[str, int]:
+        """What the graphics card holds of it."""
+        from ..texture.uploads import tile_uploads
+
+        held = {own.name: len(own.content) for own in tile_uploads(self.question.atlas)}
+        found = {
+            "vertices": int(self.vertices.nbytes + self.indices.nbytes),
+            "grammars": int(self.question.texture.nbytes),
+            "tiles": held["atlas"] + held["tile_table"],
+            "noise": held["noise"],
+        }
+        return found | {"total": sum(found.values())}
+
+    @classmethod
+    def of_facades(cls, facades: Sequence[Facade]) -> Scene:
+        """Rectangles in space that share a grammar.
+
+        Raises
+        ------
+        ValueError
+            For none, for grammars that differ, and for a seed that a vertex cannot hold (see `VERTEX`).
+        """
+        if not facades:
+            raise ValueError("expected at least one façade")
+        grammar = facades[0].grammar
+        if any(own.grammar is not grammar for own in facades):
+            raise ValueError("facades: expected one grammar for all of them")
+        vertices = np.zeros((len(facades), 4), VERTEX)
+        for k, own in enumerate(facades):
+            (right, up, out), (width, height) = own.axes, own.size
+            spots = np.array([(0, 0), (width, 0), (width, height), (0, height)], np.float32)
+            vertices[k]["place"] = spots
+            vertices[k]["position"] = np.array(own.origin, np.float32) + spots[:, :1] * right + spots[:, 1:] * up
+            vertices[k]["size"] = own.size
+            vertices[k]["start"] = grammar.question(own.size, own.seed, own.start).records[grammar.index(own.start)].place
+            vertices[k]["seed"] = _seed(own.seed)
+            vertices[k]["normal"], vertices[k]["tangent"] = out, right
+        corners = np.array([0, 1, 2, 0, 2, 3], np.uint32) + 4 * np.arange(len(facades), dtype=np.uint32)[:, None]
+        return cls(vertices.reshape(-1), corners.reshape(-1), grammar)
+
+
+def _seed(seed: tuple[float, float]) -> tuple[float, float]:
+    if any(not 0 <= value < 16384 or value * 64 % 1 for value in seed):
+        raise ValueError(f"seed: expected whole multiples of 1/64 from 0 to below 16384; found {seed}")
+    return seed

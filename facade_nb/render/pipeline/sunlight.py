@@ -1,0 +1,75 @@
+"""What the sun sees: two parallel views of the scene, a fine one around the camera and a coarse one of all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .passes import SHADOW
+from .viewpoint import Frustum
+
+__all__ = ["Sunlight", "sunlight"]
+
+_NEAR, _RISE, _MOST = 55.0, 2.4, 700.0
+"""Half the side of the fine map, metres, for an eye on the ground; how much it grows with a metre of height; its most."""
+
+_FAR = 3000.0
+"""Half the side of the coarse map, metres, at most."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sunlight:
+    """The two views.
+
+    Attributes
+    ----------
+    near, far
+        From the world to their clip spaces (4, 4).
+    texels
+        Metres that a texel of each covers.
+    """
+
+    near: NDArray[np.float64]
+    far: NDArray[np.float64]
+    texels: tuple[float, float]
+
+
+def sunlight(towards: tuple[float, float, float], frustum: Frustum, box: NDArray[np.float64]) -> Sunlight:
+    """The views for a direction towards the sun, a camera, and a scene's box (2, 3)."""
+    ahead = -np.array(towards, np.float64)
+    right = np.array([-ahead[2], 0.0, ahead[0]]) / max(hypot(ahead[0], ahead[2]), 1e-9)
+    up = np.cross(right, ahead)
+    axes = np.stack([right, up, ahead])
+    low, high = box
+    middle = (low + high) / 2
+    whole = float(np.sqrt(((high - low) ** 2).sum())) / 2 + 1.0
+    half = min(_NEAR + _RISE * max(float(frustum.eye[1]), 0.0), _MOST, whole)
+    level = frustum.ahead * (1.0, 0.0, 1.0)
+    spot = frustum.eye + level * (0.7 * half)
+    spot[1] = 0.0
+    spot = np.clip(spot, low, high)
+    all_of_it = min(whole, _FAR)
+    centre = middle if all_of_it == whole else np.clip(frustum.eye * (1.0, 0.0, 1.0), low, high)
+    return Sunlight(
+        _parallel(axes, spot, half, box),
+        _parallel(axes, centre, all_of_it, box),
+        (2 * half / SHADOW, 2 * all_of_it / SHADOW),
+    )
+
+
+def _parallel(
+    axes: NDArray[np.float64], spot: NDArray[np.float64], half: float, box: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """A parallel view around a spot, on whole texels, so that shadows do not swim as the camera moves."""
+    corners = np.array([[box[i, 0], box[j, 1], box[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    depth = (corners * axes[2]).sum(axis=1)
+    texel = 2 * half / SHADOW
+    x, y = (np.round(float((axes[k] * spot).sum()) / texel) * texel for k in (0, 1))
+    near, far = depth.min() - 1.0, depth.max() + 1.0
+    matrix = np.eye(4)
+    matrix[0, :3], matrix[1, :3], matrix[2, :3] = axes[0] / half, axes[1] / half, 2 * axes[2] / (far - near)
+    matrix[0, 3], matrix[1, 3], matrix[2, 3] = -x / half, -y / half, -(far + near) / (far - near)
+    return matrix
