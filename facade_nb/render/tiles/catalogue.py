@@ -153,6 +153,8 @@ def _recipes() -> list[Recipe]:
             lambda c, s: masonry.slates(c, s, ("#585f69", "#626a73", "#50575f", "#5c5f6a"), 10, 7),
             "roof slates", 42),
         Recipe("timber", wall, 1, 2, "xy", lambda c, s: timber.beam(c, s, "#5a4737"), "hewn oak, upright", 43, plain_, even=3),
+        Recipe("beam", wall, 2, 1, "xy", lambda c, s: timber.beam(c, s, "#5a4737", upright=False), "hewn oak, level", 45,
+            plain_, even=3),
         Recipe("gravel", wall, 2, 2, "xy",
             lambda c, s: street.gravel(c, s, ("#8f8a80", "#a8a297", "#bdb7aa", "#9a8f80")), "gravel, also of flat roofs", 44,
             plain_, even=5),
@@ -319,7 +321,7 @@ def _recipes() -> list[Recipe]:
             plain_, even=5),
         Recipe("awning", ground, 3.2, 1, "", street.awning, "canvas awning, striped", 154, plain_),
         Recipe("goods", ground, 1.8, 1.5, "", street.goods, "what shops show: below boxes, above fruit", 155, ()),
-        Recipe("sign", ground, 3.2, 2, "", lambda c, s: street.sign(c, s, ("BOOKS", "CAFE", "FLORIST", "TAILOR")),
+        Recipe("sign", ground, 3.2, 2, "", lambda c, s: street.sign(c, s, ("BOOKS", "CAFE", "GROCER", "FLORIST")),
             "letters of signs, four rows", 156, (), shade=0.4),
         *(
             Recipe(f"mask-{shape}", hole, 1.2, 2.1 if shape == "arch" else 1.8, "", _hole(shape),

@@ -103,7 +103,7 @@ _WRITTEN = (
     ),
     Style("slab", 3.3, 2.8, 0.6, (3, 12), (("flat", 0.92), ("shed", 0.08)), _starts("slab"), 7.6, 2.4, 5),
     Style(
-        "half-timbered", 3.3, 2.65, 0.3, (1, 4), (("gable", 0.85), ("hip", 0.15)), _starts("timbered"), 6.3, 2.1, 4
+        "half-timbered", 3.3, 2.65, 0.2, (1, 4), (("gable", 0.85), ("hip", 0.15)), _starts("timbered"), 6.7, 2.1, 4
     ),
     Style(
         "brickworks", 5.2, 3.9, 1.0, (1, 4), (("flat", 0.5), ("gable", 0.3), ("shed", 0.2)),
