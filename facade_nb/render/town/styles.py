@@ -15,6 +15,7 @@ from types import MappingProxyType
 
 from ... import gallery
 from ..texture.grammar import Grammar
+from .solved import SOLVED, STRETCH, Solved, solved_text
 from .sparing import town_tiles
 
 __all__ = ["STARTS", "STYLES", "Style", "style_text", "town_grammar", "town_text"]
@@ -71,9 +72,17 @@ class Style:
         return self.ground + (storeys - 1) * self.storey + self.top
 
     def fit(self, eaves: float) -> int:
-        """How many storeys the grammar makes on a wall of that height."""
+        """How many storeys the grammar makes on a wall of that height; 0 if a solved front may not be stretched so far."""
+        if self.heights is not None:
+            return self.storeys[0] if self.heights[0] <= eaves <= self.heights[1] else 0
         left = (eaves - self.ground - self.top) / self.storey
         return 1 + max(0, ceil(left - 1e-3))
+
+    def suits(self, width: float, eaves: float) -> bool:
+        """Whether a front of that size can be drawn: a solved one is stretched by a few per cent, not more."""
+        if self.fit(eaves) == 0 or width < self.least:
+            return False
+        return self.widths is None or self.widths[0] <= width <= self.widths[1]
 
     def start(self, what: str, width: float) -> str:
         """The rule for a wall of that width: a short wall has no bays of its own beside its corners, a stub no window."""
@@ -117,7 +126,22 @@ _WRITTEN = (
 )  # fmt: skip
 
 
-STYLES: tuple[Style, ...] = _WRITTEN
+def _solved(solved: Solved) -> Style:
+    """The style of a solved front."""
+    space = f"{solved.space}."
+    rules = {what: f"{space}{what.capitalize()}" for what in ("front", "street", "party", "plain", "roof", "flat")}
+    rules |= {"side": rules["street"], "court": rules["street"], "gable": rules["plain"]}
+    rules |= {f"short-{what}": rules["plain"] for what in ("street", "side", "court")}
+    rules["short-front"] = rules["front"]
+    low, high = 1 - STRETCH, 1 + STRETCH
+    return Style(
+        solved.name, solved.ground, solved.storey, solved.top, (solved.storeys, solved.storeys), (("flat", 1.0),),
+        MappingProxyType(rules), 9.8, 9.8, 1, (solved.width * low, solved.width * high),
+        (solved.height * low, solved.height * high),
+    )  # fmt: skip
+
+
+STYLES: tuple[Style, ...] = (*_WRITTEN, *map(_solved, SOLVED))
 """Every style: those that are written in the gallery, then those whose fronts are solved."""
 
 
@@ -129,7 +153,7 @@ def style_text(name: str) -> str:
 @lru_cache(maxsize=1)
 def town_text() -> str:
     """The text of all styles, of the ground and of plain colours."""
-    return "\n".join([gallery.town("shared"), *(style_text(name) for name in _FILES)])
+    return "\n".join([gallery.town("shared"), *(style_text(name) for name in _FILES), solved_text()])
 
 
 @lru_cache(maxsize=1)
