@@ -19,7 +19,7 @@ from ..design import edit
 from ..design.errors import DesignError, Fault, nearest
 from ..design.model import Design
 
-__all__ = ["grammar", "grammars", "load", "names", "step_titles", "steps"]
+__all__ = ["grammar", "grammars", "load", "names", "step_titles", "steps", "town", "towns"]
 
 _EDITS: Mapping[str, Callable[..., Design]] = MappingProxyType(
     {name: getattr(edit, name) for name in edit.__all__}
@@ -77,6 +77,23 @@ def grammar(name: str) -> str:
     """
     _known(name, grammars(), "a texture grammar of the gallery")
     return _text("grammars", f"{name}.txt")
+
+
+def towns() -> list[str]:
+    """Names of the parts of the town's grammar: a style each, and what they share."""
+    return _listed("town", ".txt")
+
+
+def town(name: str) -> str:
+    """Return the text of a part of the town's grammar; `facade_nb.render.town.styles` puts them together.
+
+    Raises
+    ------
+    DesignError
+        For an unknown name, with the nearest valid one.
+    """
+    _known(name, towns(), "a part of the town's grammar")
+    return _text("town", f"{name}.txt")
 
 
 def _numbered(name: str) -> tuple[int, str]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from . import doors, fabric, furniture, masks, masonry, ornament, plain, rooms, windows
+from . import doors, fabric, furniture, masks, masonry, ornament, plain, rooms, street, timber, windows
 from .canvas import Canvas
 
 __all__ = ["CATALOGUE", "MAPS", "Recipe"]
@@ -76,11 +76,12 @@ def _recipes() -> list[Recipe]:
         "Frames, open between their bars",
         "Doors, shutters and gates",
     )
-    ornament_, cloth, room, thing, hole = (
+    ornament_, cloth, room, thing, ground, hole = (
         "Ornament and ironwork",
         "Curtains, blinds, glass",
         "Rooms",
         "Furniture and lamps",
+        "Streets and shops",
         "Masks",
     )
     plain_ = ("normal",)
@@ -151,6 +152,12 @@ def _recipes() -> list[Recipe]:
         Recipe("slate", wall, 2, 2, "xy",
             lambda c, s: masonry.slates(c, s, ("#585f69", "#626a73", "#50575f", "#5c5f6a"), 10, 7),
             "roof slates", 42),
+        Recipe("timber", wall, 1, 2, "xy", lambda c, s: timber.beam(c, s, "#5a4737"), "hewn oak, upright", 43, plain_, even=3),
+        Recipe("beam", wall, 2, 1, "xy", lambda c, s: timber.beam(c, s, "#5a4737", upright=False), "hewn oak, level", 45,
+            plain_, even=3),
+        Recipe("gravel", wall, 2, 2, "xy",
+            lambda c, s: street.gravel(c, s, ("#8f8a80", "#a8a297", "#bdb7aa", "#9a8f80")), "gravel, also of flat roofs", 44,
+            plain_, even=5),
         Recipe("window1", window, 1, 1.3, "", lambda c, s: windows.casement(c, s, "sheer"),
             "casement with a cornice, about 1890", 51),
         Recipe("window2", window, 1, 1.3, "", lambda c, s: windows.sash(c, s, "drapes"),
@@ -191,6 +198,8 @@ def _recipes() -> list[Recipe]:
             "round-headed", 57),
         Recipe("frame-steel", frame, 2, 2, "", lambda c, s: windows.steel(c, s, None), "steel sections", 59),
         Recipe("frame-shop", frame, 3.6, 3, "", lambda c, s: windows.shop(c, s, None), "shop front", 61),
+        Recipe("frame-works", frame, 2.4, 2.9, "", lambda c, s: windows.works(c, s, None),
+            "steel sections below a segmental brick arch", 62),
         Recipe("frame-balcony", frame, 1.3, 2.6, "", lambda c, s: doors.balcony_door(c, s, None),
             "balcony door", 63),
         Recipe("balcony-door", door, 1.3, 2.6, "", lambda c, s: doors.balcony_door(c, s, "sheer"),
@@ -231,6 +240,12 @@ def _recipes() -> list[Recipe]:
             "wrought iron with rings", 80),
         Recipe("railing-plain", ornament_, 1, 1, "x", lambda c, s: ornament.railing(c, s, count=9, ornate=False),
             "upright iron bars", 81),
+        Recipe("brace", ornament_, 1, 1.1, "",
+            lambda c, s: timber.brace(c, s, (((0.1, -0.1), (0.45, 0.5), (1.02, 1.06)),), "#5a4737", 0.15),
+            "a brace of a timber frame, leaning to the right", 95, plain_),
+        Recipe("brace-cross", ornament_, 0.9, 0.75, "",
+            lambda c, s: timber.brace(c, s, (((0, 0), (1, 1)), ((0, 1), (1, 0))), "#5a4737", 0.12),
+            "a St Andrew's cross of a timber frame", 96, plain_),
         Recipe("curtain", cloth, 1.2, 1.8, "", fabric.curtain,
             "drawn to both sides, sand", 82, (), shade=0),
         Recipe("curtain-red", cloth, 1.2, 1.8, "", lambda c, s: fabric.curtain(c, s, colour="#8c4a3f"),
@@ -262,6 +277,8 @@ def _recipes() -> list[Recipe]:
             "a wall of books", 106, ()),
         Recipe("room-door", room, 4, 2.8, "", lambda c, s: rooms.with_door(c, s, "#d3ccbb"),
             "painted wall with a door", 107, ()),
+        Recipe("room-window", room, 4, 2.8, "", lambda c, s: rooms.with_window(c, s, "#d8d2c4"),
+            "painted wall with a window, for rooms in corners", 115, ()),
         Recipe("parquet", room, 2, 2, "xy",
             lambda c, s: rooms.herringbone(c, s, ("#a9804f", "#9c7445", "#b48c5b", "#a07a4c")),
             "herringbone oak", 108, ()),
@@ -298,6 +315,14 @@ def _recipes() -> list[Recipe]:
             "standard lamp", 130, (), shade=0),
         Recipe("lamp-ceiling", thing, 1, 1, "", furniture.ceiling_lamp,
             "round lamp seen from below", 131, (), shade=0),
+        Recipe("asphalt", ground, 2, 2, "xy", lambda c, s: street.asphalt(c, s), "rolled asphalt", 151, plain_, even=6),
+        Recipe("paving", ground, 2, 2, "xy", lambda c, s: street.paving(c, s, "#a29d94"), "concrete flags", 152, plain_),
+        Recipe("grass", ground, 2, 2, "xy", lambda c, s: street.grass(c, s, ("#4c5a30", "#7c8a4e")), "mown grass", 153,
+            plain_, even=5),
+        Recipe("awning", ground, 3.2, 1, "", street.awning, "canvas awning, striped", 154, plain_),
+        Recipe("goods", ground, 1.8, 1.5, "", street.goods, "what shops show: below boxes, above fruit", 155, ()),
+        Recipe("sign", ground, 3.2, 2, "", lambda c, s: street.sign(c, s, ("BOOKS", "CAFE", "GROCER", "FLORIST")),
+            "letters of signs, four rows", 156, (), shade=0.4),
         *(
             Recipe(f"mask-{shape}", hole, 1.2, 2.1 if shape == "arch" else 1.8, "", _hole(shape),
                 what, 1, (), mask=True, shade=0)

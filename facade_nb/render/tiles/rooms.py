@@ -21,6 +21,7 @@ __all__ = [
     "papered",
     "stone_floor",
     "with_door",
+    "with_window",
 ]
 
 
@@ -283,3 +284,20 @@ def office_ceiling(canvas: Canvas, seed: int, *, count: int = 2) -> None:
     canvas.lay(canvas.cover(lamp), "#fffdf2", gloss=0.3)
     grid = np.minimum(canvas.x % (size / 4), size / 4 - canvas.x % (size / 4)) + 0 * canvas.y
     canvas.lay(canvas.cover(lamp) * canvas.cover((grid - 0.006).astype(np.float32)), "#dcdacd")
+
+
+def with_window(canvas: Canvas, seed: int, colour: str) -> None:
+    """A painted wall with two windows, and the light that comes in by them on the wall around."""
+    painted(canvas, seed, colour, rail=False)
+    wide, low, high = 1.15, 0.85, canvas.tall - 0.4
+    for middle in (0.29 * canvas.width, 0.71 * canvas.width):
+        left, right = middle - wide / 2, middle + wide / 2
+        canvas.slab(left - 0.08, low - 0.06, right + 0.08, high + 0.08, "#ebe7dd", 0.02, edge=0.01, fall=0.01)
+        canvas.lay(canvas.box(left, low, right, high), "#c9d9e2", height=-0.04)
+        sky = smooth(low, high, canvas.y + 0 * canvas.x)
+        bright = paint("#d5dde0") + (paint("#eef4f8") - paint("#d5dde0")) * sky[..., None]
+        canvas.lay(canvas.box(left, low, right, high), bright)
+        for x in (left, middle, right):
+            canvas.slab(x - 0.03, low, x + 0.03, high, "#efece4", 0.0, edge=0.006, fall=0.008)
+        bar = high - 0.31 * (high - low)
+        canvas.slab(left, bar - 0.025, right, bar + 0.025, "#efece4", 0.0, edge=0.006, fall=0.008)

@@ -11,7 +11,7 @@ from .canvas import Canvas, Floats, paint
 from .glazing import Pane, glaze
 from .joinery import Wood, bars, boxed, leaf, reveal, sill, surround
 
-__all__ = ["arched", "casement", "gothic", "modern", "sash", "shop", "steel"]
+__all__ = ["arched", "casement", "gothic", "modern", "sash", "shop", "steel", "works"]
 
 WHITE = "#efece4"
 STONE = "#d3cbba"
@@ -340,3 +340,37 @@ def shop(canvas: Canvas, seed: int, behind: str | None, *, wood: str = "#2f4a43"
     canvas.slab(0, h - fascia, w, h - 0.1, wood, 0.02, edge=0.01, fall=0.012, gloss=0.35)
     canvas.slab(0.12, h - fascia + 0.05, w - 0.12, h - 0.15, wood, 0.0, edge=0.012, fall=-0.01, gloss=0.35)
     canvas.slab(0, h - 0.1, w, h, wood, 0.1, edge=0.02, fall=0.03, gloss=0.35)
+
+
+def works(canvas: Canvas, seed: int, behind: str | None, *, metal: str = "#3a423f", brick: str = "#96604c") -> None:
+    """A window of a works: steel sections below a segmental arch of bricks on end, which fills its rectangle."""
+    w, h = canvas.width, canvas.tall
+    foot, rise = 0.05 * h, 0.1 * w
+    spring = h - 0.14 * h - rise
+    radius = (w * w / 4 + rise * rise) / (2 * rise)
+    middle = spring + rise - radius
+    angle = np.arctan2(canvas.x - w / 2, canvas.y - middle)
+    unit = 0.075 / radius
+    place = angle / unit
+    rim = np.minimum(place % 1, 1 - place % 1) * 0.075
+    tint = 1 + 0.11 * np.sin(12.9898 * np.floor(place) + seed)
+    ring = np.hypot(canvas.x - w / 2, canvas.y - middle)
+    joint = np.maximum(canvas.cover((rim - 0.005).astype(np.float32)), canvas.cover(np.abs(ring - radius - 0.24) - 0.006))
+    colour = np.clip(paint(brick) * (tint * (1 + 0.03 * canvas.noise(0.02, seed, 2)))[..., None], 0, 1)
+    colour = colour + (paint("#b9ae9d") - colour) * joint[..., None]
+    canvas.lay(canvas.full(), colour, height=(0.012 - 0.006 * joint).astype(np.float32), gloss=0.06)
+    opening = canvas.arch_distance(0.0, foot, w, spring, rise)
+    canvas.lay(canvas.cover(opening), "#6e665b", height=-0.14)
+    canvas.lay(canvas.cover(opening + 0.03), metal, height=-0.1, gloss=0.35)
+    box = (0.055, foot + 0.05, w - 0.055, h)
+    panes = bars(box, 6, 7, 0.028)
+    cover = np.zeros_like(canvas.alpha)
+    for pane in panes:
+        cover = np.maximum(cover, canvas.box(*pane))
+    cover *= canvas.cover(opening + 0.06)
+    for x in (w / 3, 2 * w / 3):  # mullions
+        cover *= 1 - canvas.box(x - 0.03, foot, x + 0.03, h)
+        canvas.lay(canvas.box(x - 0.03, foot, x + 0.03, h) * canvas.cover(opening + 0.02), metal, height=-0.07, gloss=0.35)
+    cover *= 1 - canvas.box(0, spring - 0.32 * h, w, spring - 0.32 * h + 0.06)
+    _close(canvas, [(box[0], box[1], box[2], spring + rise)], seed, behind, -0.12, cover, within=box)
+    sill(canvas, 0, w, foot, "#a79c8c", thick=foot, out=0.05)

@@ -1,0 +1,54 @@
+"""Tiles for a town: those that are small or pale in a street come in half their size, so that all fit 60 MB."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from numpy.typing import NDArray
+
+from ..texture.atlas import Tiles
+from ..tiles import CATALOGUE, TileSet
+
+__all__ = ["SparingTiles", "town_tiles"]
+
+_WHOLE = frozenset({
+    "Walls and roofs", "Windows", "Frames, open between their bars", "Doors, shutters and gates",
+    "Ornament and ironwork",
+})  # fmt: skip
+"""Groups of tiles that one comes near to; curtains, rooms, furniture and the ground are seen from farther away."""
+
+_SHARP = frozenset({"sign", "awning"})
+
+
+class SparingTiles:
+    """Tiles of a set, some without their largest size.
+
+    Parameters
+    ----------
+    tiles
+        The set.
+    """
+
+    def __init__(self, tiles: Tiles) -> None:
+        self._tiles = tiles
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Names of the tiles."""
+        return self._tiles.names
+
+    def mips(self, name: str) -> Sequence[NDArray[Any]]:
+        """The tile in ever smaller sizes; companions (normals, highlights) begin with a half, as small things do."""
+        levels = self._tiles.mips(name)
+        return levels if _whole(name) or len(levels) < 2 else levels[1:]
+
+
+def _whole(name: str) -> bool:
+    recipe = CATALOGUE.get(name)  # None: a companion, or a tile of one's own
+    return recipe is not None and (recipe.group in _WHOLE or name in _SHARP)
+
+
+def town_tiles() -> SparingTiles:
+    """The tiles that ship, for a town."""
+    return SparingTiles(TileSet.builtin())
