@@ -1,0 +1,5 @@
+"""A town as data: a plan from a seed or from real footprints, its façades' styles, and the mesh that carries them."""
+
+from .town import Town
+
+__all__ = ["Town"]
