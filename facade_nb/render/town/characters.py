@@ -14,11 +14,11 @@ from .rings import Ints
 from .streets import AVENUE, SECOND
 from .styles import Style
 
-__all__ = ["Characters", "choose_styles", "eaves_of", "of_districts"]
+__all__ = ["Characters", "choose_styles", "eaves_of", "of_districts", "table_of"]
 
-_Weights = Mapping[str, float]
+Weights = Mapping[str, float]
 
-_WANTED: Mapping[int, _Weights] = {
+_WANTED: Mapping[int, Weights] = {
     District.MARKET: {"gruenderzeit": 1},
     District.OLD: {"half-timbered": 5, "gruenderzeit": 3},
     District.INNER: {"gruenderzeit": 6, "slab": 0.4, "": 3},
@@ -30,7 +30,7 @@ _WANTED: Mapping[int, _Weights] = {
 }
 """Styles of each district with their weights; the empty name stands for all that are named in no district."""
 
-_SHOPS: _Weights = {"shop-street": 6, "gruenderzeit": 1}
+_SHOPS: Weights = {"shop-street": 6, "gruenderzeit": 1}
 """Styles of houses with a shop."""
 
 
@@ -45,24 +45,30 @@ class Characters:
     shop: NDArray[np.bool_]
 
 
-def weights_of(wanted: _Weights, styles: Sequence[Style]) -> Floats:
-    """The weight of each style; all alike where none is known by its name."""
-    named = {name for weights in (*_WANTED.values(), _SHOPS) for name in weights}
-    others = [style.name not in named for style in styles]
-    rest = wanted.get("", 0.0) / max(sum(others), 1)
-    weights = np.array(
-        [wanted.get(style.name, rest if other else 0.0) for style, other in zip(styles, others, strict=True)]
-    )
-    return weights if weights.sum() > 0 else np.ones(len(styles))
+def table_of(wanted: Mapping[int, Weights], styles: Sequence[Style]) -> Floats:
+    """Weights of each style (columns) for each case (rows). All are alike where no style is known by its name.
+
+    The empty name stands for all styles that no case and no shop names: solved ones, say.
+    """
+    named = {name for weights in (*wanted.values(), _SHOPS) for name in weights}
+    others = [one.name not in named for one in styles]
+    share = 1 / max(sum(others), 1)
+    rows = []
+    for case in range(len(wanted)):
+        weights = wanted[case]
+        rest = weights.get("", 0.0) * share
+        row = [
+            weights.get(one.name, rest if other else 0.0) for one, other in zip(styles, others, strict=True)
+        ]
+        rows.append(row if sum(row) > 0 else [1.0] * len(row))
+    return np.array(rows)
 
 
 def choose_styles(
     district: Ints, shop: NDArray[np.bool_], random: Floats, styles: Sequence[Style]
 ) -> NDArray[np.int32]:
     """A style for each building by its district; houses with a shop have theirs."""
-    table = np.array(
-        [weights_of(_WANTED[k], styles) for k in range(len(_WANTED))] + [weights_of(_SHOPS, styles)]
-    )
+    table = table_of({**_WANTED, len(_WANTED): _SHOPS}, styles)
     return pick(random, table[np.where(shop, len(_WANTED), district)]).astype(np.int32)
 
 

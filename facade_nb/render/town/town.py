@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from ..texture.uploads import tile_uploads
 from .generated import generate_plan
 from .mesh import Mesh, build_mesh
 from .plan import KINDS, ROOFS, Plan
+from .real import real_plan
 from .rings import areas
 from .styles import STYLES, Style, town_grammar
 
@@ -55,6 +57,13 @@ class Town:
         plan = generate_plan(
             _whole(buildings, "buildings", 1, MOST), _whole(seed, "seed", 0, 2**31 - 1), STYLES
         )
+        grammar = town_grammar()
+        return cls(plan, build_mesh(plan, STYLES, grammar), grammar)
+
+    @classmethod
+    def from_geojson(cls, source: Mapping[str, Any] | str | Path, seed: int = 1) -> Town:
+        """A town from real footprints."""
+        plan = real_plan(source, _whole(seed, "seed", 0, 2**31 - 1), STYLES)
         grammar = town_grammar()
         return cls(plan, build_mesh(plan, STYLES, grammar), grammar)
 
