@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from .chance import Floats, chance, pick
 from .footprints import District
+from .plan import INDUSTRIAL, RESIDENTIAL, SHOP
 from .rings import Ints
 from .streets import AVENUE, SECOND
 from .styles import Style
@@ -148,5 +149,7 @@ def of_districts(
     # Houses of a row, and slabs of a block, are of one height.
     level = np.isin(district, (District.ROWS, District.SLABS))
     eaves = eaves_of(style, storeys, np.where(level, by_block, lower), styles)
-    kind = np.where(district == District.INDUSTRY, 2, np.where(shop, 1, 0)).astype(np.uint8)
+    kind = np.where(district == District.INDUSTRY, INDUSTRIAL, np.where(shop, SHOP, RESIDENTIAL)).astype(
+        np.uint8
+    )
     return Characters(style, storeys, eaves, kind, shop)

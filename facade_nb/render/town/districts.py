@@ -7,8 +7,9 @@ import numpy as np
 from .chance import chance, direction, field
 from .footprints import District, Footprints, gather
 from .loose import halls, houses, rows, slabs
-from .perimeter import Blocks, perimeter
+from .perimeter import Blocks, blunted, perimeter
 from .rings import Ints, offsets_of, ring_numbers
+from .solid import sliced
 from .streets import Cells, lay_out
 
 __all__ = ["DENSE", "settle"]
@@ -73,7 +74,9 @@ def _build(cells: Cells, district: Ints, seed: int) -> Footprints:
     counts = np.bincount(rings, weights=firm, minlength=len(district)).astype(np.int64)
     every = Blocks(offsets_of(counts), cells.blocks[firm], cells.street[firm], district, rank)
     every = every.take(np.flatnonzero((cells.sizes > 0) & (district != District.PARK)))
-    groups, narrow = perimeter(every.where(District.OLD, District.INNER), seed)
+    groups, narrow = perimeter(blunted(every.where(District.OLD, District.INNER)), seed)
+    found, narrow = sliced(narrow, seed)
+    groups += found
     rest = np.where(np.isin(narrow.district, (District.OLD, District.INNER)), District.ROWS, narrow.district)
     narrow = Blocks(narrow.offsets, narrow.corners, narrow.street, rest, narrow.rank)
     for build, blocks in (

@@ -13,10 +13,11 @@ from .chance import Floats, length
 from .characters import Characters
 from .looks import choose_seeds
 from .neighbours import Cut
-from .plan import Ground, Plan
+from .plan import OUTBUILDING, Ground, Plan
 from .rings import Ints, after, offsets_of, ring_numbers, take_rings
 from .roles import PARTY, STREET
 from .roof_kinds import choose_roofs
+from .stages import Stages
 from .styles import Style
 
 __all__ = ["Walls", "finish", "walls_of"]
@@ -73,6 +74,7 @@ def finish(
     given: Ints | None = None,
     tops: Floats | None = None,
     left_out: Mapping[str, int] | None = None,
+    stages: Stages | None = None,
 ) -> Plan:
     """A plan.
 
@@ -100,6 +102,9 @@ def finish(
     np.maximum.at(covered, cut.wall, eaves[cut.neighbour])
     covered = np.minimum(covered, eaves[building])
     entrance = _entrances(cut, walls.role, building, characters, styles)
+    entrance[characters.kind == OUTBUILDING] = -1
+    if stages is not None:
+        stages.at(0.6, "seeds")
     beside = np.unique(np.sort(np.stack([building[cut.wall], cut.neighbour], axis=1), axis=1), axis=0)
     near = _near(outer, offsets, walls, building)
     seeds = choose_seeds(characters.style, styles, near, beside, seed)

@@ -241,7 +241,7 @@ def _rings(polygon: Any) -> list[Floats] | None:
     """The rings of a polygon as arrays (n, 2); heights in them are passed over. None: malformed."""
     if not isinstance(polygon, list):
         return None
-    rings = []
+    rings: list[Floats] = []
     for ring in polygon:
         try:
             if any(isinstance(v, bool | str) for point in ring for v in point[:2]):

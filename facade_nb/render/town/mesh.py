@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..texture import Grammar
 from .chance import Floats, length
 from .faces import Faces
-from .plan import COURT, PARTY, SIDE, STREET, Plan
+from .plan import COURT, OUTBUILDING, PARTY, SIDE, STREET, Plan
 from .rings import Ints, offsets_of, ring_numbers
 from .roofing import Houses, cover
 from .styles import GROUND, Style
@@ -91,6 +91,7 @@ def _walls(faces: Faces, plan: Plan, styles: Sequence[Style], starts: dict[str, 
     doors = np.zeros(len(face), bool)
     doors[plan.entrance[plan.entrance >= 0]] = True
     face = np.where(doors, 4, np.where((span < narrow) & (face != 3), 5, face))
+    face = np.where(plan.kind[building] == OUTBUILDING, 5, face)
     eaves = plan.eaves[building]
     seen = np.flatnonzero((plan.covered < eaves - 0.005) & (span > 0))
     seed = plan.seed[building[seen]] / 64.0

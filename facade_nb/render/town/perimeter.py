@@ -8,12 +8,12 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from .chance import Floats, chance, length
+from .chance import Floats, chance, length, millimetres
 from .footprints import District, Group
-from .rings import Ints, after, before, inset, line_offsets, ragged, ring_numbers, take_rings
+from .rings import Ints, after, before, inset, line_offsets, offsets_of, ragged, ring_numbers, take_rings
 from .roles import COURT, SIDE, STREET
 
-__all__ = ["Blocks", "perimeter"]
+__all__ = ["Blocks", "Edges", "blunted", "perimeter"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,6 +105,32 @@ def perimeter(blocks: Blocks, seed: int) -> tuple[list[Group], Blocks]:
     groups = _corners(blocks, depth, start, end, sharp, seed)
     groups += _middles(blocks, depth, start, end, sharp, seed)
     return groups, rest
+
+
+def blunted(blocks: Blocks) -> Blocks:
+    """Blocks with their acute corners cut off: there is a small place, and houses of a usable shape."""
+    edges = Edges.of(blocks)
+    half = edges.sine / np.maximum(1 + edges.cosine, 0.05)
+    # Angles below 56°; the sine of half the angle inside is the cosine of half the turn.
+    narrow = 1 / np.sqrt(1 + half * half)
+    back = np.round(9.5 / np.maximum(narrow, 0.15), 3)
+    acute = (half > 1.9) & (back < 0.45 * np.minimum(edges.span, edges.span[edges.preceding]))
+    counts = np.where(acute, 2, 1)
+    corner = np.repeat(np.arange(len(counts)), counts)
+    second = np.append(False, corner[1:] == corner[:-1])
+    first = acute[corner] & ~second
+    away = np.where(
+        first[:, None],
+        -edges.along[edges.preceding[corner]] * back[corner][:, None],
+        np.where(second[:, None], edges.along[corner] * back[corner][:, None], 0),
+    )
+    street = np.where(
+        first,
+        np.minimum(blocks.street[corner], blocks.street[edges.preceding[corner]]),
+        blocks.street[corner],
+    )
+    offsets = offsets_of(np.add.reduceat(counts, blocks.offsets[:-1]))
+    return Blocks(offsets, millimetres(blocks.corners[corner] + away), street, blocks.district, blocks.rank)
 
 
 def _allot(
@@ -212,7 +238,7 @@ def _middles(
     span = length(rear[1] - rear[0])
     out = np.round(7 + 7 * random.random(len(edge)), 1)[:, None]
     thick = np.round(5.4 + 1.4 * random.random(len(edge)), 1)[:, None]
-    wants = (random.random(len(edge)) < 0.45) & (district == District.INNER) & (span > 12.5) & ~first & ~last
+    wants = (random.random(len(edge)) < 0.6) & (district == District.INNER) & (span > 12.0) & ~first & ~last
     way = (rear[1] - rear[0]) / np.maximum(span, 1e-9)[:, None]
     right = (number % 2 == 0)[:, None]
     near = np.where(right, rear[1], rear[0])

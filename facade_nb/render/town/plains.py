@@ -33,11 +33,12 @@ def plain_of(offsets: Ints, corners: Floats) -> Ground:
     houses = np.asarray(shapely.polygons(rings), object)
     moved = millimetres(line_offsets(corners, offsets, -APRON))
     wide = np.asarray(shapely.polygons(shapely.linearrings(moved, indices=ring_numbers(offsets))), object)
-    # Where a mitre is long or edges turn over, the strip is what a box around the building leaves of it.
+    # Where a mitre is long or edges turn over, the strip is made with care, which takes longer.
     good = shapely.is_valid(wide) & (shapely.area(wide) > shapely.area(houses))
     reach = shapely.bounds(wide) - shapely.bounds(houses)
     good &= (np.abs(reach) < 3 * APRON).all(axis=1)
-    aprons = np.where(good, wide, houses)
+    aprons = wide
+    aprons[~good] = shapely.buffer(houses[~good], APRON, join_style="mitre", mitre_limit=2.0)
     low = np.floor(corners.min(axis=0) / TILE) - 2
     high = np.ceil(corners.max(axis=0) / TILE) + 2
     columns, rows = (high - low).astype(int).tolist()

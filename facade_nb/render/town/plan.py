@@ -12,8 +12,27 @@ from .chance import Floats
 from .rings import Ints, after, ring_numbers
 from .roles import COURT, PARTY, ROLES, SIDE, STREET
 
-__all__ = ["COURT", "FLAT", "GABLE", "HIP", "KINDS", "MANSARD", "PARTY", "ROLES", "ROOFS", "SHED", "SIDE", "STREET",
-           "Ground", "Plan"]  # fmt: skip
+__all__ = [
+    "COURT",
+    "FLAT",
+    "GABLE",
+    "HIP",
+    "INDUSTRIAL",
+    "KINDS",
+    "MANSARD",
+    "OUTBUILDING",
+    "PARTY",
+    "PUBLIC",
+    "RESIDENTIAL",
+    "ROLES",
+    "ROOFS",
+    "SHED",
+    "SHOP",
+    "SIDE",
+    "STREET",
+    "Ground",
+    "Plan",
+]
 
 FLAT, GABLE, HIP, MANSARD, SHED = range(5)
 """Kinds of roofs."""
@@ -21,8 +40,11 @@ FLAT, GABLE, HIP, MANSARD, SHED = range(5)
 ROOFS = ("flat", "gable", "hip", "mansard", "shed")
 """Their names."""
 
+RESIDENTIAL, SHOP, INDUSTRIAL, PUBLIC, OUTBUILDING = range(5)
+"""What a building is for."""
+
 KINDS = ("residential", "shop", "industrial", "public", "outbuilding")
-"""What a building is for; `Plan.kind` counts them."""
+"""Their names."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

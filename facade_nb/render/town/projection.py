@@ -18,7 +18,7 @@ _DEGREE = 3.141592653589793 / 180
 
 
 def to_metres(places: Floats, centre: tuple[float, float]) -> Floats:
-    """East and north (n, 2) in metres of longitudes and latitudes (n, 2) in degrees, about a centre of the same kind."""
+    """East and north (n, 2) in metres of longitudes and latitudes (n, 2) in degrees, about such a centre."""
     turned = (places[:, 0] - centre[0] + 540) % 360 - 180
     away = (places[:, 1] - centre[1]) * _DEGREE
     lon = turned * _DEGREE

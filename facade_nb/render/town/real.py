@@ -17,9 +17,10 @@ from .geojson import Outlines, read_outlines
 from .neighbours import Cut, cut_walls
 from .openness import gaps_of, look_out
 from .plains import plain_of
-from .plan import Plan
+from .plan import FLAT, GABLE, INDUSTRIAL, OUTBUILDING, PUBLIC, RESIDENTIAL, SHOP, Plan
 from .rings import Ints, after, areas, ring_numbers, take_rings
 from .roles import PARTY
+from .stages import Stages
 from .styles import Style
 from .tags import Use, has_shop, levels_of, metres_of, roof_of, use_of
 
@@ -36,12 +37,17 @@ _WANTED: Mapping[int, Mapping[str, float]] = {
     Use.OUTBUILDING: {"detached": 1},
 }
 
-_KINDS = {Use.COMMERCE: 1, Use.INDUSTRY: 2, Use.PUBLIC: 3, Use.OUTBUILDING: 4}
+_KINDS = {Use.COMMERCE: SHOP, Use.INDUSTRY: INDUSTRIAL, Use.PUBLIC: PUBLIC, Use.OUTBUILDING: OUTBUILDING}
 
 
-def real_plan(source: Mapping[str, Any] | str | Path, seed: int, styles: Sequence[Style]) -> Plan:
+def real_plan(
+    source: Mapping[str, Any] | str | Path, seed: int, styles: Sequence[Style], stages: Stages | None = None
+) -> Plan:
     """A plan from GeoJSON. It raises what `read_outlines` raises."""
+    stages = stages or Stages()
+    stages.at(0.0, "footprints")
     outlines = read_outlines(source)
+    stages.at(0.2, "neighbours")
     building = np.asarray(outlines.ring_of)[ring_numbers(outlines.offsets)]
     cut = cut_walls(outlines.offsets, outlines.corners, building)
     gaps = gaps_of(cut)
@@ -51,14 +57,17 @@ def real_plan(source: Mapping[str, Any] | str | Path, seed: int, styles: Sequenc
     before[cut.source[::-1]] = roles[::-1]
     walls = walls_of(cut, outlines.ring_of, outlines.holes, before)
     walls.role[:] = roles
+    stages.at(0.3, "heights")
     characters, tops = _characters(outlines, cut, roles, styles, seed)
     outer = np.flatnonzero(~outlines.holes)
     index, offsets = take_rings(outlines.offsets, outer)
     given = np.array([roof_of(tags) for tags in outlines.tags])
-    out = characters.kind == 4
-    given = np.where((given < 0) & out, np.where(_sizes(outlines) < 60, 0, 1), given)
+    out = characters.kind == OUTBUILDING
+    given = np.where((given < 0) & out, np.where(_sizes(outlines) < 60, FLAT, GABLE), given)
+    stages.at(0.4, "ground")
     ground = plain_of(offsets, outlines.corners[index])
-    return finish(walls, characters, styles, ground, seed, given, tops, outlines.left_out)
+    stages.at(0.55, "roofs")
+    return finish(walls, characters, styles, ground, seed, given, tops, outlines.left_out, stages)
 
 
 def _sizes(outlines: Outlines) -> Floats:
@@ -80,7 +89,8 @@ def _characters(
     joined = _joined(cut, outlines, roles)
     use = np.array([use_of(tags) for tags in outlines.tags])
     told = use != Use.UNKNOWN
-    # What is not told: sheds and garages are small, halls large; between neighbours, or where it is dense, stand townhouses.
+    # What is not told: sheds and garages are small, halls large. Where it is dense, and between neighbours, stand
+    # townhouses.
     guess = np.select(
         [
             size < 45,
@@ -132,7 +142,7 @@ def _characters(
     kind = np.zeros(count, np.uint8)
     for name, code in _KINDS.items():
         kind[use == name] = code
-    kind[shop & (kind == 0)] = 1
+    kind[shop & (kind == RESIDENTIAL)] = SHOP
     return Characters(style, storeys, eaves, kind, shop), tops
 
 

@@ -28,7 +28,8 @@ _BUILDINGS: Mapping[int, str] = {
     Use.INDUSTRY: "industrial warehouse factory manufacture hangar works storage depot transportation service",
     Use.PUBLIC: (
         "public school university college hospital kindergarten church chapel cathedral mosque synagogue temple "
-        "monastery castle palace townhall civic government museum library train_station station fire_station sports_hall"
+        "monastery castle palace townhall civic government museum library train_station station "
+        "fire_station sports_hall"
     ),
     Use.OUTBUILDING: (
         "garage garages carport shed hut roof stable barn cowshed sty farm_auxiliary greenhouse glasshouse "
@@ -38,26 +39,14 @@ _BUILDINGS: Mapping[int, str] = {
 _USE = {name: use for use, names in _BUILDINGS.items() for name in names.split()}
 
 _AMENITIES = frozenset(
-    [
-        "place_of_worship",
-        "school",
-        "university",
-        "college",
-        "hospital",
-        "kindergarten",
-        "townhall",
-        "public_building",
-        "library",
-        "fire_station",
-        "police",
-        "courthouse",
-        "theatre",
-        "community_centre",
-        "arts_centre",
-    ]
-)
+    {
+        "place_of_worship", "school", "university", "college", "hospital", "kindergarten", "townhall",
+        "public_building", "library", "fire_station", "police", "courthouse", "theatre",
+        "community_centre", "arts_centre",
+    }
+)  # fmt: skip
 _SERVED = frozenset(
-    ["restaurant", "cafe", "bar", "pub", "bank", "fast_food", "post_office", "pharmacy", "ice_cream"]
+    {"restaurant", "cafe", "bar", "pub", "bank", "fast_food", "post_office", "pharmacy", "ice_cream"}
 )
 
 _ROOFS: Mapping[int, str] = {
@@ -99,7 +88,7 @@ def has_shop(tags: Mapping[str, Any]) -> bool:
 
 
 def metres_of(value: Any) -> float | None:
-    """A height in metres: 12, ``"12"``, ``"12.5 m"``, ``"40 ft"``, ``"40'6\\""``; None where it is none, or absurd."""
+    """A height in metres: 12, ``"12"``, ``"12.5 m"``, ``"40 ft"``, feet and inches; None where it is none or absurd."""
     if isinstance(value, bool):
         return None
     if isinstance(value, int | float):

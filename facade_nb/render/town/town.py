@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -19,6 +19,7 @@ from .mesh import Mesh, build_mesh
 from .plan import KINDS, ROOFS, Plan
 from .real import real_plan
 from .rings import areas
+from .stages import Stages
 from .styles import STYLES, Style, town_grammar
 
 if TYPE_CHECKING:
@@ -52,20 +53,80 @@ class Town:
     styles: tuple[Style, ...] = field(default=STYLES)
 
     @classmethod
-    def generate(cls, buildings: int = 20_000, seed: int = 1) -> Town:
-        """A town from a seed."""
-        plan = generate_plan(
-            _whole(buildings, "buildings", 1, MOST), _whole(seed, "seed", 0, 2**31 - 1), STYLES
-        )
-        grammar = town_grammar()
-        return cls(plan, build_mesh(plan, STYLES, grammar), grammar)
+    def generate(
+        cls,
+        buildings: int = 20_000,
+        seed: int = 1,
+        *,
+        progress: Callable[[float, str], None] | None = None,
+        should_stop: Callable[[], bool] | None = None,
+    ) -> Town:
+        """A town from a seed: the same seed gives the same town, byte for byte, on every processor.
+
+        Parameters
+        ----------
+        buildings
+            How many, exactly; up to 100,000.
+        seed
+            A whole number.
+        progress
+            Called with the part that is done, from 0 to 1, and with what comes next.
+        should_stop
+            Asked between stages: True ends it.
+
+        Raises
+        ------
+        DesignError
+            For numbers out of range.
+        TownStopped
+            If `should_stop` said so.
+        """
+        count, number = _whole(buildings, "buildings", 1, MOST), _whole(seed, "seed", 0, 2**31 - 1)
+        stages = Stages(progress, should_stop)
+        return cls._meshed(generate_plan(count, number, STYLES, stages), stages)
 
     @classmethod
-    def from_geojson(cls, source: Mapping[str, Any] | str | Path, seed: int = 1) -> Town:
-        """A town from real footprints."""
-        plan = real_plan(source, _whole(seed, "seed", 0, 2**31 - 1), STYLES)
+    def from_geojson(
+        cls,
+        source: Mapping[str, Any] | str | Path,
+        seed: int = 1,
+        *,
+        progress: Callable[[float, str], None] | None = None,
+        should_stop: Callable[[], bool] | None = None,
+    ) -> Town:
+        """A town from real footprints, which are used as they are. What they do not tell is chosen by the seed.
+
+        Parameters
+        ----------
+        source
+            GeoJSON as a dict, or the path of a file (``.geojson``, ``.json``, also ``.gz``), in longitude and latitude.
+        seed, progress, should_stop
+            As of `generate`.
+
+        Raises
+        ------
+        DesignError
+            If it cannot be read or is no GeoJSON, or if no footprint in it can be used. `left_out` counts those that
+            cannot, where others can.
+        TownStopped
+            If `should_stop` said so.
+        """
+        number, stages = _whole(seed, "seed", 0, 2**31 - 1), Stages(progress, should_stop)
+        return cls._meshed(real_plan(source, number, STYLES, stages), stages)
+
+    @classmethod
+    def _meshed(cls, plan: Plan, stages: Stages) -> Town:
+        stages.at(0.75, "mesh")
         grammar = town_grammar()
-        return cls(plan, build_mesh(plan, STYLES, grammar), grammar)
+        town = cls(plan, build_mesh(plan, STYLES, grammar), grammar)
+        if stages.progress is not None:
+            stages.progress(1.0, "")
+        return town
+
+    @property
+    def left_out(self) -> Mapping[str, int]:
+        """Why footprints were left out, and how many."""
+        return self.plan.left_out
 
     @property
     def vertices(self) -> np.ndarray:
@@ -147,6 +208,3 @@ def _whole(value: object, name: str, least: int, most: int) -> int:
     if not exact or not least <= number <= most:
         raise DesignError(Fault(name, f"expected a whole number from {least:,} to {most:,}; found {value!r}"))
     return number
-
-
-_ = (Callable, Sequence)
