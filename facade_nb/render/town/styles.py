@@ -18,7 +18,7 @@ from ..texture.grammar import Grammar
 from .solved import SOLVED, STRETCH, Solved, solved_text
 from .sparing import town_tiles
 
-__all__ = ["STARTS", "STYLES", "Style", "style_text", "town_grammar", "town_text"]
+__all__ = ["GROUND", "STARTS", "STYLES", "Style", "style_text", "town_grammar", "town_text"]
 
 STARTS = ("front", "street", "side", "court", "party", "gable", "roof", "flat", "plain")
 """What a start rule may be for; `Style.starts` has all of them."""
@@ -143,6 +143,11 @@ def _solved(solved: Solved) -> Style:
 
 STYLES: tuple[Style, ...] = (*_WRITTEN, *map(_solved, SOLVED))
 """Every style: those that are written in the gallery, then those whose fronts are solved."""
+
+GROUND: Mapping[str, str] = MappingProxyType(
+    {kind: f"ground.{kind.capitalize()}" for kind in ("asphalt", "pavement", "court", "grass", "field")}
+)
+"""For each kind of ground, the rule that it begins with."""
 
 
 def style_text(name: str) -> str:

@@ -1,0 +1,143 @@
+"""Faces of a mesh: polygons in space, each a rectangle of façade coordinates about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..pipeline.vertices import VERTEX
+from .chance import Floats
+from .rings import Ints
+
+__all__ = ["Faces"]
+
+
+@dataclass(slots=True, eq=False)
+class Faces:
+    """Gathers faces. Positions are x east, y north, z up; they turn to x east, y up, z south as they come in.
+
+    Attributes
+    ----------
+    vertices
+        Arrays of VERTEX.
+    triangles
+        Arrays (t, 3) of indices into all vertices.
+    owners
+        The building of each vertex; -1: ground.
+    """
+
+    vertices: list[np.ndarray] = field(default_factory=list)
+    triangles: list[Ints] = field(default_factory=list)
+    owners: list[Ints] = field(default_factory=list)
+    count: int = 0
+
+    def walls(
+        self, foot: Floats, end: Floats, low: Floats, high: Floats, start: Floats, seed: Floats, owner: Ints
+    ) -> None:
+        """Upright rectangles above lines (f, 2) from foot to end, seen from their right, between two heights (f,).
+
+        Their façade goes down to the ground, whatever stands before it.
+        """
+        way = end - foot
+        span = np.sqrt(way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1])
+        u = way / np.maximum(span, 1e-9)[:, None]
+        zero = np.zeros(len(foot))
+        points = np.stack(
+            [np.column_stack([p, h]) for p, h in ((foot, low), (end, low), (end, high), (foot, high))], axis=1
+        )
+        place = np.stack(
+            [np.column_stack([x, y]) for x, y in ((zero, low), (span, low), (span, high), (zero, high))],
+            axis=1,
+        )
+        normal = np.column_stack([u[:, 1], -u[:, 0], zero])
+        tangent = np.column_stack([u, zero])
+        self.add(points, place, np.column_stack([span, high]), start, seed, normal, tangent, owner)
+
+    def planes(self, points: Floats, along: Floats, start: Floats, seed: Floats, owner: Ints) -> None:
+        """Flat polygons (f, k, 3), counter-clockwise from outside, whose width runs along vectors (f, 3) in them."""
+        normal = _normals(points)
+        inside = _unit(along)
+        across = _unit(_cross(normal, inside))
+        tangent = _cross(across, normal)
+        u = (points * tangent[:, None]).sum(axis=2)
+        v = (points * across[:, None]).sum(axis=2)
+        place = np.stack([u - u.min(axis=1, keepdims=True), v - v.min(axis=1, keepdims=True)], axis=2)
+        place = np.round(place, 4)
+        self.add(points, place, place.max(axis=1), start, seed, normal, tangent, owner)
+
+    def add(
+        self,
+        points: Floats,
+        place: Floats,
+        size: Floats,
+        start: Floats,
+        seed: Floats,
+        normal: Floats,
+        tangent: Floats,
+        owner: Ints,
+    ) -> None:
+        """Convex polygons (f, k, 3); what is the same for all corners of a face is (f, …)."""
+        f, k = points.shape[:2]
+        if not f:
+            return
+        fan = np.array([[0, i, i + 1] for i in range(1, k - 1)])
+        triangles = (np.arange(f)[:, None, None] * k + fan).reshape(-1, 3)
+        size, start, seed, normal, tangent = (
+            np.repeat(v, k, axis=0) for v in (size, start, seed, normal, tangent)
+        )
+        owner = np.repeat(owner, k)
+        self.loose(
+            points.reshape(-1, 3), place.reshape(-1, 2), size, start, seed, normal, tangent, owner, triangles
+        )
+
+    def loose(
+        self,
+        points: Floats,
+        place: Floats,
+        size: Floats,
+        start: Floats,
+        seed: Floats,
+        normal: Floats,
+        tangent: Floats,
+        owner: Ints,
+        triangles: Ints,
+    ) -> None:
+        """Vertices (v, …) and triangles of them."""
+        made = np.empty(len(points), VERTEX)
+        made["position"] = _turned(points)
+        made["place"], made["size"], made["start"], made["seed"] = place, size, start, seed
+        made["normal"], made["tangent"] = _turned(normal), _turned(tangent)
+        self.vertices.append(made)
+        self.triangles.append(triangles + self.count)
+        self.owners.append(np.asarray(owner, np.int64))
+        self.count += len(made)
+
+
+def _turned(v: Floats) -> Floats:
+    """From x east, y north, z up to x east, y up, z south. There is no minus zero."""
+    return np.stack([v[:, 0], v[:, 2], -v[:, 1]], axis=1).astype(np.float32) + np.float32(0)
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    return np.stack(
+        [
+            a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
+            a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
+            a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
+        ],
+        axis=1,
+    )
+
+
+def _unit(v: Floats) -> Floats:
+    span = np.sqrt(v[:, 0] * v[:, 0] + v[:, 1] * v[:, 1] + v[:, 2] * v[:, 2])
+    return np.asarray(v / np.maximum(span, 1e-12)[:, None])
+
+
+def _normals(points: Floats) -> Floats:
+    """Unit normals of polygons, also where some of their corners coincide or lie in a line."""
+    total = np.zeros((len(points), 3))
+    for i in range(1, points.shape[1] - 1):
+        total = total + _cross(points[:, i] - points[:, 0], points[:, i + 1] - points[:, 0])
+    return _unit(total)

@@ -1,0 +1,45 @@
+"""The plan of a town that is made from a seed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .characters import of_districts
+from .districts import settle
+from .finishing import finish, walls_of
+from .grounds import ground_of
+from .neighbours import cut_walls
+from .plan import Plan
+from .rings import ring_numbers
+from .stages import Stages
+from .styles import Style
+
+__all__ = ["generate_plan"]
+
+
+def generate_plan(buildings: int, seed: int, styles: Sequence[Style], stages: Stages | None = None) -> Plan:
+    """A town of exactly so many buildings. The same seed gives the same plan, on every processor."""
+    stages = stages or Stages()
+    stages.at(0.0, "streets")
+    footprints, cells, district = settle(buildings, seed)
+    order = np.lexsort((np.arange(len(district)), cells.reach))
+    cell = order[footprints.block]
+    characters = of_districts(
+        footprints.district,
+        footprints.block,
+        cells.reach[cell],
+        footprints.street,
+        footprints.corner,
+        styles,
+        seed,
+    )
+    stages.at(0.3, "neighbours")
+    count = len(footprints.block)
+    cut = cut_walls(footprints.offsets, footprints.corners, ring_numbers(footprints.offsets))
+    walls = walls_of(cut, np.arange(count), np.zeros(count, bool), footprints.role)
+    stages.at(0.45, "ground")
+    ground = ground_of(cells, district, np.unique(cell))
+    stages.at(0.5, "roofs")
+    return finish(walls, characters, styles, ground, seed, stages=stages)

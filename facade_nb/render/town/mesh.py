@@ -1,0 +1,194 @@
+"""A plan as a mesh: walls, roofs and ground, in chunks that lie together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..texture import Grammar
+from .chance import Floats, length
+from .faces import Faces
+from .plan import COURT, OUTBUILDING, PARTY, SIDE, STREET, Plan
+from .rings import Ints, offsets_of, ring_numbers
+from .roofing import Houses, cover
+from .styles import GROUND, Style
+
+__all__ = ["CHUNK", "NOBODY", "Mesh", "build_mesh"]
+
+CHUNK = np.dtype(
+    [("first", np.uint32), ("count", np.uint32), ("low", np.float32, 3), ("high", np.float32, 3)]
+)
+"""A part of the mesh: where its indices begin, how many they are, and the box around it (x east, y up, z south)."""
+
+CELL = 120.0
+"""Chunks are cells of a net of so many metres."""
+
+NOBODY = np.uint32(0xFFFFFFFF)
+"""The building of a triangle of the ground."""
+
+_FACES = ("front", "street", "side", "court", "party", "gable", "roof", "flat", "plain")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mesh:
+    """Triangles of a town.
+
+    Attributes
+    ----------
+    vertices
+        (v,) VERTEX, chunk by chunk, in each the ground first.
+    indices
+        (3 t,) uint32.
+    building_of
+        (t,) uint32: the building of each triangle; `NOBODY`: ground.
+    chunks
+        CHUNK.
+    facades
+        How many façades there are.
+    """
+
+    vertices: np.ndarray
+    indices: NDArray[np.uint32]
+    building_of: NDArray[np.uint32]
+    chunks: np.ndarray
+    facades: int
+
+
+def starts_of(grammar: Grammar, styles: Sequence[Style]) -> dict[str, Floats]:
+    """Column and row (s, 2) of the rule with which each face of each style begins."""
+    places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
+    return {
+        face: np.array([places[one.starts.get(face, one.starts["plain"])] for one in styles], float)
+        for face in _FACES
+    }
+
+
+def build_mesh(plan: Plan, styles: Sequence[Style], grammar: Grammar) -> Mesh:
+    """The mesh of a plan."""
+    faces = Faces()
+    starts = starts_of(grammar, styles)
+    _walls(faces, plan, styles, starts)
+    facades = faces.count // 4
+    cover(faces, _houses(plan, styles, starts))
+    houses = faces.count
+    _ground(faces, plan, grammar)
+    return _chunked(faces, plan, facades, houses)
+
+
+def _walls(faces: Faces, plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> None:
+    building = plan.building
+    ends = plan.corners[plan.following]
+    span = length(ends - plan.corners)
+    style = plan.style[building]
+    table = np.stack([starts[face] for face in ("street", "side", "court", "party", "front", "plain")])
+    narrow = np.array([one.narrow for one in styles])[style]
+    face = np.select(
+        [plan.role == STREET, plan.role == SIDE, plan.role == COURT, plan.role == PARTY], [0, 1, 2, 3], 5
+    )
+    doors = np.zeros(len(face), bool)
+    doors[plan.entrance[plan.entrance >= 0]] = True
+    face = np.where(doors, 4, np.where((span < narrow) & (face != 3), 5, face))
+    face = np.where(plan.kind[building] == OUTBUILDING, 5, face)
+    eaves = plan.eaves[building]
+    seen = np.flatnonzero((plan.covered < eaves - 0.005) & (span > 0))
+    seed = plan.seed[building[seen]] / 64.0
+    start = table[face[seen], style[seen]]
+    faces.walls(plan.corners[seen], ends[seen], plan.covered[seen], eaves[seen], start, seed, building[seen])
+
+
+def _houses(plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> Houses:
+    """The rings of true corners, and what roofs need to know."""
+    true = ~plan.added
+    counts = np.bincount(ring_numbers(plan.rings), weights=true, minlength=len(plan.ring_of)).astype(np.int64)
+    works = np.array([one.name == "brickworks" for one in styles])[plan.style]
+    return Houses(
+        plan.corners[true],
+        offsets_of(counts),
+        np.asarray(plan.ring_of, np.int64),
+        plan.roof,
+        plan.eaves,
+        plan.rise,
+        np.asarray(plan.eave, np.int64),
+        works,
+        {face: starts[face][plan.style] for face in ("gable", "roof", "flat", "plain")},
+        plan.seed / 64.0,
+    )
+
+
+def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> None:
+    """The ground: one façade that lies on its back, so that a pattern runs on from triangle to triangle."""
+    ground = plan.ground
+    if not len(ground.corners):
+        return
+    places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
+    start = np.array([places[GROUND[name]] for name in ground.names], float)
+    low = np.floor(ground.corners.min(axis=0))
+    size = np.ceil(ground.corners.max(axis=0)) - low
+    count = len(ground.corners)
+    kind = np.zeros(count, np.int64)
+    kind[ground.triangles] = ground.kind[:, None]
+    faces.loose(
+        np.column_stack([ground.corners, np.zeros(count)]),
+        ground.corners - low,
+        np.tile(size, (count, 1)),
+        start[kind],
+        np.zeros((count, 2)),
+        np.tile([0.0, 0.0, 1.0], (count, 1)),
+        np.tile([1.0, 0.0, 0.0], (count, 1)),
+        np.full(count, -1),
+        ground.triangles,
+    )
+
+
+def _chunked(faces: Faces, plan: Plan, facades: int, houses: int) -> Mesh:
+    """Order vertices and triangles by chunk and building."""
+    vertices = np.concatenate(faces.vertices)
+    triangles = np.concatenate(faces.triangles)
+    owner = np.concatenate(faces.owners)
+    middle = _middles(plan)
+    cell = np.floor(middle / CELL).astype(np.int64)
+    key = np.empty(len(vertices), np.int64)
+    key[:houses] = _code(cell)[owner[:houses]]
+    # Ground goes with the cell of its first triangle's middle; corners are not shared by pieces of ground far apart.
+    ground = triangles[owner[triangles[:, 0]] < 0]
+    at = vertices["position"][:, [0, 2]].astype(np.float64) * (1, -1)
+    where = _code(
+        np.floor((at[ground[:, 0]] + at[ground[:, 1]] + at[ground[:, 2]]) / 3 / CELL).astype(np.int64)
+    )
+    key[houses:] = _code(np.floor(at[houses:] / CELL).astype(np.int64))
+    key[ground[::-1].ravel()] = np.repeat(where[::-1], 3)
+    order = np.lexsort((owner, key))
+    moved = np.empty(len(order), np.int64)
+    moved[order] = np.arange(len(order))
+    first = triangles[:, 0]
+    by = np.lexsort((np.arange(len(triangles)), owner[first], key[first]))
+    triangles = moved[triangles[by]]
+    keys = key[first][by]
+    begin = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
+    vertices = vertices[order]
+    position = vertices["position"]
+    chunks = np.zeros(len(begin), CHUNK)
+    chunks["first"] = 3 * begin
+    chunks["count"] = 3 * np.diff(np.append(begin, len(triangles)))
+    low, high = position[triangles].min(axis=1), position[triangles].max(axis=1)
+    chunks["low"] = np.minimum.reduceat(low, begin, axis=0)
+    chunks["high"] = np.maximum.reduceat(high, begin, axis=0)
+    building_of = np.where(owner[first][by] < 0, int(NOBODY), owner[first][by]).astype(np.uint32)
+    return Mesh(vertices, triangles.astype(np.uint32).ravel(), building_of, chunks, facades)
+
+
+def _code(cell: Ints) -> Ints:
+    """One number for each cell of the net, row by row."""
+    return np.asarray((cell[..., 1] + (1 << 20)) * (1 << 21) + cell[..., 0] + (1 << 20))
+
+
+def _middles(plan: Plan) -> Floats:
+    """The middle (b, 2) of the box around each building, metres."""
+    building = plan.building
+    begin = np.flatnonzero(np.append(True, building[1:] != building[:-1]))
+    low = np.minimum.reduceat(plan.corners, begin, axis=0)
+    high = np.maximum.reduceat(plan.corners, begin, axis=0)
+    return np.asarray((low + high) / 2)

@@ -1,0 +1,155 @@
+"""The plan of a town: footprints with what stands on them, as flat arrays. x runs east and y north, metres."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .chance import Floats
+from .rings import Ints, after, ring_numbers
+from .roles import COURT, PARTY, ROLES, SIDE, STREET
+
+__all__ = [
+    "COURT",
+    "FLAT",
+    "GABLE",
+    "HIP",
+    "INDUSTRIAL",
+    "KINDS",
+    "MANSARD",
+    "OUTBUILDING",
+    "PARTY",
+    "PUBLIC",
+    "RESIDENTIAL",
+    "ROLES",
+    "ROOFS",
+    "SHED",
+    "SHOP",
+    "SIDE",
+    "STREET",
+    "Ground",
+    "Plan",
+]
+
+FLAT, GABLE, HIP, MANSARD, SHED = range(5)
+"""Kinds of roofs."""
+
+ROOFS = ("flat", "gable", "hip", "mansard", "shed")
+"""Their names."""
+
+RESIDENTIAL, SHOP, INDUSTRIAL, PUBLIC, OUTBUILDING = range(5)
+"""What a building is for."""
+
+KINDS = ("residential", "shop", "industrial", "public", "outbuilding")
+"""Their names."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ground:
+    """The ground in triangles that do not overlap.
+
+    Attributes
+    ----------
+    corners
+        (v, 2) metres.
+    triangles
+        (t, 3) of them, counter-clockwise seen from above.
+    kind
+        (t,) index into `names`. All triangles of a corner are of one kind.
+    names
+        Asphalt, pavement, court, grass.
+    """
+
+    corners: Floats
+    triangles: Ints
+    kind: NDArray[np.uint8]
+    names: tuple[str, ...] = ("asphalt", "pavement", "court", "grass")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """Buildings as flat arrays: b buildings, r rings, n corners.
+
+    Attributes
+    ----------
+    corners
+        (n, 2), whole millimetres. Edge i goes from corner i to the next one of its ring; outside is on its right.
+    rings
+        (r + 1,) the corners of ring k are those from ``rings[k]`` to below ``rings[k + 1]``. Outer rings are
+        counter-clockwise, courtyards clockwise.
+    ring_of
+        (r,) building of each ring; a building's outer ring is its first.
+    holes
+        (r,) whether a ring is a courtyard.
+    added
+        (n,) corners at which a wall is cut because a neighbour's begins or ends there; the wall goes straight on.
+    role
+        (n,) of each edge: STREET, SIDE, COURT, PARTY.
+    covered
+        (n,) how high a neighbour covers an edge, metres; 0 where none does.
+    entrance
+        (b,) the edge with the door; -1: none.
+    eaves, rise
+        (b,) height of the walls, and of the roof above them, metres.
+    storeys
+        (b,)
+    roof
+        (b,) its kind: FLAT, GABLE, HIP, MANSARD, SHED.
+    eave
+        (b,) the edge along which a gable or shed roof has its eaves, as its number among the true corners of the outer
+        ring; -1 where the roof needs none.
+    style
+        (b,) index into the styles.
+    seed
+        (b, 2) steps of 1/64 m, from 0 to below 2²⁰.
+    kind
+        (b,) what it is for: index into `KINDS`.
+    shop
+        (b,) whether there is a shop on the ground floor.
+    ground
+        What is between and under the buildings.
+    left_out
+        Why footprints were left out, and how many.
+    """
+
+    corners: Floats
+    rings: Ints
+    ring_of: Ints
+    holes: NDArray[np.bool_]
+    added: NDArray[np.bool_]
+    role: NDArray[np.uint8]
+    covered: Floats
+    entrance: NDArray[np.int32]
+    eaves: Floats
+    rise: Floats
+    storeys: NDArray[np.int32]
+    roof: NDArray[np.uint8]
+    eave: NDArray[np.int32]
+    style: NDArray[np.int32]
+    seed: NDArray[np.int32]
+    kind: NDArray[np.uint8]
+    shop: NDArray[np.bool_]
+    ground: Ground
+    left_out: Mapping[str, int] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.eaves)
+
+    @property
+    def following(self) -> Ints:
+        """(n,) the next corner in the ring of each."""
+        return after(self.rings)
+
+    @property
+    def building(self) -> Ints:
+        """(n,) the building of each corner."""
+        return np.asarray(self.ring_of)[ring_numbers(self.rings)]
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """West, south, east and north ends of what is built, metres."""
+        low, high = self.corners.min(axis=0), self.corners.max(axis=0)
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
