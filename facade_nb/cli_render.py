@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .render.texture.grammar import Grammar
     from .render.texture.view import Sight
 
-__all__ = ["add_render", "joined", "render_command"]
+__all__ = ["add_render", "hour_of", "joined", "pixels_of", "render_command"]
 
 _FAR, _NEAR = 1e6, 1e-3  # of an eye, metres
 _NOTES = 5
@@ -57,7 +57,9 @@ def add_render(commands: Any) -> None:
     parser.add_argument(
         "--size", type=_size, required=True, metavar="WxH", help="of the façade, metres: 12x9"
     )
-    parser.add_argument("--pixels", type=_pixels, default=(800, 600), metavar="WxH", help="default: 800x600")
+    parser.add_argument(
+        "--pixels", type=pixels_of, default=(800, 600), metavar="WxH", help="default: 800x600"
+    )
     parser.add_argument("--seed", type=_pair, default=(0.0, 0.0), metavar="X,Y", help="default: 0,0")
     parser.add_argument("--start", metavar="RULE", help="default: S, else the first rule")
     parser.add_argument("--backend", choices=_BACKENDS, help="default: the best that works here")
@@ -76,7 +78,7 @@ def add_render(commands: Any) -> None:
     parser.add_argument(
         "--angle", type=_angle, default=50.0, metavar="DEGREES", help="width of view; default: 50"
     )
-    parser.add_argument("--hour", type=_hour, metavar="HOUR", help="in the light of this hour, 0 to 24")
+    parser.add_argument("--hour", type=hour_of, metavar="HOUR", help="in the light of this hour, 0 to 24")
     parser.add_argument(
         "--out", type=Output, metavar="FILE.png", help="write the picture; -: standard output"
     )
@@ -198,7 +200,7 @@ def _size(text: str) -> tuple[float, float]:
     return values[0], values[1]
 
 
-def _pixels(text: str) -> tuple[int, int]:
+def pixels_of(text: str) -> tuple[int, int]:
     """A picture's width and height."""
     values = _numbers(text, "xX×", 2)
     if (
@@ -243,7 +245,7 @@ def _triple(text: str) -> tuple[float, float, float]:
     return values[0], values[1], values[2]
 
 
-def _hour(text: str) -> float:
+def hour_of(text: str) -> float:
     """An hour of the day."""
     values = _numbers(text, ",", 1)
     if not values or not 0 <= values[0] <= 24:

@@ -77,7 +77,7 @@ class Frame:
 
 
 def visible(scene: Scene, through: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space; next to one another, one."""
+    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space."""
     chunks = scene.chunks
     if not len(chunks):
         return []

@@ -69,7 +69,9 @@ class Renderer:
         self._indices = self._keep(context.buffer(self.scene.indices.tobytes() or bytes(12)))
         wide = "llvmpipe" in self.painter.renderer
         for upload in (grammar_upload(question, wide=wide), *tile_uploads(question.atlas)):
-            image = context.texture(upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1)
+            image = context.texture(
+                upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1
+            )
             image.filter = (context.NEAREST, context.NEAREST)
             self._held[upload.name] = self._keep(image)
         frames, seeds = map(room, question.stacks)
@@ -78,13 +80,17 @@ class Renderer:
             program = self._keep(
                 context.program(
                     vertex_shader=shader(own.vertex),
-                    fragment_shader=shader(own.fragment, frames=frames, seeds=seeds, bits=bits, defines=own.defines),
+                    fragment_shader=shader(
+                        own.fragment, frames=frames, seeds=seeds, bits=bits, defines=own.defines
+                    ),
                 )
             )
             self._programs[own.name] = program
             if own.draws == "mesh":
                 content = _content(program)
-                array = context.vertex_array(program, [(self._vertices, *content)], self._indices, skip_errors=True)
+                array = context.vertex_array(
+                    program, [(self._vertices, *content)], self._indices, skip_errors=True
+                )
             else:
                 array = context.vertex_array(program, [])
             self._meshes[own.name] = self._keep(array)
@@ -148,7 +154,9 @@ class Renderer:
         target = self._targets[own.name]
         target.use()
         target.viewport = (0, 0, *target.size)
-        for unit, (name, image) in enumerate({**self._held, **{n: self._images[n] for n in own.reads}}.items()):
+        for unit, (name, image) in enumerate(
+            {**self._held, **{n: self._images[n] for n in own.reads}}.items()
+        ):
             if name in program:
                 image.use(unit)
                 program[name].value = unit

@@ -16,7 +16,9 @@ from .vertices import VERTEX
 
 __all__ = ["CHUNK", "Scene"]
 
-CHUNK = np.dtype([("first", np.uint32), ("count", np.uint32), ("low", np.float32, 3), ("high", np.float32, 3)])
+CHUNK = np.dtype(
+    [("first", np.uint32), ("count", np.uint32), ("low", np.float32, 3), ("high", np.float32, 3)]
+)
 """A part of a mesh: where its indices begin, how many they are, and the box around it."""
 
 
@@ -47,7 +49,9 @@ class Scene:
         if self.indices.dtype != np.uint32 or self.indices.ndim != 1 or len(self.indices) % 3:
             raise ValueError("indices: expected (3 t,) uint32")
         if len(self.indices) and int(self.indices.max()) >= len(self.vertices):
-            raise ValueError(f"indices: expected numbers below {len(self.vertices)}; found {self.indices.max()}")
+            raise ValueError(
+                f"indices: expected numbers below {len(self.vertices)}; found {self.indices.max()}"
+            )
 
     @cached_property
     def chunks(self) -> np.ndarray:
@@ -105,12 +109,18 @@ class Scene:
             (right, up, out), (width, height) = own.axes, own.size
             spots = np.array([(0, 0), (width, 0), (width, height), (0, height)], np.float32)
             vertices[k]["place"] = spots
-            vertices[k]["position"] = np.array(own.origin, np.float32) + spots[:, :1] * right + spots[:, 1:] * up
+            vertices[k]["position"] = (
+                np.array(own.origin, np.float32) + spots[:, :1] * right + spots[:, 1:] * up
+            )
             vertices[k]["size"] = own.size
-            vertices[k]["start"] = grammar.question(own.size, own.seed, own.start).records[grammar.index(own.start)].place
+            vertices[k]["start"] = (
+                grammar.question(own.size, own.seed, own.start).records[grammar.index(own.start)].place
+            )
             vertices[k]["seed"] = _seed(own.seed)
             vertices[k]["normal"], vertices[k]["tangent"] = out, right
-        corners = np.array([0, 1, 2, 0, 2, 3], np.uint32) + 4 * np.arange(len(facades), dtype=np.uint32)[:, None]
+        corners = (
+            np.array([0, 1, 2, 0, 2, 3], np.uint32) + 4 * np.arange(len(facades), dtype=np.uint32)[:, None]
+        )
         return cls(vertices.reshape(-1), corners.reshape(-1), grammar)
 
 

@@ -14,7 +14,7 @@ from .viewpoint import Frustum
 __all__ = ["Sunlight", "sunlight"]
 
 _NEAR, _RISE, _MOST = 55.0, 2.4, 700.0
-"""Half the side of the fine map, metres, for an eye on the ground; how much it grows with a metre of height; its most."""
+"""Half the side of the fine map, metres: for an eye on the ground, more for each metre of height, at most."""
 
 _FAR = 3000.0
 """Half the side of the coarse map, metres, at most."""

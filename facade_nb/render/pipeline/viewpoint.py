@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import atan2, cos, degrees, hypot, isfinite, radians, sin, tan
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -128,7 +130,9 @@ class Viewpoint:
         half = tan(radians(self.angle) / 2)
         tall = half * pixels[1] / pixels[0]
         near = min(max(0.06 * self.eye[1], 0.1), 4.0)
-        return Frustum(np.array(self.eye, np.float64), right, up, ahead, (-half, -tall, half, tall), (near, 30_000.0))
+        return Frustum(
+            np.array(self.eye, np.float64), right, up, ahead, (-half, -tall, half, tall), (near, 30_000.0)
+        )
 
 
 @dataclass(frozen=True)
@@ -167,12 +171,13 @@ class CameraPath:
         k = max(i for i, own in enumerate(times) if own <= time)
         t = (time - times[k]) / (times[k + 1] - times[k])
         rows = [_row(places[min(max(k + d, 0), len(places) - 1)]) for d in (-1, 0, 1, 2)]
-        for before, after in zip(rows, rows[1:], strict=False):
+        for before, after in pairwise(rows):
             after[3] = before[3] + (after[3] - before[3] + 180.0) % 360.0 - 180.0  # the shorter way around
-        values = [_between(*(row[c] for row in rows), t) for c in range(6)]
+        before, low, high, beyond = rows
+        values = [_between(before[c], low[c], high[c], beyond[c], t) for c in range(6)]
         return Viewpoint((values[0], values[1], values[2]), values[3], values[4], values[5])
 
-    def to_dict(self) -> list[dict[str, object]]:
+    def to_dict(self) -> list[dict[str, Any]]:
         """As JSON has it."""
         return [
             {"time": time, "eye": list(own.eye), "yaw": own.yaw, "pitch": own.pitch, "angle": own.angle}
@@ -180,18 +185,23 @@ class CameraPath:
         ]
 
     @classmethod
-    def from_dict(cls, rows: Sequence[dict[str, object]]) -> CameraPath:
+    def from_dict(cls, rows: Sequence[dict[str, Any]]) -> CameraPath:
         """From what `to_dict` gives. Raises `ValueError` for anything else."""
         try:
             places = [
-                Viewpoint(tuple(map(float, row["eye"])), *(float(row[key]) for key in ("yaw", "pitch", "angle")))  # type: ignore
+                Viewpoint(_three(row["eye"]), float(row["yaw"]), float(row["pitch"]), float(row["angle"]))
                 for row in rows
             ]
-            return cls(tuple(float(row["time"]) for row in rows), tuple(places))  # type: ignore[arg-type]
+            return cls(tuple(float(row["time"]) for row in rows), tuple(places))
         except (KeyError, TypeError) as error:
             raise ValueError(
                 f"path: expected a list of time, eye, yaw, pitch and angle; {type(error).__name__}: {error}"
             ) from None
+
+
+def _three(values: Any) -> Vector:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
 
 
 def _row(place: Viewpoint) -> list[float]:

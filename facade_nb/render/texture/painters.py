@@ -13,7 +13,7 @@ from .gl import EGL, OSMESA
 from .shot import Painter, Shot, spread
 from .view import Looks, Sight
 
-__all__ = ["PAINTERS", "choose_painter"]
+__all__ = ["PAINTERS", "choose_painter", "has_card"]
 
 
 class _Cpu:
@@ -69,7 +69,7 @@ def choose_painter(name: str | None = None) -> Painter:
         If the one asked for cannot be used here; its text says what would help.
     """
     if name is None:
-        order = ("egl", "osmesa", "cpu") if _has_card() else ("osmesa", "egl", "cpu")
+        order = ("egl", "osmesa", "cpu") if has_card() else ("osmesa", "egl", "cpu")
         return next(PAINTERS[one] for one in order if PAINTERS[one].available)
     if name not in PAINTERS:
         known = ", ".join(PAINTERS)
@@ -79,5 +79,6 @@ def choose_painter(name: str | None = None) -> Painter:
     return PAINTERS[name]
 
 
-def _has_card() -> bool:
+def has_card() -> bool:
+    """Whether there seems to be a graphics card."""
     return Path("/dev/nvidia0").exists() or any(Path("/dev/dri").glob("renderD*"))

@@ -41,7 +41,7 @@ def shader(
     bits: int = 16,
     defines: tuple[str, ...] = (),
 ) -> str:
-    """The source of a shader: ``sight.frag``, ``points.frag``, ``smooth.frag``, ``whole.vert``, or one of a pass of the pipeline.
+    """The source of a shader: ``sight.frag``, ``points.frag``, ``smooth.frag``, ``whole.vert``, or of a pass.
 
     Parameters
     ----------

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pipeline.scene import CHUNK
 from ..texture import Grammar
 from .chance import Floats, length
 from .faces import Faces
@@ -16,12 +17,7 @@ from .rings import Ints, offsets_of, ring_numbers
 from .roofing import Houses, cover
 from .styles import GROUND, Style
 
-__all__ = ["CHUNK", "NOBODY", "Mesh", "build_mesh"]
-
-CHUNK = np.dtype(
-    [("first", np.uint32), ("count", np.uint32), ("low", np.float32, 3), ("high", np.float32, 3)]
-)
-"""A part of the mesh: where its indices begin, how many they are, and the box around it (x east, y up, z south)."""
+__all__ = ["NOBODY", "Mesh", "build_mesh"]
 
 CELL = 120.0
 """Chunks are cells of a net of so many metres."""

@@ -106,7 +106,9 @@ def _front(space: str, compiled: LayoutGrammar) -> Iterator[str]:
             continue
         if rule.startswith("Split") and ", Rel, " not in rule and "(Rel, " not in rule:
             rule = rule.replace("Abs, ", "Rel, ")
-        rule = rule.replace("Layer(Room, Glass, Fitted(Fit:frame-shop", "Layer(Shop(0.9), Glass, Fitted(Fit:frame-shop")
+        rule = rule.replace(
+            "Layer(Room, Glass, Fitted(Fit:frame-shop", "Layer(Shop(0.9), Glass, Fitted(Fit:frame-shop"
+        )
         yield f"{name} -> {_qualified(rule)}"
 
 
@@ -173,7 +175,9 @@ def _bands(
     there = [
         (shape.rect[1], shape.rect[3], rule.removeprefix("facade."))
         for shape, rule in zip(layout.shapes, compiled.rules, strict=True)
-        if shape.rect[0] <= at < shape.rect[2] and shape.geometry in ("box", "ledge", "cornice", "pitched") and rule
+        if shape.rect[0] <= at < shape.rect[2]
+        and shape.geometry in ("box", "ledge", "cornice", "pitched")
+        and rule
     ]
     edges = sorted({0.0, solved.height, *(y for low, high, _ in there for y in (low, high))})
     bands: list[tuple[float, str]] = []

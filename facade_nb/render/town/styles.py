@@ -129,7 +129,9 @@ _WRITTEN = (
 def _solved(solved: Solved) -> Style:
     """The style of a solved front."""
     space = f"{solved.space}."
-    rules = {what: f"{space}{what.capitalize()}" for what in ("front", "street", "party", "plain", "roof", "flat")}
+    rules = {
+        what: f"{space}{what.capitalize()}" for what in ("front", "street", "party", "plain", "roof", "flat")
+    }
     rules |= {"side": rules["street"], "court": rules["street"], "gable": rules["plain"]}
     rules |= {f"short-{what}": rules["plain"] for what in ("street", "side", "court")}
     rules["short-front"] = rules["front"]

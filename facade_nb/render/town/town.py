@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...design.errors import DesignError, Fault
+from ..pipeline.scene import Scene
+from ..pipeline.viewpoint import Viewpoint
 from ..texture import Grammar
 from ..texture.uploads import tile_uploads
 from .generated import generate_plan
@@ -21,6 +23,7 @@ from .real import real_plan
 from .rings import areas
 from .stages import Stages
 from .styles import STYLES, Style, town_grammar
+from .viewpoints import View, viewpoint
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -127,6 +130,15 @@ class Town:
     def left_out(self) -> Mapping[str, int]:
         """Why footprints were left out, and how many."""
         return self.plan.left_out
+
+    @cached_property
+    def scene(self) -> Scene:
+        """What the pipeline draws."""
+        return Scene(self.mesh.vertices, self.mesh.indices, self.grammar, self.mesh.chunks)
+
+    def viewpoint(self, view: View) -> Viewpoint:
+        """Where one stands for a view: ``distance``, ``street``, ``close-up`` (`viewpoints.viewpoint`)."""
+        return viewpoint(self.plan, view)
 
     @property
     def vertices(self) -> np.ndarray:

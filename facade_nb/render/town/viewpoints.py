@@ -1,0 +1,138 @@
+"""Where one looks at a town from: afar, in a street, close to a house (the texture paper's Figure 10)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import atan2, degrees, hypot
+from typing import Literal
+
+import numpy as np
+import shapely
+
+from ..pipeline.viewpoint import Viewpoint
+from .plan import STREET, Plan
+from .rings import areas
+
+__all__ = ["VIEWS", "View", "viewpoint"]
+
+View = Literal["distance", "street", "close-up"]
+VIEWS: tuple[View, ...] = ("distance", "street", "close-up")
+"""Names of the views."""
+
+_EYE = 1.65
+"""Height of eyes, metres."""
+
+_CELL = 160.0
+_CANDIDATES = 60
+
+
+def viewpoint(plan: Plan, view: View) -> Viewpoint:
+    """Where one stands for a view. It depends on the plan alone.
+
+    Raises
+    ------
+    ValueError
+        For an unknown view, or a town without buildings.
+    """
+    if view not in VIEWS:
+        raise ValueError(f"view: expected one of {', '.join(VIEWS)}; found {view!r}")
+    if not len(plan):
+        raise ValueError("there is no building to be looked at")
+    spot, reach = _densest(plan)
+    if view == "distance":
+        away = max(reach, 90.0)
+        eye = (spot[0] - 0.75 * away, 12.0 + 0.42 * away, -spot[1] + 0.95 * away)
+        return Viewpoint.towards(eye, (float(spot[0]), 0.0, float(-spot[1]) - 0.15 * away), 52.0)
+    corner, along, out, free, across = _street(plan, spot)
+    if view == "street":
+        aside = min(0.45 * across, 5.5)
+        eye_at = corner + out * aside - along * 4.0
+        aim = corner + along * min(free, 40.0) + out * 0.55 * aside
+        dx, dy = aim - eye_at
+        yaw = degrees(atan2(dx, dy))
+        return Viewpoint((float(eye_at[0]), _EYE, float(-eye_at[1])), yaw, 7.0, 66.0)
+    back = min(0.7 * across, 6.5)
+    eye_at = corner + along * 1.0 + out * back
+    aim = corner + along * 3.6
+    return Viewpoint.towards(
+        (float(eye_at[0]), _EYE, float(-eye_at[1])), (float(aim[0]), 2.6, float(-aim[1])), 58.0
+    )
+
+
+def _middles(plan: Plan) -> np.ndarray:
+    begin = np.flatnonzero(np.append(True, plan.building[1:] != plan.building[:-1]))
+    low = np.minimum.reduceat(plan.corners, begin, axis=0)
+    return np.asarray((low + np.maximum.reduceat(plan.corners, begin, axis=0)) / 2)
+
+
+def _densest(plan: Plan) -> tuple[np.ndarray, float]:
+    """The middle of the part with the most built, and how far the town reaches around it, up to a quarter of a mile."""
+    middles = _middles(plan)
+    built = np.zeros(len(plan))
+    np.add.at(built, plan.ring_of, areas(plan.corners, plan.rings))
+    cell = np.floor(middles / _CELL).astype(np.int64)
+    low = cell.min(axis=0)
+    table = np.zeros(cell.max(axis=0) - low + 3)
+    np.add.at(table, tuple((cell - low + 1).T), np.rint(built * plan.eaves))
+    around = sum(np.roll(table, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)) + table
+    best = np.unravel_index(int(np.argmax(around)), table.shape)
+    spot = (np.array(best) + low - 1 + 0.5) * _CELL
+    near = np.abs(middles - spot).max(axis=1) < 2 * _CELL
+    reach = float(np.ptp(middles[near], axis=0).max()) if near.any() else 0.0
+    return spot, min(max(reach, 40.0), 420.0)
+
+
+def _street(plan: Plan, spot: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, float, float]:
+    """A corner of a front, its direction and outside, how far the street is free along it and across it.
+
+    Of the fronts nearest to a spot it is the one before which most is free, as far as that counts, and houses are high.
+    """
+    tree = shapely.STRtree(_outlines(plan))
+    best: tuple[float, tuple[np.ndarray, np.ndarray, np.ndarray, float, float]] | None = None
+    for building, edge in _fronts(plan, spot):
+        a, b = plan.corners[edge], plan.corners[plan.following[edge]]
+        wide = float(np.hypot(*(b - a)))
+        along = (b - a) / wide
+        out = np.array([along[1], -along[0]])
+        across = _free(tree, (a + b) / 2, out, 40.0)
+        aside = min(0.45 * across, 5.5)
+        free = _free(tree, a + out * aside - along * 4.0, along, 130.0)
+        worth = round(min(free, 110.0) + 3.0 * float(plan.eaves[building]) - abs(across - 15.0), 1)
+        if across > 5.0 and (best is None or worth > best[0]):
+            best = worth, (a, along, out, free, across)
+    if best is None:
+        a, b = plan.corners[0], plan.corners[plan.following[0]]
+        along = (b - a) / max(hypot(*(b - a)), 1e-9)
+        return a, along, np.array([along[1], -along[0]]), 20.0, 12.0
+    return best[1]
+
+
+def _fronts(plan: Plan, spot: np.ndarray) -> Iterator[tuple[int, int]]:
+    """Buildings near a spot with an edge on the street, the one with the door if it has one."""
+    far = np.rint(np.hypot(*(_middles(plan) - spot).T))
+    order = np.lexsort((np.arange(len(far)), far))
+    given = 0
+    for building in order.tolist():
+        edge = int(plan.entrance[building])
+        if edge >= 0 and plan.role[edge] == STREET:
+            yield building, edge
+            given += 1
+            if given == _CANDIDATES:
+                return
+
+
+def _outlines(plan: Plan) -> list[shapely.Polygon]:
+    """Outer rings."""
+    rings = [k for k in range(len(plan.ring_of)) if not plan.holes[k]]
+    return [shapely.Polygon(plan.corners[plan.rings[k] : plan.rings[k + 1]]) for k in rings]
+
+
+def _free(tree: shapely.STRtree, start: np.ndarray, way: np.ndarray, far: float) -> float:
+    """How far one can go from a point in a direction until there is a house, metres."""
+    ray = shapely.LineString([start + 0.2 * way, start + far * way])
+    hits = tree.query(ray, predicate="intersects")
+    if not len(hits):
+        return far
+    eye = shapely.Point(*(start + 0.2 * way))
+    parts = shapely.intersection(tree.geometries[hits], ray)
+    return round(float(shapely.distance(parts, eye).min()), 2)
