@@ -34,7 +34,7 @@ class Looks:
     occlusion: bool = True
     smooth: bool = True
     haze: float = 2600.0
-    reach: float = 1.4
+    reach: float = 2.2
 
 
 @dataclass(frozen=True, eq=False)

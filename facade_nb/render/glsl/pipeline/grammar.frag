@@ -39,6 +39,9 @@ void main() {
   vec3 turned = 2.0 * (found.normal.xyz + (1.0 - found.normal.a) * vec3(0.5, 0.5, 1.0)) - 1.0;
   out_normal = vec4(turned.x * tangent + turned.y * up + turned.z * face.xyz, min(margin, 9.0));
   out_specular = vec4(found.specular.rgb, face.w + deep / spread);
+#ifdef COUNT_FETCHES
+  out_color = vec4(float(fetches));  // in place of what is seen, for a bench
+#endif
 #ifdef PICK
   out_terminal = ivec4(found.rule, 0, 0);
 #endif

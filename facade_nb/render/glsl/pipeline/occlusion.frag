@@ -37,5 +37,5 @@ void main() {
     float above = dot(to, face.xyz) - 0.02 - 0.0015 * depth;
     hidden += max(above, 0.0) * inversesqrt(length2 + 1e-4) * max(0.0, 1.0 - length2 / (reach * reach));
   }
-  out_occlusion.r = clamp(1.0 - 1.7 * hidden / float(TAPS), 0.0, 1.0);
+  out_occlusion.r = clamp(1.0 - 2.6 * hidden / float(TAPS), 0.0, 1.0);
 }
