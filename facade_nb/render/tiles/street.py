@@ -56,7 +56,9 @@ def paving(canvas: Canvas, seed: int, stone: str, rows: int = 5, columns: int = 
     shade = units.pick(tints) * (1 + 0.02 * grain)[..., None]
     body = canvas.cover(units.distance(0.012, 0.008))
     canvas.lay(canvas.full(), paint(stone) * 0.62, height=-0.006)
-    canvas.lay(body, np.clip(paint(stone) * shade, 0, 1), height=(0.0006 * grain).astype(np.float32), gloss=0.1)
+    canvas.lay(
+        body, np.clip(paint(stone) * shade, 0, 1), height=(0.0006 * grain).astype(np.float32), gloss=0.1
+    )
 
 
 def awning(canvas: Canvas, seed: int, *, stripes: int = 12) -> None:
@@ -68,7 +70,12 @@ def awning(canvas: Canvas, seed: int, *, stripes: int = 12) -> None:
     fold = 0.02 * np.sin(2 * np.pi * canvas.x / w * 3) + 0 * canvas.y
     colour = table[stripe] * (1 + 0.015 * canvas.noise((0.02, 0.3), seed, 2))[..., None]
     slope = np.clip((h - canvas.y) / (h - valance), 0, 1)
-    canvas.lay(canvas.box(0, valance, w, h), np.clip(colour, 0, 1), height=(0.05 + 0.5 * slope + fold) * 0.3, gloss=0.1)
+    canvas.lay(
+        canvas.box(0, valance, w, h),
+        np.clip(colour, 0, 1),
+        height=(0.05 + 0.5 * slope + fold) * 0.3,
+        gloss=0.1,
+    )
     scallop = w / stripes
     drop = valance * (0.35 + 0.28 * np.abs(canvas.x / scallop % 1 * 2 - 1) ** 2)
     hem = canvas.cover((drop - canvas.y).astype(np.float32)) * canvas.box(0, 0, w, valance)
@@ -86,7 +93,9 @@ def goods(canvas: Canvas, seed: int) -> None:
         width, tall = 0.05 + 0.09 * wide[k], half * (0.3 + 0.55 * high[k])
         if x + width > w - 0.02:
             break
-        canvas.slab(x, 0.03, x + width, tall, tones[int(picks[k] * 7) % 7], 0.03, edge=0.008, fall=0.012, gloss=0.3)
+        canvas.slab(
+            x, 0.03, x + width, tall, tones[int(picks[k] * 7) % 7], 0.03, edge=0.008, fall=0.012, gloss=0.3
+        )
         x += width + (0.012 if wide[k] > 0.3 else 0.09)
     canvas.slab(0, 0, w, 0.035, "#6b5338", 0.06, edge=0.006, fall=0.01, gloss=0.3)
     fruit = ["#b5533a", "#c8963c", "#7d8a45", "#b9703a"]
@@ -136,7 +145,7 @@ _LETTERS: Mapping[str, Sequence[Sequence[tuple[float, float]]]] = MappingProxyTy
 
 
 def sign(canvas: Canvas, seed: int, words: Sequence[str]) -> None:
-    """Letters for the fascia of a shop, a word on each of some rows; open between them, so that a grammar paints them."""
+    """Letters for the board of a shop, a word on each of some rows: a grammar paints them by their mask."""
     pitch = canvas.tall / len(words)
     for row, word in enumerate(words):
         high = 0.52 * pitch
@@ -146,6 +155,8 @@ def sign(canvas: Canvas, seed: int, words: Sequence[str]) -> None:
         y = canvas.tall - (row + 1) * pitch + 0.24 * pitch
         for letter, width in zip(word, widths, strict=True):
             for stroke in _LETTERS[letter]:
-                line: Floats = canvas.line_distance([(x + a * high, y + b * high) for a, b in stroke], 0.17 * high)
+                line: Floats = canvas.line_distance(
+                    [(x + a * high, y + b * high) for a, b in stroke], 0.17 * high
+                )
                 canvas.lay(canvas.cover(line), "#e8dcb8", height=0.03, gloss=0.4)
             x += width + gap

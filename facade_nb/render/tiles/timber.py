@@ -22,7 +22,9 @@ def beam(canvas: Canvas, seed: int, wood: str, *, upright: bool = True) -> None:
     canvas.lay(canvas.full(), np.clip(paint(wood) * shade[..., None], 0, 1), height=height, gloss=0.06)
 
 
-def brace(canvas: Canvas, seed: int, lines: Sequence[Sequence[tuple[float, float]]], wood: str, wide: float) -> None:
+def brace(
+    canvas: Canvas, seed: int, lines: Sequence[Sequence[tuple[float, float]]], wood: str, wide: float
+) -> None:
     """Beams from point to point (shares of the canvas), open beside them."""
     w, h = canvas.width, canvas.tall
     grain = canvas.noise((0.05, 0.09), seed, 3)
@@ -30,4 +32,6 @@ def brace(canvas: Canvas, seed: int, lines: Sequence[Sequence[tuple[float, float
         distance: Floats = canvas.line_distance([(x * w, y * h) for x, y in line], wide)
         edge = np.clip(-distance / 0.015, 0, 1)
         colour = np.clip(paint(wood) * (1 + 0.07 * grain)[..., None], 0, 1)
-        canvas.lay(canvas.cover(distance), colour, height=(0.012 + 0.008 * edge).astype(np.float32), gloss=0.06)
+        canvas.lay(
+            canvas.cover(distance), colour, height=(0.012 + 0.008 * edge).astype(np.float32), gloss=0.06
+        )

@@ -342,7 +342,9 @@ def shop(canvas: Canvas, seed: int, behind: str | None, *, wood: str = "#2f4a43"
     canvas.slab(0, h - 0.1, w, h, wood, 0.1, edge=0.02, fall=0.03, gloss=0.35)
 
 
-def works(canvas: Canvas, seed: int, behind: str | None, *, metal: str = "#3a423f", brick: str = "#96604c") -> None:
+def works(
+    canvas: Canvas, seed: int, behind: str | None, *, metal: str = "#3a423f", brick: str = "#96604c"
+) -> None:
     """A window of a works: steel sections below a segmental arch of bricks on end, which fills its rectangle."""
     w, h = canvas.width, canvas.tall
     foot, rise = 0.05 * h, 0.1 * w
@@ -355,7 +357,9 @@ def works(canvas: Canvas, seed: int, behind: str | None, *, metal: str = "#3a423
     rim = np.minimum(place % 1, 1 - place % 1) * 0.075
     tint = 1 + 0.11 * np.sin(12.9898 * np.floor(place) + seed)
     ring = np.hypot(canvas.x - w / 2, canvas.y - middle)
-    joint = np.maximum(canvas.cover((rim - 0.005).astype(np.float32)), canvas.cover(np.abs(ring - radius - 0.24) - 0.006))
+    joint = np.maximum(
+        canvas.cover((rim - 0.005).astype(np.float32)), canvas.cover(np.abs(ring - radius - 0.24) - 0.006)
+    )
     colour = np.clip(paint(brick) * (tint * (1 + 0.03 * canvas.noise(0.02, seed, 2)))[..., None], 0, 1)
     colour = colour + (paint("#b9ae9d") - colour) * joint[..., None]
     canvas.lay(canvas.full(), colour, height=(0.012 - 0.006 * joint).astype(np.float32), gloss=0.06)
@@ -370,7 +374,12 @@ def works(canvas: Canvas, seed: int, behind: str | None, *, metal: str = "#3a423
     cover *= canvas.cover(opening + 0.06)
     for x in (w / 3, 2 * w / 3):  # mullions
         cover *= 1 - canvas.box(x - 0.03, foot, x + 0.03, h)
-        canvas.lay(canvas.box(x - 0.03, foot, x + 0.03, h) * canvas.cover(opening + 0.02), metal, height=-0.07, gloss=0.35)
+        canvas.lay(
+            canvas.box(x - 0.03, foot, x + 0.03, h) * canvas.cover(opening + 0.02),
+            metal,
+            height=-0.07,
+            gloss=0.35,
+        )
     cover *= 1 - canvas.box(0, spring - 0.32 * h, w, spring - 0.32 * h + 0.06)
     _close(canvas, [(box[0], box[1], box[2], spring + rise)], seed, behind, -0.12, cover, within=box)
     sill(canvas, 0, w, foot, "#a79c8c", thick=foot, out=0.05)

@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import pairwise
 
 from ... import gallery
 from ...solver import solve
@@ -92,7 +93,8 @@ def _text(solved: Solved) -> str:
     compiled = grammar_of(layout)
     lines = [*_front(solved.space, compiled), *_walls(solved, layout, compiled)]
     body = "\n".join(f"  {line}" for line in lines)
-    return f"# {layout.name}, solved for {solved.width:g} by {solved.height:g} m.\nnamespace {solved.space} {{\n{body}\n}}"
+    title = f"# {layout.name}, solved for {solved.width:g} by {solved.height:g} m."
+    return f"{title}\nnamespace {solved.space} {{\n{body}\n}}"
 
 
 def _front(space: str, compiled: LayoutGrammar) -> Iterator[str]:
@@ -106,7 +108,9 @@ def _front(space: str, compiled: LayoutGrammar) -> Iterator[str]:
             continue
         if rule.startswith("Split") and ", Rel, " not in rule and "(Rel, " not in rule:
             rule = rule.replace("Abs, ", "Rel, ")
-        rule = rule.replace("Layer(Room, Glass, Fitted(Fit:frame-shop", "Layer(Shop(0.9), Glass, Fitted(Fit:frame-shop")
+        rule = rule.replace(
+            "Layer(Room, Glass, Fitted(Fit:frame-shop", "Layer(Shop(0.9), Glass, Fitted(Fit:frame-shop"
+        )
         yield f"{name} -> {_qualified(rule)}"
 
 
@@ -173,11 +177,13 @@ def _bands(
     there = [
         (shape.rect[1], shape.rect[3], rule.removeprefix("facade."))
         for shape, rule in zip(layout.shapes, compiled.rules, strict=True)
-        if shape.rect[0] <= at < shape.rect[2] and shape.geometry in ("box", "ledge", "cornice", "pitched") and rule
+        if shape.rect[0] <= at < shape.rect[2]
+        and shape.geometry in ("box", "ledge", "cornice", "pitched")
+        and rule
     ]
     edges = sorted({0.0, solved.height, *(y for low, high, _ in there for y in (low, high))})
     bands: list[tuple[float, str]] = []
-    for low, high in zip(edges, edges[1:], strict=False):
+    for low, high in pairwise(edges):
         rule = next((r for a, b, r in reversed(there) if a <= (low + high) / 2 < b), "Concrete")
         if high - low < 1e-3:
             continue
