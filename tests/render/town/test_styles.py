@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from facade_nb import gallery
 from facade_nb.render import Grammar
 from facade_nb.render.texture.atlas import pack
 from facade_nb.render.texture.program import children
@@ -35,7 +38,7 @@ def _widths(style: Style) -> list[float]:
     least, narrow = style.least, style.narrow
     rng = np.random.Generator(np.random.PCG64(7))
     return [least, (least + narrow) / 2, narrow - 0.01, narrow, narrow + 0.3, narrow + 2.9, 60.0] + [
-        round(float(w), 2) for w in rng.uniform(narrow, 60, 4)
+        round(float(w), 2) for w in rng.uniform(narrow, 60, 2)
     ]
 
 
@@ -104,7 +107,7 @@ def test_walls_are_opaque_at_any_size(style: Style, grammar: Grammar) -> None:
 @pytest.mark.parametrize("style", WRITTEN, ids=lambda s: s.name)
 def test_no_opening_is_cut_by_a_corner(style: Style, grammar: Grammar) -> None:
     for what in WALLS:
-        for width in _widths(style):
+        for width in (style.least, style.narrow, 17.3):
             for part in parts(grammar, style.start(what, width), (width, style.eaves(2))):
                 if shows(grammar, part.rule, OPENINGS):
                     left, _, right, _ = part.scope
@@ -195,7 +198,7 @@ def test_a_front_has_one_door(style: Style, grammar: Grammar) -> None:
         seen = [
             any(shows(grammar, step.rule, DOORS) for step in grammar.steps((x, 1.5), size, (seed, 4), start))
             for start in [style.start("front", width)]
-            for x in np.arange(0.02, width, 0.3)
+            for x in np.arange(0.02, width, 0.45)
         ]
         assert (np.diff(np.array(seen, int)) == 1).sum() == 1, (width, seed)
 
@@ -204,7 +207,7 @@ def test_a_front_has_one_door(style: Style, grammar: Grammar) -> None:
 def test_rooms_at_a_corner_are_the_same_from_both_walls(style: Style, grammar: Grammar) -> None:
     high = style.eaves(4)
     kinds = set()
-    for seed in ((3.0, 5.0), (40.0, 8.5), (123.0, 7.0)):
+    for seed in ((3.0, 5.0), (123.0, 7.0)):
         for floor in (1, 3):
             y = style.ground + (floor - 1) * style.storey + 0.62 * style.storey
             front = _choices(grammar, style, "street", 16.0, high, y, seed, last=True)
@@ -255,3 +258,14 @@ def test_looks(style: Style, grammar: Grammar) -> None:
         assert len(per_wall) == 1
         chosen |= per_wall
     assert chosen == set(range(style.looks))
+
+
+def test_the_examples_of_the_page_work(grammar: Grammar) -> None:
+    page = (Path(__file__).parents[3] / "docs" / "town-styles.md").read_text("utf-8")
+    (own,) = re.findall(r"```\n(namespace cabin .*?)```", page, re.DOTALL)
+    cabin = Grammar.parse(gallery.town("shared") + own, SparingTiles(TILES))
+    points = np.random.Generator(np.random.PCG64(5)).uniform((0, 0), (9, 5.9), (200, 2))
+    assert (cabin.evaluate(points, (9, 5.9), (1, 2), "cabin.Front").color[:, 3] > 0.999).all()
+    for style in WRITTEN:
+        heights = f"| {style.ground:g}, {style.storey:g}, {style.top:g} m | {style.looks} |"
+        assert re.search(rf"\| `{style.name}` \|.*{re.escape(heights)}", page)
