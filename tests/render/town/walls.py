@@ -24,16 +24,19 @@ class Part:
     overflow: float
 
 
-def parts(grammar: Grammar, start: str, size: tuple[float, float]) -> Iterator[Part]:
+def parts(grammar: Grammar, start: str, size: tuple[float, float], *, alike: bool = False) -> Iterator[Part]:
     """Everything that a wall may be divided into, by every choice.
 
     Rooms are not entered. Of equal parts side by side the first and the last come, of storeys each.
+    `alike`: of parts with one rule and one size only one comes, wherever they are.
     """
     waiting = [Part(grammar.index(start), (0.0, 0.0, *size), 0.0)]
     seen = set()
     while waiting:
         part = waiting.pop()
-        key = (part.rule, *(round(v, 5) for v in part.scope))
+        left, bottom, right, top = part.scope
+        place = (right - left, top - bottom) if alike else part.scope
+        key = (part.rule, part.overflow, *(round(v, 5) for v in place))
         if key in seen:
             continue
         seen.add(key)
