@@ -37,7 +37,7 @@ def main(folder: Path) -> None:
     """Write the sheet, and put the tables in their place where the page is there."""
     picture = folder / "img" / "tiles.png"
     picture.parent.mkdir(parents=True, exist_ok=True)
-    write_atomically(picture, sheet(TileSet.builtin(256), cell=78, columns=11))
+    write_atomically(picture, sheet(TileSet.builtin(256), cell=72, columns=12))
     print(picture)
     page = folder / "tiles.md"
     if page.exists():

@@ -145,7 +145,7 @@ _LETTERS: Mapping[str, Sequence[Sequence[tuple[float, float]]]] = MappingProxyTy
 
 
 def sign(canvas: Canvas, seed: int, words: Sequence[str]) -> None:
-    """Letters for the fascia of a shop, a word on each of some rows; open between them, so that a grammar paints them."""
+    """Letters for the board of a shop, a word on each of some rows: a grammar paints them by their mask."""
     pitch = canvas.tall / len(words)
     for row, word in enumerate(words):
         high = 0.52 * pitch

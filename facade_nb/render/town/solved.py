@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import pairwise
 
 from ... import gallery
 from ...solver import solve
@@ -92,7 +93,8 @@ def _text(solved: Solved) -> str:
     compiled = grammar_of(layout)
     lines = [*_front(solved.space, compiled), *_walls(solved, layout, compiled)]
     body = "\n".join(f"  {line}" for line in lines)
-    return f"# {layout.name}, solved for {solved.width:g} by {solved.height:g} m.\nnamespace {solved.space} {{\n{body}\n}}"
+    title = f"# {layout.name}, solved for {solved.width:g} by {solved.height:g} m."
+    return f"{title}\nnamespace {solved.space} {{\n{body}\n}}"
 
 
 def _front(space: str, compiled: LayoutGrammar) -> Iterator[str]:
@@ -181,7 +183,7 @@ def _bands(
     ]
     edges = sorted({0.0, solved.height, *(y for low, high, _ in there for y in (low, high))})
     bands: list[tuple[float, str]] = []
-    for low, high in zip(edges, edges[1:], strict=False):
+    for low, high in pairwise(edges):
         rule = next((r for a, b, r in reversed(there) if a <= (low + high) / 2 < b), "Concrete")
         if high - low < 1e-3:
             continue

@@ -72,7 +72,7 @@ class Style:
         return self.ground + (storeys - 1) * self.storey + self.top
 
     def fit(self, eaves: float) -> int:
-        """How many storeys the grammar makes on a wall of that height; 0 if a solved front may not be stretched so far."""
+        """How many storeys the grammar makes on a wall of that height; 0 where a solved front does not fit."""
         if self.heights is not None:
             return self.storeys[0] if self.heights[0] <= eaves <= self.heights[1] else 0
         left = (eaves - self.ground - self.top) / self.storey
@@ -85,7 +85,7 @@ class Style:
         return self.widths is None or self.widths[0] <= width <= self.widths[1]
 
     def start(self, what: str, width: float) -> str:
-        """The rule for a wall of that width: a short wall has no bays of its own beside its corners, a stub no window."""
+        """The rule for a wall of that width: a short one has no bays of its own at its corners, a stub no window."""
         if what in ("front", "street", "side", "court") and width < self.narrow:
             return self.starts[f"short-{what}" if width >= self.least else "plain"]
         return self.starts[what]
