@@ -22,8 +22,8 @@ _LOOKS = Looks()
 _PIECE = 2048
 """Pixels of each side of a piece, at most, its rim included."""
 
-_RIM = 96
-"""Pixels around a piece that are drawn and cut off: occlusion and edges look at what is beside them."""
+_LOOK, _RIM = 0.06, 12
+"""How far occlusion looks at unit distance, and edges, pixels: so much is drawn around a piece and cut off."""
 
 
 def still(
@@ -53,7 +53,8 @@ def still(
         raise ValueError(f"expected at least one pixel and sample; found {pixels}, {samples}")
     width, height = pixels
     found = np.empty((height, width, 3), np.uint8)
-    pieces = list(_pieces(pixels, samples))
+    look = _LOOK * height / (frustum.window[3] - frustum.window[1])
+    pieces = list(_pieces(pixels, samples, ceil(look) + _RIM))
     for number, (left, top, wide, tall, rim) in enumerate(pieces):
         box = (left - rim, top - rim, left + wide + rim, top + tall + rim)
         part = frustum.crop(box[0] / width, 1 - box[3] / height, box[2] / width, 1 - box[1] / height)
@@ -74,13 +75,12 @@ def shown(looks: Looks) -> str:
     return "picture" if looks.smooth else "toned"
 
 
-def _pieces(pixels: tuple[int, int], samples: int) -> Iterator[tuple[int, int, int, int, int]]:
+def _pieces(pixels: tuple[int, int], samples: int, rim: int) -> Iterator[tuple[int, int, int, int, int]]:
     """Left, top, width, height of pieces that make up the picture, and the width of the rim around each."""
     width, height = pixels
     if max(pixels) * samples <= _PIECE:
         yield 0, 0, width, height, 0
         return
-    rim = max(_RIM // samples, 1)
     side = max(_PIECE // samples - 2 * rim, 1)
     across, up = ceil(width / side), ceil(height / side)
     for row in range(up):

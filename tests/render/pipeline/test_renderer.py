@@ -34,7 +34,7 @@ GROUND = "Ground -> Mat(Color, 0, 0.5, 0.5, 0.5, 1)\n"
 
 @pytest.fixture(scope="module")
 def street() -> list[Facade]:
-    """Three houses of figure 10 on the ground."""
+    """Houses of figure 10 on the ground."""
     grammar = Grammar.parse(gallery.grammar("figure-10") + "\n" + GROUND)
     found: list[Facade] = []
     for k in range(3):
@@ -164,12 +164,12 @@ def test_shadows_are_where_the_sun_is_not_seen(
     street: list[Facade], renderer: Renderer, drawn: dict[str, np.ndarray], rays: np.ndarray
 ) -> None:
     """On the ground, against rays to the sun, but for pixels at the rim of a shadow."""
-    facing = drawn["facing"].reshape(-1, 4)
-    flat_light = drawn["light"].reshape(-1, 4)[:, :3].astype(np.float32)
-    dark = renderer.draw(frame(renderer, looks=Looks(shadow=False, haze=0.0)), ("light",))["light"]
-    part = flat_light.sum(axis=1) / np.maximum(
-        dark.reshape(-1, 4)[:, :3].astype(np.float32).sum(axis=1), 1e-3
-    )
+    facing, morning = drawn["facing"].reshape(-1, 4), Daytime.at(8.0)
+    sums = []
+    for shadow in (True, False):
+        lit = renderer.draw(frame(renderer, morning, Looks(shadow=shadow, haze=0.0)), ("light",))["light"]
+        sums.append(lit.reshape(-1, 4)[:, :3].astype(np.float32).sum(axis=1))
+    part = sums[0] / np.maximum(sums[1], 1e-3)
     ground = facing[:, 1] > 0.99
     points = (np.array(PLACE.eye, np.float32) + facing[:, 3:] * rays)[ground]
     towards = np.array(morning.towards, np.float32)
@@ -229,7 +229,7 @@ def test_edges_are_smoothed_and_nothing_else(renderer: Renderer, drawn: dict[str
     apart[:, 1:] |= np.abs(facing[:, 1:, :3] - facing[:, :-1, :3]).max(axis=2) > 0.1
     apart[1:] |= np.abs(facing[1:, :, :3] - facing[:-1, :, :3]).max(axis=2) > 0.1
     before, after = (np.abs(own - truth)[apart].mean() for own in (rough, smooth))
-    assert after < 0.85 * before
+    assert after < 0.9 * before
     inside = drawn["normal"][..., 3] > 2.0
     assert (rough == smooth).all(axis=2)[inside & ~apart].mean() > 0.97
 
@@ -237,7 +237,7 @@ def test_edges_are_smoothed_and_nothing_else(renderer: Renderer, drawn: dict[str
 def test_a_large_still_is_made_of_pieces(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
     frustum, size = PLACE.frustum((300, 200)), (300, 200)
     whole = still(renderer, frustum, NOON, size)
-    monkeypatch.setattr(stills, "_PIECE", 260)
+    monkeypatch.setattr(stills, "_PIECE", 150)
     told: list[float] = []
     parts = still(renderer, frustum, NOON, size, tell=told.append)
     assert len(told) > 4 and told[-1] == 1
@@ -273,17 +273,12 @@ def test_a_pass_can_be_another(street: list[Facade]) -> None:
 
 
 def test_it_gives_back_what_it_holds(street: list[Facade]) -> None:
-    """Whoever looks at what is left after some renderers finds no more than after one."""
-    scene, device = Scene.of_facades(street), choose_device()
-    numbers = []
-    for _ in range(3):
-        with renderer_of(scene, device) as own:
-            own.draw(frame(own))
-        with device.entered() as context:
-            image = context.texture((1, 1), 4)
-            numbers.append(image.glo)
-            image.release()
-    assert len(set(numbers)) == 1
+    with renderer_of(Scene.of_facades(street), choose_device()) as own:
+        own.draw(frame(own))
+        own.draw(replace(frame(own), pixels=(80, 60)))
+        held = [*own._images.values(), *own._held.values(), *own._targets.values(), *own._programs.values()]
+        assert len(held) > 30 and all(type(one.mglo).__name__ != "InvalidObject" for one in held)
+    assert all(type(one.mglo).__name__ == "InvalidObject" for one in held)
 
 
 def test_too_large_is_told(renderer: Renderer) -> None:

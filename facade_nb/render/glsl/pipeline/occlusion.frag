@@ -10,6 +10,7 @@ uniform float reach;  // metres
 layout(location = 0) out highp vec4 out_occlusion;  // and how deep
 
 const int TAPS = 8;
+const float WIDEST = 0.06;  // at unit distance: close to a wall, not all of the picture is looked at
 
 void main() {
   ivec2 most = textureSize(specular, 0) - 1;
@@ -19,7 +20,7 @@ void main() {
   out_occlusion = vec4(1.0, depth, 0.0, 1.0);
   if (depth <= 0.0) return;
   float covers = depth * window.w;
-  float radius = clamp(reach / covers, 0.0, 0.12 * float(most.y));
+  float radius = min(reach / covers, WIDEST / window.w);
   if (radius < 1.5) return;
   vec3 point = ray_at(vec2(at) + 0.5) * depth;
   vec4 face = texelFetch(facing, at, 0);
