@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -95,8 +95,12 @@ def finish(
     eaves, rise = characters.eaves, roofs.rise
     if tops is not None:
         known = tops > 0
-        rise = np.where(known, np.round(np.minimum(rise, 0.6 * tops), 2), rise)
+        rise = np.where(known, np.round(np.minimum(rise, 0.45 * tops), 2), rise)
         eaves = np.round(np.where(known, tops - rise, eaves), 3)
+        storeys = characters.storeys.copy()
+        for k in np.flatnonzero(known).tolist():
+            storeys[k] = styles[characters.style[k]].fit(float(eaves[k]))
+        characters = replace(characters, storeys=storeys)
     building = np.asarray(walls.ring_of)[ring_numbers(cut.offsets)]
     covered = np.zeros(len(building))
     np.maximum.at(covered, cut.wall, eaves[cut.neighbour])

@@ -14,7 +14,7 @@ from .chance import Floats, chance, length, pick
 from .characters import Characters, eaves_of, table_of
 from .finishing import finish, walls_of
 from .geojson import Outlines, read_outlines
-from .neighbours import Cut, cut_walls
+from .neighbours import Cut, cut_walls, with_hidden
 from .openness import gaps_of, look_out
 from .plains import plain_of
 from .plan import FLAT, GABLE, INDUSTRIAL, OUTBUILDING, PUBLIC, RESIDENTIAL, SHOP, Plan
@@ -50,6 +50,8 @@ def real_plan(
     stages.at(0.2, "neighbours")
     building = np.asarray(outlines.ring_of)[ring_numbers(outlines.offsets)]
     cut = cut_walls(outlines.offsets, outlines.corners, building)
+    owner = np.asarray(outlines.ring_of)[ring_numbers(cut.offsets)]
+    cut = with_hidden(cut, owner, outlines.polygons())
     gaps = gaps_of(cut)
     roles = look_out(cut, outlines.ring_of, outlines.holes, gaps)
     # Roles are found for walls that are cut already; where none is cut they hold for the whole.
@@ -134,7 +136,9 @@ def _characters(
     levels = np.array([levels_of(tags.get("building:levels")) or 0 for tags in outlines.tags])
     tops = np.array([metres_of(tags.get("height")) or 0.0 for tags in outlines.tags])
     # A style that suits the storeys that are told, if the one chosen does not.
-    style = _suiting(style, levels, styles)
+    style = _suiting(
+        style, np.where((levels > 0) | (tops == 0), levels, np.maximum(np.rint((tops - 1) / 3.1), 1)), styles
+    )
     storeys = np.where(levels > 0, levels, storeys).astype(np.int32)
     eaves = eaves_of(style, storeys, np.where(levels > 0, 0.0, lower), styles)
     low = np.round(2.3 + 0.1 * np.floor(10 * own) + (size > 60) * 0.8, 2)
