@@ -141,7 +141,7 @@ def test_a_covered_wall_is_as_high_as_the_neighbour(plan: Plan) -> None:
 
 def test_doors_are_on_the_street(plan: Plan, town: Town) -> None:
     building = plan.building
-    narrow = np.array([style.narrow for style in town.styles])[plan.style]
+    narrow = np.array([style.least for style in town.styles])[plan.style]
     span = np.hypot(*(plan.corners[plan.following] - plan.corners).T)
     for one, edge in enumerate(plan.entrance.tolist()):
         own = building == one
@@ -258,3 +258,21 @@ def test_progress_is_told_and_a_town_can_be_stopped() -> None:
     real: list[str] = []
     Town.from_geojson(mixed_geojson(), progress=lambda share, name: real.append(name))
     assert real[0] == "footprints" and real[-1] == ""
+
+
+def test_solved_fronts_stand_where_they_fit_and_never_twice_in_sight(plan: Plan, town: Town) -> None:
+    solved = np.array([style.widths is not None for style in town.styles])[plan.style]
+    span = np.hypot(*(plan.corners[plan.following] - plan.corners).T)
+    building = plan.building
+    for one in np.flatnonzero(solved).tolist():
+        street = np.flatnonzero((building == one) & (plan.role == STREET))
+        assert len(street) == 1 and plan.entrance[one] == street[0]
+        assert town.styles[plan.style[one]].suits(float(span[street[0]]), float(plan.eaves[one]))
+    polygons = polygons_of(plan)
+    a, b = shapely.STRtree(polygons).query(polygons, predicate="dwithin", distance=8.5)
+    assert not (solved[a] & (plan.style[a] == plan.style[b]) & (a != b)).any()
+
+
+def test_there_are_solved_fronts_in_the_town(town: Town) -> None:
+    solved = np.array([style.widths is not None for style in town.styles])
+    assert solved[town.plan.style].sum() > 5
