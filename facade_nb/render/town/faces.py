@@ -13,6 +13,10 @@ from .rings import Ints
 __all__ = ["Faces"]
 
 
+_NOTHING = 1e-5
+"""Planes of a smaller area are none, square metres."""
+
+
 @dataclass(slots=True, eq=False)
 class Faces:
     """Gathers faces. Positions are x east, y north, z up; they turn to x east, y up, z south as they come in.
@@ -56,7 +60,11 @@ class Faces:
 
     def planes(self, points: Floats, along: Floats, start: Floats, seed: Floats, owner: Ints) -> None:
         """Flat polygons (f, k, 3), counter-clockwise from outside, whose width runs along vectors (f, 3) in them."""
-        normal = _normals(points)
+        normal, size = _normals(points)
+        if not (size > _NOTHING).all():  # where a chain of corners stands still, its planes are lines
+            kept = size > _NOTHING
+            self.planes(points[kept], along[kept], start[kept], seed[kept], owner[kept])
+            return
         inside = _unit(along)
         across = _unit(_cross(normal, inside))
         tangent = _cross(across, normal)
@@ -135,9 +143,10 @@ def _unit(v: Floats) -> Floats:
     return np.asarray(v / np.maximum(span, 1e-12)[:, None])
 
 
-def _normals(points: Floats) -> Floats:
-    """Unit normals of polygons, also where some of their corners coincide or lie in a line."""
+def _normals(points: Floats) -> tuple[Floats, Floats]:
+    """Unit normals of polygons, also where some of their corners coincide or lie in a line, and twice their areas."""
     total = np.zeros((len(points), 3))
     for i in range(1, points.shape[1] - 1):
         total = total + _cross(points[:, i] - points[:, 0], points[:, i + 1] - points[:, 0])
-    return _unit(total)
+    size = np.sqrt(total[:, 0] * total[:, 0] + total[:, 1] * total[:, 1] + total[:, 2] * total[:, 2])
+    return _unit(total), size
