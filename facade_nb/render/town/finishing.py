@@ -153,6 +153,7 @@ def finish(
         characters.storeys,
         roofs.kind,
         roofs.eave,
+        roofs.run,
         characters.style,
         seeds,
         characters.kind,

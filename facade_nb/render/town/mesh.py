@@ -114,6 +114,7 @@ def _houses(plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> H
         plan.eaves,
         plan.rise,
         np.asarray(plan.eave, np.int64),
+        plan.run,
         works,
         {face: starts[face][plan.style] for face in ("gable", "roof", "flat", "plain")},
         plan.seed / 64.0,
