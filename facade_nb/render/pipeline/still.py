@@ -26,6 +26,10 @@ _LOOK, _RIM = 0.06, 12
 """How far occlusion looks at unit distance, and edges, pixels: so much is drawn around a piece and cut off."""
 
 
+_EVEN = 8
+"""Pieces begin at multiples of so many pixels: the pattern of occlusion's taps runs on."""
+
+
 def still(
     renderer: Renderer,
     frustum: Frustum,
@@ -54,7 +58,7 @@ def still(
     width, height = pixels
     found = np.empty((height, width, 3), np.uint8)
     look = _LOOK * height / (frustum.window[3] - frustum.window[1])
-    pieces = list(_pieces(pixels, samples, ceil(look) + _RIM))
+    pieces = list(_pieces(pixels, samples, _EVEN * ceil((look + _RIM) / _EVEN)))
     for number, (left, top, wide, tall, rim) in enumerate(pieces):
         box = (left - rim, top - rim, left + wide + rim, top + tall + rim)
         part = frustum.crop(box[0] / width, 1 - box[3] / height, box[2] / width, 1 - box[1] / height)
@@ -81,12 +85,10 @@ def _pieces(pixels: tuple[int, int], samples: int, rim: int) -> Iterator[tuple[i
     if max(pixels) * samples <= _PIECE:
         yield 0, 0, width, height, 0
         return
-    side = max(_PIECE // samples - 2 * rim, 1)
-    across, up = ceil(width / side), ceil(height / side)
-    for row in range(up):
-        for column in range(across):
-            left, top = column * width // across, row * height // up
-            yield left, top, (column + 1) * width // across - left, (row + 1) * height // up - top, rim
+    side = _EVEN * max((_PIECE // samples - 2 * rim) // _EVEN, 1)
+    for top in range(0, height, side):
+        for left in range(0, width, side):
+            yield left, top, min(side, width - left), min(side, height - top), rim
 
 
 def _mean(pixels: NDArray[np.uint8], samples: int) -> NDArray[np.uint8]:

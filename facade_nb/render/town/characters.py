@@ -3,65 +3,46 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .chance import Floats, chance, pick
+from .finishing import Characters, Pairs
+from .fitting import fit_fronts
 from .footprints import District
 from .plan import INDUSTRIAL, RESIDENTIAL, SHOP
 from .rings import Ints
 from .streets import AVENUE, SECOND
 from .styles import Style
 
-__all__ = ["Characters", "choose_styles", "eaves_of", "of_districts", "table_of"]
+__all__ = ["choose_styles", "eaves_of", "of_districts", "storeys_of", "table_of"]
 
 Weights = Mapping[str, float]
 
 _WANTED: Mapping[int, Weights] = {
     District.MARKET: {"gruenderzeit": 1},
     District.OLD: {"half-timbered": 5, "gruenderzeit": 3},
-    District.INNER: {"gruenderzeit": 6, "slab": 0.4, "": 3},
-    District.ROWS: {"detached": 5, "half-timbered": 0.4, "": 1},
+    District.INNER: {"gruenderzeit": 6, "slab": 0.4},
+    District.ROWS: {"detached": 5, "half-timbered": 0.4},
     District.DETACHED: {"detached": 8, "half-timbered": 0.3},
     District.SLABS: {"slab": 1},
     District.INDUSTRY: {"brickworks": 5, "slab": 0.6},
     District.PARK: {"gruenderzeit": 1},
 }
-"""Styles of each district with their weights; the empty name stands for all that are named in no district."""
+"""Styles of each district with their weights. Solved ones are chosen by the width of a front."""
 
 _SHOPS: Weights = {"shop-street": 6, "gruenderzeit": 1}
 """Styles of houses with a shop."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Characters:
-    """Attributes of buildings (b,), as of `Plan`; `steep` is the slope of a gable."""
-
-    style: NDArray[np.int32]
-    storeys: NDArray[np.int32]
-    eaves: Floats
-    kind: NDArray[np.uint8]
-    shop: NDArray[np.bool_]
-
-
 def table_of(wanted: Mapping[int, Weights], styles: Sequence[Style]) -> Floats:
-    """Weights of each style (columns) for each case (rows). All are alike where no style is known by its name.
-
-    The empty name stands for all styles that no case and no shop names: solved ones, say.
-    """
-    named = {name for weights in (*wanted.values(), _SHOPS) for name in weights}
-    others = [one.name not in named for one in styles]
-    share = 1 / max(sum(others), 1)
+    """Weights of each style (columns) for each case (rows). All are alike where none is known by its name."""
+    free = [one.widths is None for one in styles]
     rows = []
     for case in range(len(wanted)):
-        weights = wanted[case]
-        rest = weights.get("", 0.0) * share
-        row = [
-            weights.get(one.name, rest if other else 0.0) for one, other in zip(styles, others, strict=True)
-        ]
-        rows.append(row if sum(row) > 0 else [1.0] * len(row))
+        row = [wanted[case].get(one.name, 0.0) * own for one, own in zip(styles, free, strict=True)]
+        rows.append(row if sum(row) > 0 else [float(own) for own in free])
     return np.array(rows)
 
 
@@ -95,12 +76,24 @@ def eaves_of(
     return np.asarray(np.round(np.where(fit == storeys, lowered, eaves), 3))
 
 
+def storeys_of(
+    style: NDArray[np.int32], wanted: Floats, styles: Sequence[Style], floor: int = 99
+) -> NDArray[np.int32]:
+    """The storeys that are wanted, rounded, as far as they suit the style; its least is taken as `floor` at most."""
+    least = np.array([min(one.storeys[0], floor) if one.widths is None else one.storeys[0] for one in styles])
+    most = np.array([one.storeys[1] for one in styles])
+    rounded = np.floor(np.round(wanted + 0.5, 6))
+    return np.clip(rounded, least[style], most[style]).astype(np.int32)
+
+
 def of_districts(
     district: Ints,
     block: Ints,
     reach: Floats,
     street: Ints,
     corner: NDArray[np.bool_],
+    front: Floats,
+    pairs: Pairs,
     styles: Sequence[Style],
     seed: int,
 ) -> Characters:
@@ -110,6 +103,8 @@ def of_districts(
     ----------
     district, block, reach, street, corner
         (b,) where a building stands: district, block, how far out, the widest street it faces, whether at a corner.
+    front, pairs
+        As of `fit_fronts`.
     """
     random = chance(seed, 20)
     count = len(district)
@@ -143,9 +138,11 @@ def of_districts(
         ],
         1.1 + 1.1 * own,
     )
-    least = np.array([one.storeys[0] for one in styles])[style]
-    most = np.array([one.storeys[1] for one in styles])[style]
-    storeys = np.clip(np.floor(np.round(wanted + 0.5, 6)), least, most).astype(np.int32)
+    welcome = (
+        (chance(seed, 24).random(count) < 0.3) & np.isin(district, (District.INNER, District.ROWS)) & ~shop
+    )
+    style = fit_fronts(style, welcome, front, 3.4 * np.floor(wanted + 0.5), pairs, styles, lower)
+    storeys = storeys_of(style, wanted, styles)
     # Houses of a row, and slabs of a block, are of one height.
     level = np.isin(district, (District.ROWS, District.SLABS))
     eaves = eaves_of(style, storeys, np.where(level, by_block, lower), styles)

@@ -13,6 +13,10 @@ from .rings import Ints
 __all__ = ["Faces"]
 
 
+_NOTHING = 1e-5
+"""Planes of a smaller area are none, square metres."""
+
+
 @dataclass(slots=True, eq=False)
 class Faces:
     """Gathers faces. Positions are x east, y north, z up; they turn to x east, y up, z south as they come in.
@@ -54,17 +58,43 @@ class Faces:
         tangent = np.column_stack([u, zero])
         self.add(points, place, np.column_stack([span, high]), start, seed, normal, tangent, owner)
 
-    def planes(self, points: Floats, along: Floats, start: Floats, seed: Floats, owner: Ints) -> None:
-        """Flat polygons (f, k, 3), counter-clockwise from outside, whose width runs along vectors (f, 3) in them."""
-        normal = _normals(points)
-        inside = _unit(along)
-        across = _unit(_cross(normal, inside))
+    def planes(
+        self,
+        points: Floats,
+        along: Floats,
+        start: Floats,
+        seed: Floats,
+        owner: Ints,
+        foot: Floats | None = None,
+        plane: Ints | None = None,
+    ) -> None:
+        """Flat polygons (f, k, 3), counter-clockwise from outside, whose width runs along vectors (f, 3) in them.
+
+        Parameters
+        ----------
+        foot, plane
+            (f, 3), (f,) where polygons are parts of larger planes: a point of each plane, and its number. All parts of
+            a plane have one façade.
+        """
+        normal, size = _normals(points)
+        kept = size > _NOTHING  # where a chain of corners stands still, its planes are lines
+        points, along, normal, start, seed = (v[kept] for v in (points, along, normal, start, seed))
+        owner = owner[kept]
+        across = _unit(_cross(normal, _unit(along)))
         tangent = _cross(across, normal)
-        u = (points * tangent[:, None]).sum(axis=2)
-        v = (points * across[:, None]).sum(axis=2)
-        place = np.stack([u - u.min(axis=1, keepdims=True), v - v.min(axis=1, keepdims=True)], axis=2)
-        place = np.round(place, 4)
-        self.add(points, place, place.max(axis=1), start, seed, normal, tangent, owner)
+        away = points if foot is None else points - foot[kept][:, None]
+        u = (away * tangent[:, None]).sum(axis=2)
+        v = (away * across[:, None]).sum(axis=2)
+        place = np.stack([u, v], axis=2)
+        low, high = place.min(axis=1), place.max(axis=1)
+        if plane is not None and len(low):
+            _, part = np.unique(plane[kept], return_inverse=True)
+            ends = [np.full((int(part.max()) + 1, 2), sign * np.inf) for sign in (1, -1)]
+            np.minimum.at(ends[0], part, low)
+            np.maximum.at(ends[1], part, high)
+            low, high = ends[0][part], ends[1][part]
+        place = np.round(np.maximum(place - low[:, None], 0), 4)
+        self.add(points, place, np.round(high - low, 4), start, seed, normal, tangent, owner)
 
     def add(
         self,
@@ -135,9 +165,10 @@ def _unit(v: Floats) -> Floats:
     return np.asarray(v / np.maximum(span, 1e-12)[:, None])
 
 
-def _normals(points: Floats) -> Floats:
-    """Unit normals of polygons, also where some of their corners coincide or lie in a line."""
+def _normals(points: Floats) -> tuple[Floats, Floats]:
+    """Unit normals of polygons, also where some of their corners coincide or lie in a line, and twice their areas."""
     total = np.zeros((len(points), 3))
     for i in range(1, points.shape[1] - 1):
         total = total + _cross(points[:, i] - points[:, 0], points[:, i + 1] - points[:, 0])
-    return _unit(total)
+    size = np.sqrt(total[:, 0] * total[:, 0] + total[:, 1] * total[:, 1] + total[:, 2] * total[:, 2])
+    return _unit(total), size

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from .chance import Floats, length
-from .characters import Characters
 from .looks import choose_seeds
 from .neighbours import Cut
 from .plan import OUTBUILDING, Ground, Plan
@@ -20,7 +19,7 @@ from .roof_kinds import choose_roofs
 from .stages import Stages
 from .styles import Style
 
-__all__ = ["Walls", "finish", "walls_of"]
+__all__ = ["Characters", "Pairs", "Walls", "finish", "pairs_of", "walls_of"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,6 +46,17 @@ class Walls:
     base_role: NDArray[np.uint8]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Characters:
+    """Attributes of buildings (b,), as of `Plan`."""
+
+    style: NDArray[np.int32]
+    storeys: NDArray[np.int32]
+    eaves: Floats
+    kind: NDArray[np.uint8]
+    shop: NDArray[np.bool_]
+
+
 def walls_of(cut: Cut, ring_of: Ints, holes: NDArray[np.bool_], role: NDArray[np.uint8]) -> Walls:
     """Roles of walls that were cut, from those (n,) that they had before."""
     own = role[cut.source].copy()
@@ -65,8 +75,27 @@ def walls_of(cut: Cut, ring_of: Ints, holes: NDArray[np.bool_], role: NDArray[np
     return Walls(ring_of, holes, cut, own, (offsets, true[index]), old[index])
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Pairs:
+    """Pairs (m, 2) of buildings: those that stand wall to wall, and those that are seen together."""
+
+    beside: Ints
+    near: Ints
+
+
+def pairs_of(walls: Walls) -> Pairs:
+    """Who stands beside whom."""
+    cut = walls.cut
+    building = np.asarray(walls.ring_of)[ring_numbers(cut.offsets)]
+    beside = np.stack([building[cut.wall], cut.neighbour], axis=1)
+    offsets, index = walls.base
+    near = _near(cut.corners[index], offsets, walls, building)
+    return Pairs(np.unique(np.sort(beside, axis=1), axis=0).reshape(-1, 2), near)
+
+
 def finish(
     walls: Walls,
+    pairs: Pairs,
     characters: Characters,
     styles: Sequence[Style],
     ground: Ground,
@@ -95,8 +124,12 @@ def finish(
     eaves, rise = characters.eaves, roofs.rise
     if tops is not None:
         known = tops > 0
-        rise = np.where(known, np.round(np.minimum(rise, 0.6 * tops), 2), rise)
+        rise = np.where(known, np.round(np.minimum(rise, 0.45 * tops), 2), rise)
         eaves = np.round(np.where(known, tops - rise, eaves), 3)
+        storeys = characters.storeys.copy()
+        for k in np.flatnonzero(known).tolist():
+            storeys[k] = styles[characters.style[k]].fit(float(eaves[k]))
+        characters = replace(characters, storeys=storeys)
     building = np.asarray(walls.ring_of)[ring_numbers(cut.offsets)]
     covered = np.zeros(len(building))
     np.maximum.at(covered, cut.wall, eaves[cut.neighbour])
@@ -105,9 +138,7 @@ def finish(
     entrance[characters.kind == OUTBUILDING] = -1
     if stages is not None:
         stages.at(0.6, "seeds")
-    beside = np.unique(np.sort(np.stack([building[cut.wall], cut.neighbour], axis=1), axis=1), axis=0)
-    near = _near(outer, offsets, walls, building)
-    seeds = choose_seeds(characters.style, styles, near, beside, seed)
+    seeds = choose_seeds(characters.style, styles, pairs.near, pairs.beside, seed)
     return Plan(
         cut.corners,
         cut.offsets,
@@ -122,6 +153,7 @@ def finish(
         characters.storeys,
         roofs.kind,
         roofs.eave,
+        roofs.run,
         characters.style,
         seeds,
         characters.kind,
@@ -137,14 +169,14 @@ def _entrances(
     """The edge with the door: where a corner is cut off, else the widest on the street, else the widest free one."""
     following = after(cut.offsets)
     span = np.round(length(cut.corners[following] - cut.corners), 3)
-    narrow = np.array([one.narrow for one in styles])[characters.style][building]
+    least = np.array([one.least for one in styles])[characters.style][building]
     street = role == STREET
     preceding = np.empty_like(following)
     preceding[following] = np.arange(len(following))
     cut_off = street & street[following] & street[preceding] & (span < 6)
     faces_street = np.zeros(len(characters.style), bool)
     np.logical_or.at(faces_street, building, street)
-    fits = (span >= np.maximum(narrow, 1.5)) & np.where(faces_street[building], street, role != PARTY)
+    fits = (span >= np.maximum(least, 1.5)) & np.where(faces_street[building], street, role != PARTY)
     some = np.flatnonzero(fits)
     # Free walls: beside before behind. Equal ones: the first.
     order = some[np.lexsort((some, -span[some], role[some], ~cut_off[some], building[some]))]

@@ -6,13 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from .chance import length
 from .characters import of_districts
 from .districts import settle
-from .finishing import finish, walls_of
+from .finishing import finish, pairs_of, walls_of
+from .fitting import single_fronts
 from .grounds import ground_of
 from .neighbours import cut_walls
 from .plan import Plan
-from .rings import ring_numbers
+from .rings import after, ring_numbers
+from .roles import STREET
 from .stages import Stages
 from .styles import Style
 
@@ -26,20 +29,25 @@ def generate_plan(buildings: int, seed: int, styles: Sequence[Style], stages: St
     footprints, cells, district = settle(buildings, seed)
     order = np.lexsort((np.arange(len(district)), cells.reach))
     cell = order[footprints.block]
+    stages.at(0.3, "neighbours")
+    count = len(footprints.block)
+    cut = cut_walls(footprints.offsets, footprints.corners, ring_numbers(footprints.offsets))
+    walls = walls_of(cut, np.arange(count), np.zeros(count, bool), footprints.role)
+    pairs = pairs_of(walls)
+    span = length(cut.corners[after(cut.offsets)] - cut.corners)
+    front = single_fronts(walls.role == STREET, span, ring_numbers(cut.offsets), count)
     characters = of_districts(
         footprints.district,
         footprints.block,
         cells.reach[cell],
         footprints.street,
         footprints.corner,
+        front,
+        pairs,
         styles,
         seed,
     )
-    stages.at(0.3, "neighbours")
-    count = len(footprints.block)
-    cut = cut_walls(footprints.offsets, footprints.corners, ring_numbers(footprints.offsets))
-    walls = walls_of(cut, np.arange(count), np.zeros(count, bool), footprints.role)
     stages.at(0.45, "ground")
     ground = ground_of(cells, district, np.unique(cell))
     stages.at(0.5, "roofs")
-    return finish(walls, characters, styles, ground, seed, stages=stages)
+    return finish(walls, pairs, characters, styles, ground, seed, stages=stages)

@@ -17,7 +17,7 @@ from .chance import chance
 from .rings import Ints, offsets_of
 from .styles import Style
 
-__all__ = ["choose_seeds", "looks_of"]
+__all__ = ["choose_seeds", "lists_of", "looks_of"]
 
 _TRIES = 48
 
@@ -47,7 +47,7 @@ def choose_seeds(
     seeds = chance(seed, 22).integers(0, SEEDS, (count, _TRIES, 2), dtype=np.int32)
     found = looks_of(seeds, np.broadcast_to(looks[:, None], seeds.shape[:2]))
     wish = chance(seed, 23).permuted(np.tile(np.arange(int(looks.max(initial=1))), (count, 1)), axis=1)
-    first = [_lists(pairs[style[pairs[:, 0]] == style[pairs[:, 1]]], count) for pairs in (beside, near)]
+    first = [lists_of(pairs[style[pairs[:, 0]] == style[pairs[:, 1]]], count) for pairs in (beside, near)]
     (hard_at, hard), (soft_at, soft) = first
     chosen = [-1] * count
     for k in range(count):
@@ -64,7 +64,7 @@ def choose_seeds(
     return np.ascontiguousarray(seeds[np.arange(count), right.argmax(axis=1)])
 
 
-def _lists(pairs: Ints, count: int) -> tuple[list[int], list[int]]:
+def lists_of(pairs: Ints, count: int) -> tuple[list[int], list[int]]:
     """For each building, which ones it is paired with: offsets and a flat list."""
     both = np.concatenate([pairs, pairs[:, ::-1]])
     order = np.lexsort((both[:, 1], both[:, 0]))

@@ -15,7 +15,7 @@ from .faces import Faces
 from .plan import COURT, OUTBUILDING, PARTY, SIDE, STREET, Plan
 from .rings import Ints, offsets_of, ring_numbers
 from .roofing import Houses, cover
-from .styles import GROUND, Style
+from .styles import Style
 
 __all__ = ["NOBODY", "Mesh", "build_mesh"]
 
@@ -25,7 +25,9 @@ CELL = 120.0
 NOBODY = np.uint32(0xFFFFFFFF)
 """The building of a triangle of the ground."""
 
-_FACES = ("front", "street", "side", "court", "party", "gable", "roof", "flat", "plain")
+_WALLS = ("street", "side", "court", "front")
+_FACES = (*_WALLS, *(f"short-{face}" for face in _WALLS), "party", "plain", "gable", "roof", "flat")
+"""What a style has a rule for. Where it has none for short walls, these are plain."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,15 +81,15 @@ def _walls(faces: Faces, plan: Plan, styles: Sequence[Style], starts: dict[str, 
     ends = plan.corners[plan.following]
     span = length(ends - plan.corners)
     style = plan.style[building]
-    table = np.stack([starts[face] for face in ("street", "side", "court", "party", "front", "plain")])
-    narrow = np.array([one.narrow for one in styles])[style]
-    face = np.select(
-        [plan.role == STREET, plan.role == SIDE, plan.role == COURT, plan.role == PARTY], [0, 1, 2, 3], 5
-    )
-    doors = np.zeros(len(face), bool)
-    doors[plan.entrance[plan.entrance >= 0]] = True
-    face = np.where(doors, 4, np.where((span < narrow) & (face != 3), 5, face))
-    face = np.where(plan.kind[building] == OUTBUILDING, 5, face)
+    table = np.stack([starts[face] for face in _FACES])
+    narrow, least = (np.array([getattr(one, name) for one in styles])[style] for name in ("narrow", "least"))
+    face = np.select([plan.role == STREET, plan.role == SIDE, plan.role == COURT], [0, 1, 2], -1)
+    face[plan.entrance[plan.entrance >= 0]] = 3
+    # A short wall has no bays of its own at its corners, a stub no window.
+    plain, width = _FACES.index("plain"), np.round(span, 3)
+    face = np.where(width < least, plain, np.where(width < narrow, face + len(_WALLS), face))
+    face = np.where(plan.kind[building] == OUTBUILDING, plain, face)
+    face = np.where(plan.role == PARTY, _FACES.index("party"), face)
     eaves = plan.eaves[building]
     seen = np.flatnonzero((plan.covered < eaves - 0.005) & (span > 0))
     seed = plan.seed[building[seen]] / 64.0
@@ -108,6 +110,7 @@ def _houses(plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> H
         plan.eaves,
         plan.rise,
         np.asarray(plan.eave, np.int64),
+        plan.run,
         works,
         {face: starts[face][plan.style] for face in ("gable", "roof", "flat", "plain")},
         plan.seed / 64.0,
@@ -120,7 +123,7 @@ def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> None:
     if not len(ground.corners):
         return
     places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
-    start = np.array([places[GROUND[name]] for name in ground.names], float)
+    start = np.array([places[f"ground.{name.capitalize()}"] for name in ground.names], float)
     low = np.floor(ground.corners.min(axis=0))
     size = np.ceil(ground.corners.max(axis=0)) - low
     count = len(ground.corners)

@@ -172,7 +172,14 @@ def _corners(
     corner = blocks.corners[at]
     before_it = corner - edges.along[back] * end[back][:, None]
     behind_it = corner + edges.along[at] * start[at][:, None]
-    behind = [behind_it + edges.inward[at] * deep, inner, before_it + edges.inward[back] * deep]
+    # A house that reaches as far as a slight bend ends there as its neighbour begins.
+    mitre = line_offsets(blocks.corners, blocks.offsets, 1.0) - blocks.corners
+    ahead = edges.following[at]
+    on = (np.abs(start[at] - edges.span[at]) < 0.01) & ~sharp[ahead]
+    before_bend = (np.abs(end[back] - edges.span[back]) < 0.01) & ~sharp[back]
+    from_behind = np.where(on[:, None], mitre[ahead], edges.inward[at])
+    from_before = np.where(before_bend[:, None], mitre[back], edges.inward[back])
+    behind = [behind_it + from_behind * deep, inner, before_it + from_before * deep]
     district = blocks.district[rings[at]]
     street = np.minimum(blocks.street[at], blocks.street[back])
     plain = random.random(len(at))
@@ -224,7 +231,10 @@ def _middles(
         (last & ~sharp[edges.following[edge]])[:, None], mitre[edges.following[edge]], inward
     )
     steps = np.array([-1.4, -0.8, 0, 0, 0, 0, 0.9, 1.6])
-    deep = (depth[rings[edge]] + steps[random.integers(0, len(steps), len(edge))])[:, None]
+    # Beside an acute corner a deep house would reach into the rear of the corner's.
+    acute = (first & (edges.cosine < 0.05)[edge]) | (last & (edges.cosine < 0.05)[edges.following[edge]])
+    more = steps[random.integers(0, len(steps), len(edge))]
+    deep = (depth[rings[edge]] + np.where(acute, np.minimum(more, 0), more))[:, None]
     front = [blocks.corners[edge] + edges.along[edge] * v[:, None] for v in (low, high)]
     rear = [front[0] + from_first * deep, front[1] + from_last * deep]
     district, street = blocks.district[rings[edge]], blocks.street[edge]

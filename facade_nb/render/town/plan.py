@@ -101,6 +101,8 @@ class Plan:
     eave
         (b,) the edge along which a gable or shed roof has its eaves, as its number among the true corners of the outer
         ring; -1 where the roof needs none.
+    run
+        (b,) how far in from the walls a hipped roof without such an edge ends at the most, metres; else 0.
     style
         (b,) index into the styles.
     seed
@@ -128,6 +130,7 @@ class Plan:
     storeys: NDArray[np.int32]
     roof: NDArray[np.uint8]
     eave: NDArray[np.int32]
+    run: Floats
     style: NDArray[np.int32]
     seed: NDArray[np.int32]
     kind: NDArray[np.uint8]

@@ -11,15 +11,16 @@ import shapely
 from numpy.typing import NDArray
 
 from .chance import Floats, chance, length, pick
-from .characters import Characters, eaves_of, table_of
-from .finishing import finish, walls_of
+from .characters import eaves_of, storeys_of, table_of
+from .finishing import Characters, Pairs, finish, pairs_of, walls_of
+from .fitting import fit_fronts, single_fronts
 from .geojson import Outlines, read_outlines
-from .neighbours import Cut, cut_walls
+from .neighbours import Cut, cut_walls, with_hidden
 from .openness import gaps_of, look_out
 from .plains import plain_of
 from .plan import FLAT, GABLE, INDUSTRIAL, OUTBUILDING, PUBLIC, RESIDENTIAL, SHOP, Plan
 from .rings import Ints, after, areas, ring_numbers, take_rings
-from .roles import PARTY
+from .roles import PARTY, STREET
 from .stages import Stages
 from .styles import Style
 from .tags import Use, has_shop, levels_of, metres_of, roof_of, use_of
@@ -29,8 +30,8 @@ __all__ = ["real_plan"]
 _WANTED: Mapping[int, Mapping[str, float]] = {
     Use.UNKNOWN: {"detached": 1},
     Use.HOUSE: {"detached": 8, "half-timbered": 0.4},
-    Use.TOWNHOUSE: {"gruenderzeit": 4, "half-timbered": 2, "": 2},
-    Use.APARTMENTS: {"slab": 4, "gruenderzeit": 2, "": 1},
+    Use.TOWNHOUSE: {"gruenderzeit": 4, "half-timbered": 2},
+    Use.APARTMENTS: {"slab": 4, "gruenderzeit": 2},
     Use.COMMERCE: {"shop-street": 5, "slab": 1},
     Use.INDUSTRY: {"brickworks": 1},
     Use.PUBLIC: {"gruenderzeit": 3, "brickworks": 1},
@@ -50,6 +51,8 @@ def real_plan(
     stages.at(0.2, "neighbours")
     building = np.asarray(outlines.ring_of)[ring_numbers(outlines.offsets)]
     cut = cut_walls(outlines.offsets, outlines.corners, building)
+    owner = np.asarray(outlines.ring_of)[ring_numbers(cut.offsets)]
+    cut = with_hidden(cut, owner, outlines.polygons())
     gaps = gaps_of(cut)
     roles = look_out(cut, outlines.ring_of, outlines.holes, gaps)
     # Roles are found for walls that are cut already; where none is cut they hold for the whole.
@@ -58,7 +61,8 @@ def real_plan(
     walls = walls_of(cut, outlines.ring_of, outlines.holes, before)
     walls.role[:] = roles
     stages.at(0.3, "heights")
-    characters, tops = _characters(outlines, cut, roles, styles, seed)
+    pairs = pairs_of(walls)
+    characters, tops = _characters(outlines, cut, roles, pairs, styles, seed)
     outer = np.flatnonzero(~outlines.holes)
     index, offsets = take_rings(outlines.offsets, outer)
     given = np.array([roof_of(tags) for tags in outlines.tags])
@@ -67,7 +71,7 @@ def real_plan(
     stages.at(0.4, "ground")
     ground = plain_of(offsets, outlines.corners[index])
     stages.at(0.55, "roofs")
-    return finish(walls, characters, styles, ground, seed, given, tops, outlines.left_out, stages)
+    return finish(walls, pairs, characters, styles, ground, seed, given, tops, outlines.left_out, stages)
 
 
 def _sizes(outlines: Outlines) -> Floats:
@@ -78,7 +82,12 @@ def _sizes(outlines: Outlines) -> Floats:
 
 
 def _characters(
-    outlines: Outlines, cut: Cut, roles: NDArray[np.uint8], styles: Sequence[Style], seed: int
+    outlines: Outlines,
+    cut: Cut,
+    roles: NDArray[np.uint8],
+    pairs: Pairs,
+    styles: Sequence[Style],
+    seed: int,
 ) -> tuple[Characters, Floats]:
     """Uses, styles and heights, and the height of the ridge where it is told (else 0)."""
     count = len(outlines.tags)
@@ -127,14 +136,20 @@ def _characters(
         ],
         1.0,
     )
-    least = np.array([one.storeys[0] for one in styles])[style]
-    most = np.array([one.storeys[1] for one in styles])[style]
-    storeys = np.clip(np.floor(np.round(wanted + 0.5, 6)), np.minimum(least, 3), most)
-    storeys = np.where(use == Use.OUTBUILDING, 1, storeys).astype(np.int32)
     levels = np.array([levels_of(tags.get("building:levels")) or 0 for tags in outlines.tags])
     tops = np.array([metres_of(tags.get("height")) or 0.0 for tags in outlines.tags])
+    building = np.asarray(outlines.ring_of)[ring_numbers(cut.offsets)]
+    span = length(cut.corners[after(cut.offsets)] - cut.corners)
+    front = single_fronts(roles == STREET, span, building, count)
+    welcome = np.isin(use, (Use.TOWNHOUSE, Use.APARTMENTS)) & ~shop & (levels == 0) & (tops == 0)
+    welcome &= chance(seed, 31).random(count) < 0.3
+    style = fit_fronts(style, welcome, front, 3.4 * np.floor(wanted + 0.5), pairs, styles, own)
+    storeys = storeys_of(style, wanted, styles, floor=3)
+    storeys = np.where(use == Use.OUTBUILDING, 1, storeys).astype(np.int32)
     # A style that suits the storeys that are told, if the one chosen does not.
-    style = _suiting(style, levels, styles)
+    style = _suiting(
+        style, np.where((levels > 0) | (tops == 0), levels, np.maximum(np.rint((tops - 1) / 3.1), 1)), styles
+    )
     storeys = np.where(levels > 0, levels, storeys).astype(np.int32)
     eaves = eaves_of(style, storeys, np.where(levels > 0, 0.0, lower), styles)
     low = np.round(2.3 + 0.1 * np.floor(10 * own) + (size > 60) * 0.8, 2)
@@ -149,11 +164,17 @@ def _characters(
 def _suiting(style: NDArray[np.int32], levels: Ints, styles: Sequence[Style]) -> NDArray[np.int32]:
     """For each building the first style that suits its storeys, if its own does not; the tallest where none does."""
     changed = style.copy()
-    tallest = max(range(len(styles)), key=lambda k: (styles[k].storeys[1], -k))
+    free = [k for k, one in enumerate(styles) if one.widths is None]
+    tallest = max(free, key=lambda k: (styles[k].storeys[1], -k))
     for k in np.flatnonzero(levels > 0).tolist():
         least, most = styles[style[k]].storeys
+        # Solved ones have a width that suits them, too.
         if not least <= levels[k] <= most:
-            fit = (j for j, one in enumerate(styles) if one.storeys[0] <= levels[k] <= one.storeys[1])
+            fit = (
+                j
+                for j, one in enumerate(styles)
+                if one.widths is None and one.storeys[0] <= levels[k] <= one.storeys[1]
+            )
             changed[k] = next(fit, tallest if levels[k] > most else int(style[k]))
     return changed
 

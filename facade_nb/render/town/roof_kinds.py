@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from .chance import Floats, chance, length, pick
 from .plan import FLAT, GABLE, HIP, MANSARD, ROOFS, SHED
-from .rings import Ints, after, areas, ring_numbers
+from .rings import Ints, after, areas, ring_numbers, take_rings
 from .roles import PARTY, STREET
 from .roofing import room_of
 from .shapes import Strips, find_strips
+from .skeletons import shrink
 from .styles import Style
 
 __all__ = ["Roofs", "choose_roofs"]
@@ -29,11 +30,12 @@ _SLOPES: Mapping[str, float] = {
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Roofs:
-    """Roofs of buildings (b,): kind, rise (metres), and the edge of the eaves, as of `Plan`."""
+    """Roofs of buildings (b,): kind, rise, the edge of the eaves, and run, as of `Plan`."""
 
     kind: NDArray[np.uint8]
     rise: Floats
     eave: NDArray[np.int32]
+    run: Floats
 
 
 def choose_roofs(
@@ -88,17 +90,18 @@ def choose_roofs(
     eave = np.where((kind == MANSARD) & ~party, -1, eave)
     kind = np.where((kind == MANSARD) & (eave < 0) & (room < 2.2), FLAT, kind)
     half = np.where(eave >= 0, width / 2, np.maximum(room, 0))
+    # Hips without a strip rise as far as they can, up to 7 m.
+    run = np.where((kind == HIP) & (eave < 0), np.round(7.0 / slope, 2), 0.0)
+    own = np.flatnonzero(run > 0)
+    if len(own):
+        index, rings = take_rings(offsets, own)
+        half[own] = shrink(corners[index], rings, run[own]).far
     rise = np.select(
         [kind == GABLE, kind == HIP, kind == MANSARD, kind == SHED],
-        [
-            np.minimum(slope * half, 7.5),
-            np.minimum(slope * half, 5.5),
-            np.full(count, 3.4),
-            np.minimum(0.5 * half, 2.4),
-        ],
+        [np.minimum(slope * half, 7.5), slope * half, np.full(count, 3.4), np.minimum(0.5 * half, 2.4)],
         0.0,
     )
-    return Roofs(kind.astype(np.uint8), np.round(rise, 2), eave.astype(np.int32))
+    return Roofs(kind.astype(np.uint8), np.round(rise, 2), eave.astype(np.int32), run)
 
 
 def _any(flags: NDArray[np.bool_], offsets: Ints) -> NDArray[np.bool_]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from mapbox_earcut import triangulate_int64
 from numpy.typing import NDArray
 
@@ -12,6 +13,7 @@ from .chance import Floats, length
 from .faces import Faces
 from .plan import FLAT, GABLE, HIP, MANSARD, SHED
 from .rings import Ints, after, areas, inset, offsets_of, ragged, ring_numbers, take_rings
+from .skeletons import shrink
 
 __all__ = ["Houses", "cover", "room_of", "triangulated"]
 
@@ -33,7 +35,7 @@ class Houses:
     ----------
     corners, offsets, ring_of
         Rings, those of a building one after the other, the outer one first.
-    roof, eaves, rise, eave
+    roof, eaves, rise, eave, run
         (b,) as of `Plan`.
     works
         (b,) whether shed roofs are sawtooth.
@@ -50,6 +52,7 @@ class Houses:
     eaves: Floats
     rise: Floats
     eave: Ints
+    run: Floats
     works: NDArray[np.bool_]
     start: dict[str, Floats]
     seed: Floats
@@ -70,8 +73,8 @@ def cover(faces: Faces, houses: Houses) -> None:
         counts = np.diff(houses.offsets)[outer]
         for count in np.unique(counts).tolist():
             _strip(faces, houses, kind, chosen[counts == count], int(count))
-    sloped = np.isin(houses.roof, (HIP, MANSARD)) & ~strip
-    _sloped(faces, houses, np.flatnonzero(sloped))
+    _mansards(faces, houses, np.flatnonzero((houses.roof == MANSARD) & ~strip))
+    _shrunk(faces, houses, np.flatnonzero((houses.roof == HIP) & ~strip))
     _flat(faces, houses, np.flatnonzero(houses.roof == FLAT))
 
 
@@ -190,32 +193,69 @@ def _hipped(faces: Faces, houses: Houses, own: Ints, front: Floats, rear: Floats
 
 
 def room_of(corners: Floats, offsets: Ints) -> Floats:
-    """How far a ring can be inset while it keeps its corners, of some steps up to 5 m."""
+    """How far a ring can be inset while it keeps its corners and does not touch itself, of some steps up to 5 m."""
     room = np.zeros(len(offsets) - 1)
     for before, step in ((0.0, 1.5), (1.5, 2.2), (2.2, 3.0), (3.0, 4.0), (4.0, 5.0)):
-        _, whole = inset(corners, offsets, step)
-        room = np.where(whole & (room == before), step, room)
+        going = np.flatnonzero(room == before)
+        index, own = take_rings(offsets, going)
+        moved, whole = inset(corners[index], own, step)
+        whole &= _simple(moved, own)
+        room[going[whole]] = step
     return room
 
 
-def _sloped(faces: Faces, houses: Houses, own: Ints) -> None:
-    """Hips and mansards all round: slopes between insets, flat above."""
+def _simple(corners: Floats, offsets: Ints) -> NDArray[np.bool_]:
+    """Whether rings do not cross themselves."""
+    if len(offsets) < 2:
+        return np.zeros(0, bool)
+    rings = shapely.linearrings(corners, indices=ring_numbers(offsets))
+    return np.asarray(shapely.is_valid(shapely.polygons(rings)))
+
+
+def _shrunk(faces: Faces, houses: Houses, own: Ints) -> None:
+    """Hipped roofs over any footprint: each plane rises from its edge to the ridges, or to a level top."""
+    if not len(own):
+        return
+    index, offsets = take_rings(houses.offsets, houses.first[own])
+    ring = houses.corners[index]
+    run = houses.run[own]
+    shrunk = shrink(ring, offsets, run)
+    slope = houses.rise[own] / np.maximum(shrunk.far, 1e-9)
+    number = ring_numbers(offsets)[shrunk.edge]
+    owner = own[number]
+
+    def height(far: Floats, of: Ints) -> Floats:
+        return np.round(houses.eaves[own][of] + far * slope[of], 3)
+
+    low, high = height(shrunk.low, number), height(shrunk.high, number)
+    points = np.concatenate([shrunk.strips, np.stack([low, low, high, high], axis=1)[:, :, None]], axis=2)
+    foot, end = ring[shrunk.edge], ring[after(offsets)[shrunk.edge]]
+    level = np.column_stack([foot, houses.eaves[owner]])
+    along = np.column_stack([end - foot, np.zeros(len(foot))])
+    faces.planes(points, along, houses.start["roof"][owner], houses.seed[owner], owner, level, shrunk.edge)
+    corners, tops, of = shrunk.tops
+    if len(of):
+        order = np.argsort(of, kind="stable")
+        index, tops = take_rings(tops, order)
+        of = of[order]
+        _level(faces, houses, own[of], tops, own[of], corners[index], height(shrunk.far[of], of))
+
+
+def _mansards(faces: Faces, houses: Houses, own: Ints) -> None:
+    """Mansards all round: a steep slope, a gentle one, flat above."""
     if not len(own):
         return
     index, offsets = take_rings(houses.offsets, houses.first[own])
     ring = houses.corners[index]
     room = room_of(ring, offsets)
-    mansard = houses.roof[own] == MANSARD
     level = houses.eaves[own]
     top = level + houses.rise[own]
     rings = ring_numbers(offsets)
-    knee = np.where(mansard, BRISK, room)
-    first, _ = inset(ring, offsets, knee[rings])
-    height = np.round(np.where(mansard, level + 0.72 * houses.rise[own], top), 3)
-    _between(faces, houses, own, offsets, ring, level, first, height, np.ones(len(own), bool))
-    second, _ = inset(ring, offsets, room[rings])
-    _between(faces, houses, own, offsets, first, height, second, top, mansard)
-    upper = np.where(mansard[rings][:, None], second, first)
+    knee, _ = inset(ring, offsets, BRISK)
+    height = np.round(level + 0.72 * houses.rise[own], 3)
+    _between(faces, houses, own, offsets, ring, level, knee, height)
+    upper, _ = inset(ring, offsets, room[rings])
+    _between(faces, houses, own, offsets, knee, height, upper, top)
     _level(faces, houses, own, offsets, own, upper, top)
 
 
@@ -228,12 +268,9 @@ def _between(
     low: Floats,
     upper: Floats,
     high: Floats,
-    chosen: NDArray[np.bool_],
 ) -> None:
-    """Slopes from rings at one height (b,) to rings at another, of the chosen buildings."""
-    rings, following = ring_numbers(offsets), after(offsets)
-    i = np.flatnonzero(chosen[rings])
-    j, b = following[i], rings[i]
+    """Slopes from rings at one height (b,) to rings at another."""
+    b, i, j = ring_numbers(offsets), np.arange(len(lower)), after(offsets)
     quad = np.stack(
         [
             np.column_stack([p, h])
@@ -257,8 +294,13 @@ def _flat(faces: Faces, houses: Houses, own: Ints) -> None:
     index, offsets = take_rings(houses.offsets, rings)
     outer, building = houses.corners[index], houses.ring_of[rings]
     inner, whole = inset(outer, offsets, COPING)
+    whole &= _simple(inner, offsets)
     walled = np.ones(len(houses.roof), bool)
     np.logical_and.at(walled, building, whole)
+    holed = np.flatnonzero(np.bincount(building, minlength=len(walled)) > 1)
+    for one in holed[walled[holed]].tolist():  # courtyards may come too near the outer wall
+        shell, *yards = (inner[offsets[k] : offsets[k + 1]] for k in np.flatnonzero(building == one))
+        walled[one] = shapely.is_valid(shapely.Polygon(shell, yards))
     number = ring_numbers(offsets)
     following = after(offsets)
     i = np.flatnonzero(walled[building][number])
