@@ -65,6 +65,8 @@ class Pass:
         ``mesh``: the scene's triangles, seen through the matrix `through`; ``screen``: every pixel.
     through
         The name of that matrix.
+    both
+        Whether a triangle is drawn from behind, too: shadows of a mesh that is open are whole all the same.
     defines
         Given to the shader.
     when
@@ -81,6 +83,7 @@ class Pass:
     vertex: str = "whole.vert"
     draws: Literal["mesh", "screen"] = "screen"
     through: str = ""
+    both: bool = False
     defines: tuple[str, ...] = ()
     when: str = ""
 
@@ -111,9 +114,9 @@ BUFFERS: tuple[Buffer, ...] = (
 _MESH = ("place", "rule", "facing", "along")
 PASSES: tuple[Pass, ...] = (
     Pass("shadow near", "shadow.frag", (), ("shadow_near",), "Draws what the sun sees around the camera.",
-         "shadow.vert", "mesh", "sun_near", when="shadow"),
+         "shadow.vert", "mesh", "sun_near", both=True, when="shadow"),
     Pass("shadow far", "shadow.frag", (), ("shadow_far",), "Draws what the sun sees of all.",
-         "shadow.vert", "mesh", "sun_far", when="shadow"),
+         "shadow.vert", "mesh", "sun_far", both=True, when="shadow"),
     Pass("G-buffer", "gbuffer.frag", (), (*_MESH, "depth"), "Draws the mesh, and notes what the grammar will ask.",
          "mesh.vert", "mesh", "camera"),
     Pass("grammar", "grammar.frag", _MESH, ("color", "normal", "specular"),

@@ -169,7 +169,7 @@ class Renderer:
                     program[name].value = value
         if own.draws == "mesh":
             target.clear(depth=1.0)
-            context.enable(context.DEPTH_TEST | context.CULL_FACE)
+            context.enable(context.DEPTH_TEST | (0 if own.both else context.CULL_FACE))
             context.front_face, context.cull_face = "ccw", "back"
             for first, count in visible(self.scene, uniforms[own.through]):
                 self._meshes[own.name].render(context.TRIANGLES, vertices=count, first=first)

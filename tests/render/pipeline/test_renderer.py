@@ -42,6 +42,7 @@ def street() -> list[Facade]:
         found += box(
             grammar, 11, 13 + k, 9, at=at, turn=12.0 * k, seed=(7.0 * k, 3.25), side="Side", roof=0.0
         )
+    found += box(grammar, 8, 12, 6, at=(-24.0, 16.0), side="Side", roof=0.0)  # not seen, but its shadow is
     ground = Facade(
         grammar, (120.0, 120.0), (-60.0, 0.0, 60.0), (1.0, 0.0, 0.0), (0.0, 0.0, -1.0), start="Ground"
     )
