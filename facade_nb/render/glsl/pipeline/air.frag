@@ -16,13 +16,12 @@ void main() {
   vec3 ray = ray_at(gl_FragCoord.xy);
   float depth = texelFetch(facing, at, 0).w;
   vec4 seen = texelFetch(light, at, 0);
-  vec3 sky = sky_along(ray);
   if (depth <= 0.0) {
-    out_air = vec4(sky, 0.0);
+    out_air = vec4(sky_along(ray), 0.0);
     return;
   }
   float clear = haze > 0.0 ? exp(-pow(depth * length(ray) / haze, 1.4)) : 1.0;
-  vec3 mist = sky_along(vec3(ray.x, max(ray.y, 0.02 * length(ray)), ray.z));
-  vec3 shown = seen.rgb + (1.0 - clamp(seen.a, 0.0, 1.0)) * sky;
+  vec3 mist = clear_sky(normalize(vec3(ray.x, max(ray.y, 0.02 * length(ray)), ray.z)));
+  vec3 shown = seen.rgb + (1.0 - clamp(seen.a, 0.0, 1.0)) * mist;
   out_air = vec4(mix(mist, shown, clear), 1.0);
 }

@@ -1,11 +1,46 @@
-// The sky along a direction, linear (NumPy: daytime.py).
+// The sky along a direction, linear (NumPy: daytime.py), and fair-weather clouds before it.
+#include "mixed.glsl"
 
 uniform vec3 zenith;
 uniform vec3 horizon;
+uniform vec3 sky;
 
-vec3 sky_along(vec3 ray) {
-  vec3 to = normalize(ray);
+vec3 clear_sky(vec3 to) {
   float rise = pow(clamp(to.y, 0.0, 1.0), 0.7);
   float glow = pow(clamp(dot(to, towards), 0.0, 1.0), 24.0);
   return mix(horizon, zenith, rise) + 0.16 * glow * sun;
+}
+
+float grain(ivec2 cell) {
+  return float(mixed(mixed(uint(cell.x + 4096)) ^ uint(cell.y + 4096)) >> 8u) * (1.0 / 16777216.0);
+}
+
+// Smooth noise from 0 to 1.
+float smooth_noise(vec2 at) {
+  vec2 low = floor(at);
+  vec2 part = at - low;
+  part = part * part * (3.0 - 2.0 * part);
+  ivec2 cell = ivec2(low);
+  float under = mix(grain(cell), grain(cell + ivec2(1, 0)), part.x);
+  float over = mix(grain(cell + ivec2(0, 1)), grain(cell + ivec2(1, 1)), part.x);
+  return mix(under, over, part.y);
+}
+
+// Clouds lie on a plane, so they draw together towards the horizon; there they go over into the haze.
+vec3 sky_along(vec3 ray) {
+  vec3 to = normalize(ray);
+  vec3 found = clear_sky(to);
+  if (to.y < 0.03) return found;
+  vec2 at = to.xz / (to.y + 0.15) * 1.3 + vec2(7.3, 2.1);
+  float thick = 0.0;
+  float part = 0.5;
+  for (int k = 0; k < 5; ++k) {
+    thick += part * smooth_noise(at);
+    at = mat2(1.6, 1.2, -1.2, 1.6) * at + 3.7;
+    part *= 0.5;
+  }
+  float cover = smoothstep(0.50, 0.74, thick) * smoothstep(0.03, 0.22, to.y);
+  float lit = 0.75 + 0.5 * pow(clamp(dot(to, towards), 0.0, 1.0), 6.0);
+  vec3 cloud = 0.30 * lit * sun + 1.05 * sky + 0.25 * horizon;
+  return mix(found, cloud, 0.72 * cover);
 }
