@@ -11,7 +11,7 @@ from .footprints import District
 from .plan import Ground
 from .rings import Ints, after, ring_numbers, take_rings
 from .roofing import triangulated
-from .streets import Cells
+from .streets import AVENUE, Cells
 
 __all__ = ["Pieces", "ground_of"]
 
@@ -86,15 +86,30 @@ class Pieces:
 
 
 def _fields(pieces: Pieces, cells: Cells, others: Ints) -> None:
-    """What lies around the town: cells that are not built up, and what is beyond them all, as far as one sees."""
-    index, offsets = take_rings(cells.offsets, others)
-    corners, number = cells.corners[index], ring_numbers(offsets)
-    triangles = triangulated(corners, offsets, np.arange(len(others)))
-    pieces.add(corners, triangles, np.full(len(corners), GRASS), number)
-    # Edges that no cell has the other way are the rim. It lies around the market, so that it can be drawn apart.
+    """What lies around the town: cells that are not built up, and what is beyond them all, as far as one sees.
+
+    Main streets go on there, and those between a cell that is built up and one that is not have both their halves.
+    """
     _, name = np.unique(cells.corners, axis=0, return_inverse=True)
     start = name.reshape(-1).astype(np.int64)
     end = start[after(cells.offsets)]
+    every = np.isin(ring_numbers(cells.offsets), others)
+    built = np.isin(start * len(start) + end, (end * len(start) + start)[~every])
+    index, offsets = take_rings(cells.offsets, others)
+    outer, kerb, number = cells.corners[index], cells.kerbs[index], ring_numbers(offsets)
+    good = (cells.sizes[others] > 0)[number]
+    street = built | (cells.street <= AVENUE)
+    i = np.flatnonzero(good)
+    j = after(offsets)[i]
+    quad = np.stack([outer[i], outer[j], kerb[j], kerb[i]], axis=1).reshape(-1, 2)
+    corner = 4 * np.arange(len(i))[:, None]
+    triangles = np.concatenate([corner + np.array([0, 1, 2]), corner + np.array([0, 2, 3])])
+    kind = np.repeat(np.where(street[index[i]], ASPHALT, GRASS), 4)
+    pieces.add(quad, triangles, kind, np.arange(len(quad)) // 4)
+    inner = np.where(good[:, None], kerb, outer)
+    triangles = triangulated(inner, offsets, np.arange(len(others)))
+    pieces.add(inner, triangles, np.full(len(inner), GRASS), number)
+    # Edges that no cell has the other way are the rim. It lies around the market, so that it can be drawn apart.
     rim = np.flatnonzero(~np.isin(start * len(start) + end, end * len(start) + start))
     here, there = cells.corners[rim], cells.corners[after(cells.offsets)[rim]]
     reach = float(length(here).max())
