@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import numpy as np
-import shapely
+from dataclasses import dataclass, field
 
-from .chance import Floats
+import numpy as np
+
+from .chance import Floats, length, millimetres
 from .footprints import District
 from .plan import Ground
 from .rings import Ints, after, ring_numbers, take_rings
 from .roofing import triangulated
-from .streets import Cells
+from .streets import AVENUE, Cells
 
-__all__ = ["ground_of"]
+__all__ = ["Pieces", "ground_of"]
 
 ASPHALT, PAVEMENT, COURT, GRASS = range(4)
 
@@ -42,45 +43,80 @@ def ground_of(cells: Cells, district: Ints, built: Ints) -> Ground:
     number = ring_numbers(offsets)
     i = np.flatnonzero(good[number])
     j = after(offsets)[i]
-    pieces: list[tuple[Floats, Ints, Ints]] = []
+    pieces = Pieces()
     for one, other, name in ((outer, kerb, ASPHALT), (kerb, block, PAVEMENT)):
         quad = np.stack([one[i], one[j], other[j], other[i]], axis=1).reshape(-1, 2)
         corner = 4 * np.arange(len(i))[:, None]
         triangles = np.concatenate([corner + np.array([0, 1, 2]), corner + np.array([0, 2, 3])])
-        pieces.append((quad, triangles, np.full(len(triangles), name)))
+        pieces.add(quad, triangles, np.full(len(quad), name), np.arange(len(quad)) // 4)
     kinds = np.array([_INSIDE.get(k, GRASS) for k in range(8)])[district[chosen]]
     inner = np.where(good[number][:, None], block, outer)
     triangles = triangulated(inner, offsets, np.arange(len(chosen)))
-    pieces.append((inner, triangles, np.where(good, kinds, ASPHALT)[number[triangles[:, 0]]]))
-    pieces.append(_fields(outer, offsets))
-    starts = np.cumsum([0] + [len(points) for points, _, _ in pieces])
-    corners = np.concatenate([points for points, _, _ in pieces])
-    every = np.concatenate([t + start for (_, t, _), start in zip(pieces, starts[:-1], strict=True)])
-    kind = np.concatenate([k for _, _, k in pieces]).astype(np.uint8)
-    a, b, c = (np.rint(corners[every[:, k]] * 1000).astype(np.int64) for k in range(3))
-    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-    return Ground(corners, every[area > 0], kind[area > 0])
+    pieces.add(inner, triangles, np.where(good, kinds, ASPHALT)[number], number)
+    _fields(pieces, cells, np.flatnonzero(~inside))
+    return pieces.ground()
 
 
-def _fields(corners: Floats, offsets: Ints) -> tuple[Floats, Ints, Ints]:
-    """What lies around the cells, as far as one sees."""
-    rings = shapely.linearrings(corners, indices=ring_numbers(offsets))
-    town = shapely.coverage_union_all(shapely.polygons(rings))
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    wide = np.ceil(max(800.0, float((high - low).max()) * 0.5) / 100) * 100
-    low, high = np.floor(low / 100) * 100 - wide, np.ceil(high / 100) * 100 + wide
-    square = shapely.box(low[0], low[1], high[0], high[1])
-    parts = shapely.get_parts(shapely.difference(square, town))
-    found, polygon, counts = [], [], []
-    for k, part in enumerate(parts):
-        inner = range(shapely.get_num_interior_rings(part))
-        shells = [shapely.get_exterior_ring(part), *(shapely.get_interior_ring(part, n) for n in inner)]
-        for shell in shells:
-            points = shapely.get_coordinates(shell)[:-1]
-            found.append(points)
-            polygon.append(k)
-            counts.append(len(points))
-    points = np.concatenate(found)
-    ends = np.concatenate([[0], np.cumsum(counts)])
-    triangles = triangulated(points, ends, np.array(polygon))
-    return points, triangles, np.full(len(triangles), GRASS)
+@dataclass(slots=True)
+class Pieces:
+    """Gathers pieces of ground."""
+
+    parts: list[tuple[Floats, Ints, Ints, Ints]] = field(default_factory=list)
+
+    def add(self, corners: Floats, triangles: Ints, kind: Ints, piece: Ints) -> None:
+        """Corners with their kinds and pieces, and triangles of them."""
+        if len(corners):
+            self.parts.append((corners, triangles, kind, piece))
+
+    def ground(self) -> Ground:
+        """All of them, without triangles that are lines."""
+        corners, triangles, kind, piece = zip(*self.parts, strict=True)
+        starts = np.cumsum([0] + [len(points) for points in corners[:-1]])
+        numbers = np.cumsum([0] + [int(own.max()) + 1 for own in piece[:-1]])
+        every = np.concatenate([t + start for t, start in zip(triangles, starts, strict=True)])
+        points = np.concatenate(corners)
+        a, b, c = (np.rint(points[every[:, k]] * 1000).astype(np.int64) for k in range(3))
+        area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+        return Ground(
+            points,
+            every[area > 0],
+            np.concatenate(kind).astype(np.uint8),
+            np.concatenate([own + first for own, first in zip(piece, numbers, strict=True)]),
+        )
+
+
+def _fields(pieces: Pieces, cells: Cells, others: Ints) -> None:
+    """What lies around the town: cells that are not built up, and what is beyond them all, as far as one sees.
+
+    Main streets go on there, and those between a cell that is built up and one that is not have both their halves.
+    """
+    _, name = np.unique(cells.corners, axis=0, return_inverse=True)
+    start = name.reshape(-1).astype(np.int64)
+    end = start[after(cells.offsets)]
+    every = np.isin(ring_numbers(cells.offsets), others)
+    built = np.isin(start * len(start) + end, (end * len(start) + start)[~every])
+    index, offsets = take_rings(cells.offsets, others)
+    outer, kerb, number = cells.corners[index], cells.kerbs[index], ring_numbers(offsets)
+    good = (cells.sizes[others] > 0)[number]
+    street = built | (cells.street <= AVENUE)
+    i = np.flatnonzero(good)
+    j = after(offsets)[i]
+    quad = np.stack([outer[i], outer[j], kerb[j], kerb[i]], axis=1).reshape(-1, 2)
+    corner = 4 * np.arange(len(i))[:, None]
+    triangles = np.concatenate([corner + np.array([0, 1, 2]), corner + np.array([0, 2, 3])])
+    kind = np.repeat(np.where(street[index[i]], ASPHALT, GRASS), 4)
+    pieces.add(quad, triangles, kind, np.arange(len(quad)) // 4)
+    inner = np.where(good[:, None], kerb, outer)
+    triangles = triangulated(inner, offsets, np.arange(len(others)))
+    pieces.add(inner, triangles, np.full(len(inner), GRASS), number)
+    # Edges that no cell has the other way are the rim. It lies around the market, so that it can be drawn apart.
+    rim = np.flatnonzero(~np.isin(start * len(start) + end, end * len(start) + start))
+    here, there = cells.corners[rim], cells.corners[after(cells.offsets)[rim]]
+    reach = float(length(here).max())
+    times = np.round(max(2.0, 3000.0 / reach), 1)
+    quad = np.stack([here, millimetres(here * times), millimetres(there * times), there], axis=1).reshape(
+        -1, 2
+    )
+    corner = 4 * np.arange(len(rim))[:, None]
+    triangles = np.concatenate([corner + np.array([0, 1, 2]), corner + np.array([0, 2, 3])])
+    pieces.add(quad, triangles, np.full(len(quad), GRASS), np.arange(len(quad)) // 4)

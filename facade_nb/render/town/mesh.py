@@ -127,13 +127,11 @@ def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> None:
     low = np.floor(ground.corners.min(axis=0))
     size = np.ceil(ground.corners.max(axis=0)) - low
     count = len(ground.corners)
-    kind = np.zeros(count, np.int64)
-    kind[ground.triangles] = ground.kind[:, None]
     faces.loose(
         np.column_stack([ground.corners, np.zeros(count)]),
         ground.corners - low,
         np.tile(size, (count, 1)),
-        start[kind],
+        start[ground.kind],
         np.zeros((count, 2)),
         np.tile([0.0, 0.0, 1.0], (count, 1)),
         np.tile([1.0, 0.0, 0.0], (count, 1)),
@@ -151,14 +149,15 @@ def _chunked(faces: Faces, plan: Plan, facades: int, houses: int) -> Mesh:
     cell = np.floor(middle / CELL).astype(np.int64)
     key = np.empty(len(vertices), np.int64)
     key[:houses] = _code(cell)[owner[:houses]]
-    # Ground goes with the cell of its first triangle's middle; corners are not shared by pieces of ground far apart.
-    ground = triangles[owner[triangles[:, 0]] < 0]
-    at = vertices["position"][:, [0, 2]].astype(np.float64) * (1, -1)
-    where = _code(
-        np.floor((at[ground[:, 0]] + at[ground[:, 1]] + at[ground[:, 2]]) / 3 / CELL).astype(np.int64)
-    )
-    key[houses:] = _code(np.floor(at[houses:] / CELL).astype(np.int64))
-    key[ground[::-1].ravel()] = np.repeat(where[::-1], 3)
+    # A piece of ground goes with the cell of its middle.
+    at, piece = plan.ground.corners, plan.ground.piece
+    count = np.maximum(np.bincount(piece), 1)
+    sums = [
+        np.bincount(piece, weights=np.rint(at[:, k] * 1000)) for k in (0, 1)
+    ]  # whole numbers add up exactly
+    key[houses:] = _code(np.floor(np.stack(sums, axis=1) / count[:, None] / 1000 / CELL).astype(np.int64))[
+        piece
+    ]
     order = np.lexsort((owner, key))
     moved = np.empty(len(order), np.int64)
     moved[order] = np.arange(len(order))

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from .chance import Floats, millimetres
+from .grounds import Pieces
 from .plan import Ground
 from .rings import Ints, line_offsets, offsets_of, ring_numbers
 from .roofing import triangulated
@@ -55,15 +57,11 @@ def plain_of(offsets: Ints, corners: Floats) -> Ground:
     paved = shapely.intersection(tiles[built], joined)
     green = shapely.difference(tiles[built], joined)
     empty = np.delete(tiles, built)
-    pieces = [_triangles(shapely.get_parts(paved), _PAVEMENT), _triangles(shapely.get_parts(green), _GRASS)]
-    pieces.append(_triangles(empty, _GRASS))
-    pieces.append(_triangles(_frame(x, y), _GRASS))
-    starts = np.cumsum([0] + [len(points) for points, _, _ in pieces])
-    return Ground(
-        np.concatenate([points for points, _, _ in pieces]),
-        np.concatenate([t + start for (_, t, _), start in zip(pieces, starts[:-1], strict=True)]),
-        np.concatenate([kind for _, _, kind in pieces]).astype(np.uint8),
-    )
+    pieces = Pieces()
+    _triangles(pieces, shapely.get_parts(paved), _PAVEMENT)
+    for parts in (shapely.get_parts(green), empty, _frame(x, y)):
+        _triangles(pieces, parts, _GRASS)
+    return pieces.ground()
 
 
 def _frame(x: Floats, y: Floats) -> np.ndarray:
@@ -87,14 +85,14 @@ def _frame(x: Floats, y: Floats) -> np.ndarray:
     return np.array([shapely.Polygon(shell, [hole])], object)
 
 
-def _triangles(polygons: np.ndarray, kind: int) -> tuple[Floats, Ints, Ints]:
-    """Corners, triangles and kinds of polygons; lines and points among them are passed over."""
+def _triangles(pieces: Pieces, polygons: NDArray[np.object_], kind: int) -> None:
+    """Add polygons; lines and points among them are passed over."""
     polygons = polygons[shapely.get_type_id(polygons) == 3]
     if not len(polygons):
-        return np.zeros((0, 2)), np.zeros((0, 3), np.int64), np.zeros(0, np.int64)
+        return
     rings, polygon = shapely.get_rings(polygons, return_index=True)
     points, ring = shapely.get_coordinates(rings, return_index=True)
     closing = np.append(ring[1:] != ring[:-1], True)
     points, ring = millimetres(points[~closing]), ring[~closing]
     triangles = triangulated(points, offsets_of(np.bincount(ring, minlength=len(rings))), polygon)
-    return points, triangles, np.full(len(triangles), kind)
+    pieces.add(points, triangles, np.full(len(points), kind), polygon[ring])

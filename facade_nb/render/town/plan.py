@@ -58,7 +58,9 @@ class Ground:
     triangles
         (t, 3) of them, counter-clockwise seen from above.
     kind
-        (t,) index into `names`. All triangles of a corner are of one kind.
+        (v,) index into `names`. All corners of a triangle are of one kind.
+    piece
+        (v,) which piece of ground a corner belongs to; pieces share no corners.
     names
         Asphalt, pavement, court, grass.
     """
@@ -66,6 +68,7 @@ class Ground:
     corners: Floats
     triangles: Ints
     kind: NDArray[np.uint8]
+    piece: Ints
     names: tuple[str, ...] = ("asphalt", "pavement", "court", "grass")
 
 

@@ -160,7 +160,8 @@ def test_the_street_is_before_streets_walls_and_not_before_others(town: Town) ->
     plan = town.plan
     ground = plan.ground
     asphalt = shapely.union_all(
-        shapely.polygons(ground.corners[ground.triangles[ground.kind == 0]]), grid_size=0.001
+        shapely.polygons(ground.corners[ground.triangles[ground.kind[ground.triangles[:, 0]] == 0]]),
+        grid_size=0.001,
     )
     shapely.prepare(asphalt)
     polygons = polygons_of(plan)

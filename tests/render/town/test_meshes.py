@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 
 from facade_nb.render.pipeline import VERTEX
 from facade_nb.render.pipeline.vertices import SEEDS
@@ -195,5 +196,7 @@ def test_the_ground_lies_level_and_does_not_overlap(town: Town) -> None:
     a, b, c = (ground.corners[ground.triangles[:, k]] for k in range(3))
     area = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
     assert (area > 0).all()
-    low, high = ground.corners.min(axis=0), ground.corners.max(axis=0)
-    assert area.sum() == pytest.approx(float(np.prod(high - low)), rel=1e-6)
+    rim = shapely.union_all([shapely.Polygon(ring) for ring in np.stack([a, b, c], axis=1)], grid_size=0.001)
+    assert rim.area == pytest.approx(float(area.sum()), rel=1e-6)
+    assert sum(shapely.Polygon(ring).area for ring in rim.interiors) < 1e-3 * len(area)  # and there is no gap
+    assert (ground.kind[ground.triangles] == ground.kind[ground.triangles[:, :1]]).all()
