@@ -115,7 +115,7 @@ def _town(options: argparse.Namespace) -> Town:
 def _stills(
     options: argparse.Namespace, renderer: Renderer, place: Viewpoint, seconds: dict[str, float], begin: float
 ) -> list[tuple[Output, str | bytes]]:
-    from .render.pipeline.still import buffers_of, still
+    from .render.pipeline.stills import buffers_of, still
     from .render.texture.daytime import Daytime
 
     daytime, frustum = Daytime.at(options.hour), place.frustum(options.pixels)
@@ -140,7 +140,7 @@ def _frames(
 ) -> list[tuple[Output, str | bytes]]:
     from PIL import Image
 
-    from .render.pipeline.still import still
+    from .render.pipeline.stills import still
     from .render.texture.daytime import Daytime
 
     daytime, tell = Daytime.at(options.hour), _teller("frames")

@@ -11,7 +11,6 @@ import shapely
 
 from ..pipeline.viewpoint import Viewpoint
 from .plan import STREET, Plan
-from .rings import areas
 
 __all__ = ["VIEWS", "View", "viewpoint"]
 
@@ -66,14 +65,12 @@ def _middles(plan: Plan) -> np.ndarray:
 
 
 def _densest(plan: Plan) -> tuple[np.ndarray, float]:
-    """The middle of the part with the most built, and how far the town reaches around it, up to a quarter of a mile."""
+    """The middle of the part with the most storeys that people live in, and how far the town reaches around it."""
     middles = _middles(plan)
-    built = np.zeros(len(plan))
-    np.add.at(built, plan.ring_of, areas(plan.corners, plan.rings))
     cell = np.floor(middles / _CELL).astype(np.int64)
     low = cell.min(axis=0)
     table = np.zeros(cell.max(axis=0) - low + 3)
-    np.add.at(table, tuple((cell - low + 1).T), np.rint(built * plan.eaves))
+    np.add.at(table, tuple((cell - low + 1).T), np.where(plan.kind <= 1, plan.storeys, 0))
     around = sum(np.roll(table, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)) + table
     best = np.unravel_index(int(np.argmax(around)), table.shape)
     spot = (np.array(best) + low - 1 + 0.5) * _CELL
@@ -97,7 +94,8 @@ def _street(plan: Plan, spot: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
         across = _free(tree, (a + b) / 2, out, 40.0)
         aside = min(0.45 * across, 5.5)
         free = _free(tree, a + out * aside - along * 4.0, along, 130.0)
-        worth = round(min(free, 110.0) + 3.0 * float(plan.eaves[building]) - abs(across - 15.0), 1)
+        sunny = 18.0 * max(-float(out[1]), 0.0)  # it looks south
+        worth = round(min(free, 110.0) + 3.0 * float(plan.eaves[building]) - abs(across - 15.0) + sunny, 1)
         if across > 5.0 and (best is None or worth > best[0]):
             best = worth, (a, along, out, free, across)
     if best is None:

@@ -6,6 +6,7 @@ import random
 import shutil
 import subprocess
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -53,6 +54,13 @@ class TestPasses:
     def test_one_can_be_added(self) -> None:
         sepia = Pass("sepia", "tone.frag", ("air",), ("brown",), "Brown.")
         assert arranged([*PASSES, sepia], [*BUFFERS, Buffer("brown", 4, "f1", "Brown.")])[-1] is sepia
+
+    def test_the_page_has_them(self) -> None:
+        page = (Path(__file__).parents[3] / "docs" / "pipeline.md").read_text()
+        for own in PASSES:
+            cells = [", ".join(f"`{name}`" for name in names) for names in (own.reads, own.writes)]
+            row = f"| {own.name} | {cells[0]} | {cells[1]} | {own.tells} |".replace("|  |", "| |")
+            assert row in page
 
     def test_sizes_of_buffers(self) -> None:
         sizes = {own.name: own.size((101, 60)) for own in BUFFERS}

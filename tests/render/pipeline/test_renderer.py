@@ -14,13 +14,13 @@ import pytest
 from facade_nb import gallery
 from facade_nb.render import Grammar
 from facade_nb.render.developing import developed
-from facade_nb.render.pipeline import still as stills
+from facade_nb.render.pipeline import stills
 from facade_nb.render.pipeline.device import DEVICES, choose_device
 from facade_nb.render.pipeline.frame import Frame, Looks
 from facade_nb.render.pipeline.passes import BUFFERS, PASSES
 from facade_nb.render.pipeline.renderer import Renderer, renderer_of
 from facade_nb.render.pipeline.scene import Scene
-from facade_nb.render.pipeline.still import buffers_of, still
+from facade_nb.render.pipeline.stills import buffers_of, still
 from facade_nb.render.pipeline.viewpoint import Viewpoint
 from facade_nb.render.texture.daytime import Daytime, light
 from facade_nb.render.texture.evaluating import evaluate
@@ -295,7 +295,7 @@ from facade_nb import gallery
 from facade_nb.render.pipeline.device import DEVICES
 from facade_nb.render.pipeline.renderer import renderer_of
 from facade_nb.render.pipeline.scene import Scene
-from facade_nb.render.pipeline.still import still
+from facade_nb.render.pipeline.stills import still
 from facade_nb.render.texture.facades import box
 from facade_nb.render import Grammar
 grammar = Grammar.parse(gallery.grammar("figure-10"))

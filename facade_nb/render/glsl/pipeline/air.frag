@@ -21,7 +21,7 @@ void main() {
     return;
   }
   float clear = haze > 0.0 ? exp(-pow(depth * length(ray) / haze, 1.4)) : 1.0;
-  vec3 mist = clear_sky(normalize(vec3(ray.x, max(ray.y, 0.02 * length(ray)), ray.z)));
+  vec3 mist = mix(clear_sky(level(ray)), mist_along(ray), clear);  // furthest out it is the horizon itself
   vec3 shown = seen.rgb + (1.0 - clamp(seen.a, 0.0, 1.0)) * mist;
   out_air = vec4(mix(mist, shown, clear), 1.0);
 }
