@@ -11,7 +11,7 @@ from ..shared.bundled import Message, ModelWire
 from ..studio.wire import describe_faults
 from .model import TextureModel
 from .packet import derivation, light_piece, scene_piece, tiles_piece
-from .stills import still
+from .still import still
 
 __all__ = ["TextureChannel"]
 

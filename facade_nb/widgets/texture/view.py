@@ -17,7 +17,7 @@ from ..shared.bundled import as_run, bundle
 from .channel import TextureChannel
 from .model import TextureModel
 from .packet import grammar_table, step_text
-from .stills import image
+from .still import image
 
 __all__ = ["GrammarEditor", "GrammarTable", "PixelInspector", "TextureStudio", "TextureView"]
 
