@@ -1,11 +1,12 @@
 """The files of a command: what it reads and what it writes, so that nothing is overwritten unasked.
 
-A command says which of its arguments are paths by their types, ``type=Source`` and ``type=Output``. `check` then looks
-at every pair of them before anything is read or computed, and `write` writes what was computed, together.
+A command says which of its arguments are paths by their types: `Source`, `Output` and `Folder`. `check` then looks at
+every pair of them before anything is read or computed, and `write` writes what was computed, together.
 """
 
 from __future__ import annotations
 
+import os
 import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
@@ -18,7 +19,7 @@ from .design.errors import DesignError, Fault
 from .design.files import write_together
 from .design.targets import Target, locate, one_file, try_out
 
-__all__ = ["STANDARD_OUTPUT", "Output", "Source", "check", "write"]
+__all__ = ["STANDARD_OUTPUT", "Folder", "Output", "Source", "check", "write"]
 
 
 class Source(str):
@@ -53,6 +54,12 @@ class Output(str):
         return self == "-"
 
 
+class Folder(str):
+    """The path of a folder that a command writes files into, under names of its own. It is made where there is none."""
+
+    __slots__ = ()
+
+
 STANDARD_OUTPUT = Output("-")
 
 
@@ -67,11 +74,7 @@ def check(options: Namespace) -> None:
         With the argument as its place. No file has been touched.
     """
     sources = [(name, value) for name, value in vars(options).items() if isinstance(value, Source)]
-    outputs = [
-        (f"--{name.replace('_', '-')}", value)
-        for name, value in vars(options).items()
-        if isinstance(value, Output)
-    ]
+    outputs = [(_option(name), value) for name, value in vars(options).items() if isinstance(value, Output)]
     targets = [(name, value, _target(name, value)) for name, value in outputs]
     for kind, source in sources:
         for file, read in _read(source):
@@ -90,6 +93,39 @@ def check(options: Namespace) -> None:
     for _, _, target in targets:
         if target:
             try_out(target)
+    folders = [(_option(name), value) for name, value in vars(options).items() if isinstance(value, Folder)]
+    files = [(_option(name), Path(value)) for name, value in sources]
+    files += [(name, Path(value)) for name, value in outputs if not value.is_standard]
+    for name, folder in folders:
+        _check_folder(name, folder, files + [(b, Path(other) / "a") for b, other in folders if b < name])
+
+
+def _option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
+
+
+def _check_folder(name: str, folder: Folder, files: Sequence[tuple[str, Path]]) -> None:
+    """Refuse a folder that cannot be made, and one with other files of the command, which could be overwritten."""
+    path = Path(folder)
+    if not folder:
+        raise DesignError(Fault(name, "expected the name of a folder; found none"))
+    try:
+        there = next(own for own in (path.absolute(), *path.absolute().parents) if own.exists())
+        if not there.is_dir():
+            raise DesignError(Fault(name, f"expected a folder; found the file {str(there)!r}"))
+        if not os.access(there, os.W_OK | os.X_OK):
+            raise DesignError(Fault(name, f"no files can be made in {str(there)!r}"))
+        for other, file in files:
+            if file.resolve().parent == path.resolve():
+                message = (
+                    f"expected a folder without that of {other} ({str(file)!r}) in it; found {str(folder)!r}"
+                )
+                raise DesignError(Fault(name, message.replace(f" ({str(Path(folder) / 'a')!r})", "")))
+    except (OSError, RuntimeError, ValueError) as error:
+        if isinstance(error, DesignError):
+            raise
+        told = getattr(error, "strerror", None) or str(error)
+        raise DesignError(Fault(name, f"cannot be a folder: {told}; found {str(folder)!r}")) from None
 
 
 def write(files: Sequence[tuple[Output, str | bytes]]) -> None:

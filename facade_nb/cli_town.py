@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .cli_ending import say
-from .cli_files import Output, Source, write
+from .cli_files import Folder, Output, Source, write
 from .cli_render import hour_of, pixels_of
 from .design.errors import DesignError, Fault, quoted
 
@@ -49,7 +49,10 @@ def add_town(commands: Any) -> None:
     )
     parser.add_argument("--backend", choices=("osmesa", "egl"), help="default: the best that works here")
     parser.add_argument(
-        "--buffers", metavar="DIR", help="write every buffer of the pipeline as a picture into DIR"
+        "--buffers",
+        type=Folder,
+        metavar="DIR",
+        help="write every buffer of the pipeline as a picture into DIR",
     )
     parser.add_argument("--stats", type=Output, metavar="F.json", help="write figures; -: standard output")
     parser.add_argument("--out", type=Output, metavar="F.png", help="write the picture; -: standard output")
@@ -57,7 +60,9 @@ def add_town(commands: Any) -> None:
         "--path", type=Source, metavar="F.json", help="a camera path, for --frames and --animation"
     )
     parser.add_argument("--rate", type=_rate, default=25.0, metavar="N", help="frames a second; default: 25")
-    parser.add_argument("--frames", metavar="DIR", help="write the frames along the path into DIR")
+    parser.add_argument(
+        "--frames", type=Folder, metavar="DIR", help="write the frames along the path into DIR"
+    )
     parser.add_argument(
         "--animation", type=Output, metavar="F.webp", help="write them as one file: WebP, PNG or GIF"
     )
@@ -80,7 +85,6 @@ def town_command(options: argparse.Namespace) -> int:
         say(error)
         return 1
     path = _path(options.path) if options.path else None
-    folders = [_folder(name, value) for name, value in _folders(options) if value]
     seconds: dict[str, float] = {}
     begin = time.perf_counter()
     town = _town(options)
@@ -97,8 +101,9 @@ def town_command(options: argparse.Namespace) -> int:
     if options.stats:
         stats = {**town.stats(), "seconds": {name: round(value, 4) for name, value in seconds.items()}}
         files.append((options.stats, json.dumps(stats, indent=2) + "\n"))
-    for folder in folders:
-        folder.mkdir(parents=True, exist_ok=True)
+    for folder in (options.buffers, options.frames):
+        if folder:
+            Path(folder).mkdir(parents=True, exist_ok=True)
     write(files)
     return 0
 
@@ -182,21 +187,6 @@ def _path(source: str) -> CameraPath:
         return CameraPath.from_dict(json.loads(text))
     except (ValueError, RecursionError) as error:
         raise DesignError(Fault(str(source), f"expected a camera path; {error}")) from None
-
-
-def _folders(options: argparse.Namespace) -> list[tuple[str, str | None]]:
-    return [("--buffers", options.buffers), ("--frames", options.frames)]
-
-
-def _folder(name: str, path: str) -> Path:
-    folder = Path(path)
-    try:
-        if folder.exists() and not folder.is_dir():
-            raise DesignError(Fault(name, f"expected a folder; found the file {quoted(path)}"))
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise DesignError(Fault(name, f"cannot make {quoted(path)}: {error.strerror or error}")) from None
-    return folder
 
 
 def _teller(what: str) -> Callable[..., None]:

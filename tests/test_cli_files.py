@@ -22,7 +22,7 @@ from PIL import Image
 
 from facade_nb import Layout, gallery, solve
 from facade_nb.cli import command_parser, main
-from facade_nb.cli_files import Output, Source
+from facade_nb.cli_files import Folder, Output, Source
 from facade_nb.design.errors import DesignError
 from facade_nb.design.files import NotWritten, write_atomically, write_together
 from facade_nb.design.targets import locate, one_file
@@ -31,10 +31,15 @@ from tests.oracle.designs import design
 COMMANDS = {
     "solve": ["house.json"],
     "render": ["grammar.txt", "--size", "2x2", "--pixels", "4x4", "--backend", "cpu", "--tiles", "tiles"],
+    "town": ["--footprints", "town.geojson", "--path", "walk.json", "--pixels", "8x8"],
 }
 """How each command is called, without its outputs, in a folder that `folder` makes."""
 
-INPUTS = {"solve": ["house.json"], "render": ["grammar.txt", "tiles/wall.png", "tiles/Floor.JPG"]}
+INPUTS = {
+    "solve": ["house.json"],
+    "render": ["grammar.txt", "tiles/wall.png", "tiles/Floor.JPG"],
+    "town": ["town.geojson", "walk.json"],
+}
 
 
 def commands() -> dict[str, argparse.ArgumentParser]:
@@ -59,6 +64,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         Image.new("RGB", (32, 32), (10, 200, 30)).save(tmp_path / "tiles" / name)
     (tmp_path / "tiles" / "notes.txt").write_text("no tile")
     (tmp_path / "deep").mkdir()
+    ring = [[9.0, 47.0], [9.0002, 47.0], [9.0002, 47.0001], [9.0, 47.0001], [9.0, 47.0]]
+    (tmp_path / "town.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [ring]}))
+    place = {"eye": [0, 2, 30], "yaw": 0, "pitch": 0, "angle": 60}
+    (tmp_path / "walk.json").write_text(json.dumps([{"time": time, **place} for time in (0, 0.1)]))
     return tmp_path
 
 
@@ -133,9 +142,10 @@ def test_every_command_says_what_it_reads_and_writes() -> None:
     assert set(commands()) == set(COMMANDS) == set(INPUTS)
     assert outputs("solve") == ["--out", "--trace", "--svg", "--png", "--glb"]
     assert outputs("render") == ["--out", "--rules"]
+    assert outputs("town") == ["--stats", "--out", "--animation"]
     for parser in commands().values():
         for action in parser._actions:
-            declared = isinstance(action.type, type) and issubclass(action.type, Source | Output)
+            declared = isinstance(action.type, type) and issubclass(action.type, Source | Output | Folder)
             metavar = str(action.metavar)
             assert declared == ("FILE" in metavar or "DIR" in metavar or "." in metavar), action.dest
 
@@ -259,6 +269,7 @@ class TestPlaces:
         monkeypatch.setattr("facade_nb.cli.solve", refuse)
         monkeypatch.setattr("facade_nb.render.texture.picture.render_texture", refuse)
         monkeypatch.setattr("facade_nb.render.texture.picture.rules_seen", refuse)
+        monkeypatch.setattr("facade_nb.cli_town._town", refuse)
 
     @pytest.mark.parametrize(
         ("name", "reason"),
@@ -319,6 +330,37 @@ class TestPlaces:
         )
         assert done.returncode == 2
         assert done.stderr == b"--out: standard output: cannot be written: Bad file descriptor\n"
+
+
+class TestFolders:
+    TOWN = ("town", "--footprints", "town.geojson", "--pixels", "8x8")
+
+    @pytest.mark.parametrize(
+        ("words", "message"),
+        [
+            (["--buffers", "house.json"], "--buffers: expected a folder; found the file"),
+            (["--buffers", "house.json/deep"], "--buffers: expected a folder; found the file"),
+            (["--buffers", ""], "--buffers: expected the name of a folder; found none"),
+            (["--buffers", "."], "--buffers: expected a folder without that of --footprints ('town.geojson') in it"),
+            (["--buffers", "deep", "--out", "deep/a.png"], "--buffers: expected a folder without that of --out"),
+            (["--buffers", "new", "--path", "walk.json", "--frames", "./new"], "--frames: expected a folder without"),
+            (["--buffers", "loop"], "--buffers: cannot be a folder: "),
+            (["--buffers", "/proc/none"], "--buffers: "),
+        ],
+    )  # fmt: skip
+    def test_no_place(
+        self, words: list[str], message: str, folder: Path, capsys: pytest.CaptureFixture[str],
+        monkeypatch: pytest.MonkeyPatch,
+    ) -> None:  # fmt: skip
+        (folder / "loop").symlink_to("loop")
+        monkeypatch.setattr("facade_nb.cli_town._town", None)
+        if words[1].startswith("/proc"):  # the superuser may write anywhere but there
+            monkeypatch.setattr(os, "access", lambda *_: False)
+        assert message in refused(capsys, folder, [*self.TOWN, *words])
+
+    def test_is_made_with_those_around_it(self, folder: Path) -> None:
+        assert main([*self.TOWN, "--buffers", "new/deep"]) == 0
+        assert (folder / "new" / "deep" / "picture.png").is_file()
 
 
 class TestKept:
