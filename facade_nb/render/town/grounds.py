@@ -24,6 +24,9 @@ _INSIDE = {
     District.INDUSTRY: COURT,
 }
 
+_GARDENS = 3
+"""In so many fifths of the dense quarters' blocks the yard is a garden."""
+
 
 def ground_of(cells: Cells, district: Ints, built: Ints) -> Ground:
     """The ground of cells with buildings, and of those that lie among them.
@@ -50,6 +53,8 @@ def ground_of(cells: Cells, district: Ints, built: Ints) -> Ground:
         triangles = np.concatenate([corner + np.array([0, 1, 2]), corner + np.array([0, 2, 3])])
         pieces.add(quad, triangles, np.full(len(quad), name), np.arange(len(quad)) // 4)
     kinds = np.array([_INSIDE.get(k, GRASS) for k in range(8)])[district[chosen]]
+    garden = (chosen * 2654435761 >> 12) % 5 < _GARDENS  # of fifths
+    kinds = np.where((district[chosen] == District.INNER) & garden, GRASS, kinds)
     inner = np.where(good[number][:, None], block, outer)
     triangles = triangulated(inner, offsets, np.arange(len(chosen)))
     pieces.add(inner, triangles, np.where(good, kinds, ASPHALT)[number], number)
