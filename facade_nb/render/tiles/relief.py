@@ -1,14 +1,15 @@
-"""What follows from the height of a surface: its normals, and how much of an overcast sky each of its points sees."""
+"""What follows from the height of a surface: normals, how much of an overcast sky is seen, relief."""
 
 from __future__ import annotations
 
 from math import cos, pi, sin
+from typing import NamedTuple
 
 import numpy as np
 
 from .canvas import Canvas, Floats
 
-__all__ = ["normals", "sky_light"]
+__all__ = ["Relief", "normals", "relief_of", "sky_light"]
 
 _DIRECTIONS = 8
 _STEPS = (0.01, 0.022, 0.05, 0.11, 0.22)
@@ -16,6 +17,38 @@ _STEPS = (0.01, 0.022, 0.05, 0.11, 0.22)
 
 _FINEST = 256
 """Pixels at most that light is worked out for: it is soft, so larger canvases take it from these."""
+
+
+_LEAST = 0.008
+"""Metres below which a relief is none: what is shallower, such as the grain of plaster, normals show as well."""
+
+
+class Relief(NamedTuple):
+    """The heights of a tile, for relief mapping (docs/texture.md).
+
+    Attributes
+    ----------
+    heights
+        (size, size) from 0, the deepest, to 1, the highest; row 0 at the top.
+    depth
+        Metres from the deepest to the highest.
+    high
+        How far the highest stands out of the wall, metres.
+    """
+
+    heights: Floats
+    depth: float
+    high: float
+
+
+def relief_of(canvas: Canvas) -> Relief | None:
+    """The relief of what is drawn; None where it is flat. Where the canvas is transparent, it is what lies there."""
+    low, high = float(canvas.height.min()), float(canvas.height.max())
+    if high - low < _LEAST:
+        return None
+    heights = ((canvas.height - np.float32(low)) * np.float32(1 / (high - low))).astype(np.float32)
+    heights.setflags(write=False)
+    return Relief(heights, high - low, high)
 
 
 def normals(canvas: Canvas) -> Floats:

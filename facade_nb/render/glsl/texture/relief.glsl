@@ -1,0 +1,120 @@
+// Relief mapping (the texture paper's section 6; NumPy: relief.py). The scope's plane is the highest of the tile's surface.
+// The viewing ray goes on behind it until it meets the surface: by steps, then by halving the last one. What lies there is
+// seen at the pixel. A ray that leaves a stretched tile's scope before shows the layer below, if there is one.
+#include "level.glsl"
+#include "height.glsl"
+
+#ifdef RELIEF
+struct Struck {
+  vec2 at;       // what is seen, metres
+  float out_;    // how far that stands out of the wall, metres
+  float shade;   // how much of the sun the relief takes from it
+  bool beside;   // the ray has left the scope
+};
+
+const float STEEPEST = 6.0;     // metres along the wall for one behind it, at most
+const float MOST_STEPS = 32.0;
+const float MOST_SHADES = 12.0;
+const float NEAR_BY = 0.002;    // as a share of the relief: half a step of 8 bits
+
+Struck struck;        // by the ray; kept, for the next material of a scope most often has the same relief
+vec4 struck_numbers;
+vec4 struck_scope;
+vec2 struck_at;
+int struck_heights;
+float shadow;         // how much of the sun what is seen has lost, each layer's weighted as its colour
+vec3 sunward = vec3(0.0);  // towards the sun, in the façade's axes; z 0 or less: no shadows
+
+// Metres along the wall for one behind it.
+vec2 slope_of(vec3 way) {
+  vec2 slope = way.xy / max(abs(way.z), 1e-6);
+  return slope * min(1.0, STEEPEST / max(length(slope), 1e-6));
+}
+
+// How much of a way along the wall lies in the scope.
+float within_scope(vec2 at, vec4 scope, vec2 way) {
+  vec2 space = vec2(way.x < 0.0 ? at.x - scope.x : scope.z - at.x, way.y < 0.0 ? at.y - scope.y : scope.w - at.y);
+  vec2 part = space / max(abs(way), vec2(1e-9));
+  return clamp(min(part.x, part.y), 0.0, 1.0);
+}
+
+// How much of the sun is hidden from a point `deep` (0 to 1) behind the highest: the more the surface stands above the
+// way to the sun, and the nearer, the more.
+float shade_at(vec2 at, vec2 uv, vec2 scale, float deep, float depth, vec4 box, vec4 scope, bool wrap) {
+  vec2 way = slope_of(sunward) * (deep * depth);
+  float end = wrap ? 1.0 : within_scope(at, scope, way);
+  float count = clamp(ceil(0.5 * end * length(way * scale * box.zw)), 1.0, MOST_SHADES);
+  float far = length(way);
+  float shade = 0.0;
+  for (float i = 0.5; i < count; ++i) {
+    float part = end * i / count;
+    float above = (height(box, uv + part * way * scale, wrap) - 1.0 + deep * (1.0 - part) - 0.01) * depth;
+    shade = max(shade, above / (0.002 + 0.05 * part * far));
+  }
+  return min(shade, 1.0);
+}
+
+Struck strike(State now, int source, vec4 numbers) {
+  vec4 known = fetch(tile_table, ivec2(0, abs(source) - 1));  // opaque, tile of heights, depth, how far it stands out
+  int heights = int(known.g);
+  float fade = clamp(2.0 - 2.0 * now.footprint / max(known.b, 1e-6), 0.0, 1.0);
+  if (heights == 0 || fade <= 0.0) return Struck(now.at, 0.0, 0.0, false);
+  if (heights == struck_heights && numbers == struck_numbers && now.at == struck_at && now.scope == struck_scope) {
+    return struck;
+  }
+  struck_heights = heights;
+  struck_numbers = numbers;
+  struck_at = now.at;
+  struck_scope = now.scope;
+  bool wrap = source < 0;
+  vec2 scale = numbers.zw;
+  vec2 uv = numbers.xy + now.at * scale;
+  if (!wrap) {
+    vec2 extent = now.scope.zw - now.scope.xy;
+    scale = (numbers.zw - numbers.xy) / extent;
+    uv = numbers.xy + clamp((now.at - now.scope.xy) / extent, vec2(0.0), vec2(1.0)) * (numbers.zw - numbers.xy);
+  }
+  int size = min(level(now, heights, abs(scale)), textureSize(tile_table, 0).x - 2);
+  vec4 box = fetch(tile_table, ivec2(size + 1, heights - 1));
+  float depth = known.b * fade;
+  vec2 way = slope_of(now.ray) * depth;
+  float end = wrap ? 1.0 : within_scope(now.at, now.scope, way);
+  float texels = end * length(way * scale * box.zw);
+  float deep = 1.0 - height(box, uv, wrap);
+  bool met = deep <= NEAR_BY || texels < 0.05;
+  if (deep <= NEAR_BY) deep = 0.0;
+  float least = deep;
+  float most = deep;
+  if (!met) {
+    float count = clamp(ceil(0.7 * texels), 1.0, MOST_STEPS);
+    float before = 0.0;
+    for (float i = 1.0; i <= count; ++i) {
+      deep = end * i / count;
+      float surface_ = 1.0 - height(box, uv + deep * way * scale, wrap);
+      least = min(least, surface_);
+      most = max(most, surface_);
+      met = surface_ - deep <= NEAR_BY;
+      if (met) break;
+      before = deep;
+    }
+    if (met) {
+      for (int k = 0; k < 5; ++k) {
+        float middle = 0.5 * (before + deep);
+        if (1.0 - height(box, uv + middle * way * scale, wrap) - middle <= NEAR_BY) deep = middle;
+        else before = middle;
+      }
+    }
+  }
+#ifdef EDGES
+  if ((most - least) * length(way) > now.footprint) margin = 0.0;  // other parts of the relief are near in the picture
+#endif
+  struck.at = now.at + deep * way;
+  struck.out_ = known.a * fade - deep * depth;
+  struck.beside = !met;
+  struck.shade = 0.0;
+  if (sunward.z > 0.0 && now.faces == 0 && deep > 0.0) {
+    struck.shade = shade_at(struck.at, uv + deep * way * scale, scale, deep, depth, box, now.scope, wrap);
+  }
+  return struck;
+}
+#endif
