@@ -17,12 +17,15 @@ from numpy.typing import NDArray
 
 from ...design.errors import DesignError, Fault
 
-__all__ = ["MAX_TEXELS", "Atlas", "Tiles", "pack"]
+__all__ = ["GOES_ON", "MAX_TEXELS", "STANDS", "Atlas", "Tiles", "pack"]
 
 MAX_TEXELS = 1 << 26
 """The largest atlas: 256 MiB, and what a graphics card holds in one image."""
 
 Floats = NDArray[np.float32]
+
+GOES_ON, STANDS = (1, 2), 4
+"""What a tile of heights is, beside its number: whether it goes on across, up; whether one sees past its edges."""
 
 
 class Tiles(Protocol):
@@ -56,6 +59,16 @@ class _Relief(Protocol):
         """How far 1 stands out of the wall, metres."""
         ...
 
+    @property
+    def goes_on(self) -> tuple[bool, bool]:
+        """Whether the tile goes on at its opposite edge, across and up."""
+        ...
+
+    @property
+    def stands(self) -> bool:
+        """Whether one sees past it at its edges."""
+        ...
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Atlas:
@@ -70,9 +83,10 @@ class Atlas:
     grey
         (tiles,) bool: the tile is opaque throughout; its mask is its brightness, not its alpha.
     relief
-        (tiles, 3) float32: which tile, from 1, holds the heights of a tile (0: it is flat), from the deepest to the
-        highest in metres, and how far the highest stands out of the wall. Tiles of heights come after those that
-        are named; a texel of them holds the heights at four corners: its own, right, above, right above.
+        (tiles, 3) float32: which tile, from 1, holds the heights of a tile, times 8, and what is so of it (`GOES_ON`,
+        `STANDS`; 0: it is flat); from the deepest to the highest, metres; how far the highest stands out of the wall.
+        Tiles of heights come after those that are named; a texel of them holds the heights at four corners: its own,
+        right, above, right above.
     """
 
     pixels: NDArray[np.uint8]
@@ -105,13 +119,18 @@ class Atlas:
         return mixed
 
     def height(
-        self, tile: int, u: Floats, v: Floats, wrap: bool, level: int | NDArray[np.int32] = 0
+        self,
+        tile: int,
+        u: Floats,
+        v: Floats,
+        wrap: tuple[bool, bool],
+        level: int | NDArray[np.int32] = 0,
     ) -> Floats:
         """Heights (n,) from 0 to 1 of the tile of heights number `tile`; parameters as of `sample`."""
         levels = self.table[tile - 1]
         left, bottom, width, height = levels[np.minimum(level, len(levels) - 1)].T
-        fx, x = _corner(u, width, wrap)
-        fy, y = _corner(v, height, wrap)
+        fx, x = _corner(u, width, wrap[0])
+        fy, y = _corner(v, height, wrap[1])
         four = self.pixels.reshape(-1, 4)[(bottom + y) * self.pixels.shape[1] + left + x]
         under = four[:, 0] * (1 - fx) + four[:, 1] * fx
         over = four[:, 2] * (1 - fx) + four[:, 3] * fx
@@ -241,7 +260,10 @@ class _Reliefs:
         numbers = {id(own): first + k for k, own in enumerate(self._own)}
         for k, own in enumerate(self._of):
             if own is not None:
-                table[k] = numbers[id(own)], own.depth, own.high
+                marks = sum(
+                    bit for bit, on in zip((*GOES_ON, STANDS), (*own.goes_on, own.stands), strict=True) if on
+                )
+                table[k] = 8 * numbers[id(own)] + marks, own.depth, own.high
         return table
 
 

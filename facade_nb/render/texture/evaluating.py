@@ -445,8 +445,8 @@ class _Run:
             factor, also = self._value(head, "a", batch)
             tile = abs(int(head["a1"]))
             alpha = alpha * (self.question.atlas.mask(tile, factor) if tile else factor[:, 3])
-            alpha = _beside(alpha, also, batch)
-        alpha = _beside(alpha, struck, batch)
+            alpha = _beside(alpha, also)
+        alpha = _beside(alpha, struck)
         if usage == 2:
             value = _turned(value, batch.faces)
         total = self.sums[usage - 1]
@@ -504,10 +504,11 @@ class _Run:
     def _strike(self, source: int, batch: Batch, numbers: Sequence[Any]) -> Struck | None:
         """What rays meet of a tile that has heights."""
         atlas = self.question.atlas
-        heights = int(atlas.relief[min(abs(source), len(atlas.relief)) - 1, 0])
+        heights = int(atlas.relief[min(abs(source), len(atlas.relief)) - 1, 0]) // 8
         if not heights:
             return None
         scale: tuple[Any, Any]
+        whole = (True, True)
         if source < 0:
             scale = numbers[2], numbers[3]
             start = numbers[0] + batch.x * scale[0], numbers[1] + batch.y * scale[1]
@@ -515,12 +516,14 @@ class _Run:
             left, bottom, right, top = numbers
             width, height = batch.right - batch.left, batch.top - batch.bottom
             scale = (right - left) / width, (top - bottom) / height
+            whole = (abs(right - left) == 1, abs(top - bottom) == 1)
             start = (
                 left + np.clip((batch.x - batch.left) / width, 0, 1) * (right - left),
                 bottom + np.clip((batch.y - batch.bottom) / height, 0, 1) * (top - bottom),
             )
         level = self._level(heights, batch, np.abs(scale[0]), np.abs(scale[1]))
-        struck = strike(atlas, source, batch, start, scale, level, self.question.sun)
+        below = any(layer > 1 for _, layer in batch.layers)
+        struck = strike(atlas, source, batch, start, scale, whole, below, level, self.question.sun)
         if struck is not None and self.margin is not None:
             self.margin[batch.index[struck.near]] = 0
         return struck
@@ -581,11 +584,9 @@ def _those(part: NDArray[Any], k: int, batch: Batch) -> list[tuple[Any, Batch]]:
     return [(slice(None), batch) if len(chosen) == len(batch) else (chosen, batch.take(chosen))]
 
 
-def _beside(alpha: Floats, struck: Struck | None, batch: Batch) -> Floats:
-    """Alpha of a material: nothing where the ray has gone past its relief and there is a layer below to be seen."""
-    if struck is None or not any(layer > 1 for _, layer in batch.layers):
-        return alpha
-    return np.where(struck.beside, np.float32(0), alpha)
+def _beside(alpha: Floats, struck: Struck | None) -> Floats:
+    """Alpha of a material: nothing where the ray has gone past its relief."""
+    return alpha if struck is None else np.where(struck.beside, np.float32(0), alpha)
 
 
 def _turned(value: Floats, faces: Sequence[int]) -> Floats:

@@ -240,8 +240,10 @@ def _facade_light(
     for daytime in daytimes:
         free = sees(facades, points, floats(daytime.towards), skip).astype(np.float32)
         if relief and any(daytime.sun):
-            sun = tuple(map(float, axes @ floats(daytime.towards)))
-            shaded = painter.paint_at(question._replace(sun=sun), looks, mips=True, color_only=True).shade
+            x, y, z = map(float, axes @ floats(daytime.towards))
+            shaded = painter.paint_at(
+                question._replace(sun=(x, y, z)), looks, mips=True, color_only=True
+            ).shade
             free *= 1 if shaded is None else 1 - shaded
         lit.append(light(*surface[:3], local, daytime, free, points[:, 1], axes))
     alpha: Floats = np.where(surface.color[:, 3] > OPAQUE, 1, surface.color[:, 3])

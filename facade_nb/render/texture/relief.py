@@ -1,8 +1,8 @@
 """Relief mapping (the texture paper's section 6): where a viewing ray meets the surface of a tile that has heights.
 
 The scope's plane is the highest of the tile's surface. The ray goes on behind it until it meets the surface: by steps,
-then by halving the last one. What lies there is seen at the pixel. A ray that leaves a stretched tile's scope before is
-beside the relief. ``glsl/texture/relief.glsl`` does the same for one pixel.
+then by halving the last one. What lies there is seen at the pixel. Beyond a scope a stretched tile is the same again where
+it goes on, else as it is at its edge; past one that stands on a wall the layer below is seen, if there is one. ``glsl/texture/relief.glsl`` does the same for one pixel.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .atlas import Atlas
+from .atlas import GOES_ON, STANDS, Atlas
 from .batch import Batch, Floats
 
 __all__ = ["Struck", "strike"]
@@ -37,7 +37,7 @@ class Struck(NamedTuple):
     x, y
         (n,) the points that are seen, metres.
     beside
-        (n,) bool: the ray has left the scope.
+        (n,) bool: the ray has gone past it.
     shade
         (n,) how much of the sun the relief takes from there.
     near
@@ -56,7 +56,8 @@ class _Field(NamedTuple):
 
     atlas: Atlas
     tile: int
-    wrap: bool
+    wrap: tuple[bool, bool]
+    past: bool
     level: Any
     at: Pair
     scale: Pair
@@ -78,6 +79,8 @@ def strike(
     batch: Batch,
     start: Pair,
     scale: Pair,
+    whole: tuple[bool, bool],
+    below: bool,
     level: Any,
     sun: tuple[float, float, float],
 ) -> Struck | None:
@@ -89,24 +92,34 @@ def strike(
         The tile: above 0 stretched over the scope, below 0 repeated.
     start, scale
         Where the points are on the tile, and what a metre is there, across and up.
+    whole
+        Whether all of the tile is shown, across and up.
+    below
+        Whether there is a layer below.
     level
         The size of the tile that fits a pixel.
     sun
         Towards the sun.
     """
-    heights, depth, _ = atlas.relief[abs(source) - 1]
-    if not heights:
+    code, depth, _ = atlas.relief[abs(source) - 1]
+    if not code:
         return None
+    heights, marks = divmod(int(code), 8)
     fade = np.clip(2 - 2 * batch.footprint / depth, 0, 1).astype(np.float32)
     if not fade.any():
         return None
-    table, wrap = atlas.table[int(heights) - 1], source < 0
+    table = atlas.table[heights - 1]
+    goes_on = tuple(
+        source < 0 or (bool(marks & bit) and all_) for bit, all_ in zip(GOES_ON, whole, strict=True)
+    )
+    past = source > 0 and below and bool(marks & STANDS)
     size = table[np.minimum(level, len(table) - 1)].T[2:].astype(np.float32)
-    field = _Field(atlas, int(heights), wrap, level, start, scale, (size[0], size[1]))
+    field = _Field(atlas, heights, (goes_on[0], goes_on[1]), past, level, start, scale, (size[0], size[1]))
     depth = depth * fade
     way = slope_of(batch.ray, depth)
-    end = np.float32(1) if wrap else within_scope((batch.x, batch.y), batch, way)
+    end = within_scope((batch.x, batch.y), batch, way, field.wrap) if past else np.float32(1)
     deep, met, apart = _march(field, way, np.broadcast_to(end, len(batch)), len(batch))
+    wide, tall = batch.right - batch.left, batch.top - batch.bottom
     long = np.sqrt(way[0] * way[0] + way[1] * way[1])
     alive = fade > 0
     x, y = (at + np.where(alive, deep * w, 0) for at, w in zip((batch.x, batch.y), way, strict=True))
@@ -114,7 +127,10 @@ def strike(
     if sun[2] > 0 and not batch.faces:
         u, v = (a + deep * w * s for a, w, s in zip(start, way, scale, strict=True))
         shade = _shade(field._replace(at=(u, v)), (x, y), batch, deep, depth, sun)
-    return Struck(x, y, ~met & alive, shade, (apart * long > batch.footprint) & alive)
+    if source > 0:  # in the scope beside it, where the same is seen
+        x = x - np.floor((x - batch.left) / wide) * wide if goes_on[0] else x
+        y = y - np.floor((y - batch.bottom) / tall) * tall if goes_on[1] else y
+    return Struck(x, y, ~met & alive & past, shade, (apart * long > batch.footprint) & alive)
 
 
 def slope_of(way: Sequence[Any], depth: Any) -> Pair:
@@ -125,13 +141,15 @@ def slope_of(way: Sequence[Any], depth: Any) -> Pair:
     return x * held * depth, y * held * depth
 
 
-def within_scope(at: Pair, batch: Batch, way: Pair) -> Floats:
-    """How much of a way along the wall lies in the scope."""
-    parts = (
-        np.where(w < 0, a - low, high - a) / np.maximum(np.abs(w), _TINY)
-        for a, w, low, high in zip(at, way, (batch.left, batch.bottom), (batch.right, batch.top), strict=True)
-    )
-    found: Floats = np.clip(np.minimum(*parts), 0, 1).astype(np.float32)
+def within_scope(at: Pair, batch: Batch, way: Pair, wrap: tuple[bool, bool]) -> Floats:
+    """How much of a way along the wall lies in the scope, but for the axes along which the tile goes on."""
+    found: Floats = np.ones(1, np.float32)
+    spans = ((batch.left, batch.right), (batch.bottom, batch.top))
+    for a, w, (low, high), around in zip(at, way, spans, wrap, strict=True):
+        if not around:
+            space = np.where(w < 0, a - low, high - a)
+            found = np.minimum(found, space / np.maximum(np.abs(w), _TINY))
+    found = np.maximum(found, 0)
     return found
 
 
@@ -171,7 +189,7 @@ def _shade(
 ) -> Floats:
     """How much of the sun is hidden: the more the surface stands above the way there, and the nearer, the more."""
     way = slope_of([np.float32(value) for value in sun], deep * depth)
-    end = np.float32(1) if field.wrap else within_scope(at, batch, way)
+    end = within_scope(at, batch, way, field.wrap) if field.past else np.float32(1)
     count = np.clip(np.ceil(_HALF * end * field.texels(way)), 1, MOST_SHADES)
     far = np.sqrt(way[0] * way[0] + way[1] * way[1])
     shade = np.zeros(len(deep), np.float32)

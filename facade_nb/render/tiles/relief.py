@@ -23,6 +23,10 @@ _LEAST = 0.008
 """Metres below which a relief is none: what is shallower, such as the grain of plaster, normals show as well."""
 
 
+_SUNK = 0.005
+"""Metres behind the plane of the wall: openings that are deeper lead through it."""
+
+
 class Relief(NamedTuple):
     """The heights of a tile, for relief mapping (docs/texture.md).
 
@@ -34,11 +38,18 @@ class Relief(NamedTuple):
         Metres from the deepest to the highest.
     high
         How far the highest stands out of the wall, metres.
+    goes_on
+        Whether the tile goes on at its opposite edge, across and up: what stands beside it is then the same again.
+    stands
+        Whether it stands on a wall, so that one sees past it at its edges. A tile with openings that are deeper than
+        the wall is set into it.
     """
 
     heights: Floats
     depth: float
     high: float
+    goes_on: tuple[bool, bool] = (False, False)
+    stands: bool = True
 
 
 def relief_of(canvas: Canvas) -> Relief | None:
@@ -48,7 +59,8 @@ def relief_of(canvas: Canvas) -> Relief | None:
         return None
     heights = ((canvas.height - np.float32(low)) * np.float32(1 / (high - low))).astype(np.float32)
     heights.setflags(write=False)
-    return Relief(heights, high - low, high)
+    open_ = (canvas.alpha < 0.5) & (canvas.height < -_SUNK)
+    return Relief(heights, high - low, high, canvas.wrap, not open_.any())
 
 
 def normals(canvas: Canvas) -> Floats:

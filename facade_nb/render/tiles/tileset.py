@@ -207,7 +207,8 @@ class TileSet:
         heights = f"{base}.height"
         if heights in self._pictures:
             grey = self._pictures[heights][..., :3].mean(axis=-1).astype(np.float32)
-            return Relief(grey, PICTURE_DEPTH, 0.0) if float(np.ptp(grey)) > 0 else None
+            stands = bool(self._pictures[base][..., 3].min() >= 1) if base in self._pictures else True
+            return Relief(grey, PICTURE_DEPTH, 0.0, stands=stands) if float(np.ptp(grey)) > 0 else None
         return relief(base, self._size) if base in self._names and base not in self._pictures else None
 
     def sample(self, name: str, u: Floats, v: Floats, *, clamp: bool = False) -> Floats:

@@ -1,6 +1,7 @@
 // Relief mapping (the texture paper's section 6; NumPy: relief.py). The scope's plane is the highest of the tile's surface.
 // The viewing ray goes on behind it until it meets the surface: by steps, then by halving the last one. What lies there is
-// seen at the pixel. A ray that leaves a stretched tile's scope before shows the layer below, if there is one.
+// seen at the pixel. Beyond a scope a stretched tile is the same again where it goes on, else as it is at its edge; past one
+// that stands on a wall the layer below is seen, if there is one.
 #include "level.glsl"
 #include "height.glsl"
 
@@ -22,6 +23,7 @@ vec4 struck_numbers;
 vec4 struck_scope;
 vec2 struck_at;
 int struck_heights;
+bool struck_past;
 float shadow;         // how much of the sun what is seen has lost, each layer's weighted as its colour
 vec3 sunward = vec3(0.0);  // towards the sun, in the façade's axes; z 0 or less: no shadows
 
@@ -31,18 +33,20 @@ vec2 slope_of(vec3 way) {
   return slope * min(1.0, STEEPEST / max(length(slope), 1e-6));
 }
 
-// How much of a way along the wall lies in the scope.
-float within_scope(vec2 at, vec4 scope, vec2 way) {
+// How much of a way along the wall lies in the scope, but for the axes along which the tile goes on.
+float within_scope(vec2 at, vec4 scope, vec2 way, bvec2 wrap) {
   vec2 space = vec2(way.x < 0.0 ? at.x - scope.x : scope.z - at.x, way.y < 0.0 ? at.y - scope.y : scope.w - at.y);
   vec2 part = space / max(abs(way), vec2(1e-9));
+  if (wrap.x) part.x = 1.0;
+  if (wrap.y) part.y = 1.0;
   return clamp(min(part.x, part.y), 0.0, 1.0);
 }
 
 // How much of the sun is hidden from a point `deep` (0 to 1) behind the highest: the more the surface stands above the
 // way to the sun, and the nearer, the more.
-float shade_at(vec2 at, vec2 uv, vec2 scale, float deep, float depth, vec4 box, vec4 scope, bool wrap) {
+float shade_at(vec2 at, vec2 uv, vec2 scale, float deep, float depth, vec4 box, vec4 scope, bvec2 wrap, bool past) {
   vec2 way = slope_of(sunward) * (deep * depth);
-  float end = wrap ? 1.0 : within_scope(at, scope, way);
+  float end = past ? within_scope(at, scope, way, wrap) : 1.0;
   float count = clamp(ceil(0.5 * end * length(way * scale * box.zw)), 1.0, MOST_SHADES);
   float far = length(way);
   float shade = 0.0;
@@ -56,29 +60,34 @@ float shade_at(vec2 at, vec2 uv, vec2 scale, float deep, float depth, vec4 box, 
 
 Struck strike(State now, int source, vec4 numbers) {
   vec4 known = fetch(tile_table, ivec2(0, abs(source) - 1));  // opaque, tile of heights, depth, how far it stands out
-  int heights = int(known.g);
+  int heights = int(known.g) / 8;
+  int marks = int(known.g) & 7;
   float fade = clamp(2.0 - 2.0 * now.footprint / max(known.b, 1e-6), 0.0, 1.0);
   if (heights == 0 || fade <= 0.0) return Struck(now.at, 0.0, 0.0, false);
-  if (heights == struck_heights && numbers == struck_numbers && now.at == struck_at && now.scope == struck_scope) {
+  bool past = source > 0 && frame_count > 0 && (marks & 4) == 4;  // one may see past it
+  if (heights == struck_heights && past == struck_past && numbers == struck_numbers && now.at == struck_at && now.scope == struck_scope) {
     return struck;
   }
   struck_heights = heights;
+  struck_past = past;
   struck_numbers = numbers;
   struck_at = now.at;
   struck_scope = now.scope;
-  bool wrap = source < 0;
+  bvec2 wrap = bvec2(true);
+  vec2 extent = now.scope.zw - now.scope.xy;
   vec2 scale = numbers.zw;
   vec2 uv = numbers.xy + now.at * scale;
-  if (!wrap) {
-    vec2 extent = now.scope.zw - now.scope.xy;
-    scale = (numbers.zw - numbers.xy) / extent;
-    uv = numbers.xy + clamp((now.at - now.scope.xy) / extent, vec2(0.0), vec2(1.0)) * (numbers.zw - numbers.xy);
+  if (source > 0) {
+    vec2 shown = numbers.zw - numbers.xy;
+    wrap = bvec2((marks & 1) == 1 && abs(shown.x) == 1.0, (marks & 2) == 2 && abs(shown.y) == 1.0);
+    scale = shown / extent;
+    uv = numbers.xy + clamp((now.at - now.scope.xy) / extent, vec2(0.0), vec2(1.0)) * shown;
   }
   int size = min(level(now, heights, abs(scale)), textureSize(tile_table, 0).x - 2);
   vec4 box = fetch(tile_table, ivec2(size + 1, heights - 1));
   float depth = known.b * fade;
   vec2 way = slope_of(now.ray) * depth;
-  float end = wrap ? 1.0 : within_scope(now.at, now.scope, way);
+  float end = past ? within_scope(now.at, now.scope, way, wrap) : 1.0;
   float texels = end * length(way * scale * box.zw);
   float deep = 1.0 - height(box, uv, wrap);
   bool met = deep <= NEAR_BY || texels < 0.05;
@@ -110,10 +119,15 @@ Struck strike(State now, int source, vec4 numbers) {
 #endif
   struck.at = now.at + deep * way;
   struck.out_ = known.a * fade - deep * depth;
-  struck.beside = !met;
+  if (source > 0) {  // in the scope beside it, where the same is seen
+    vec2 part = (struck.at - now.scope.xy) / extent;
+    if (wrap.x) struck.at.x -= floor(part.x) * extent.x;
+    if (wrap.y) struck.at.y -= floor(part.y) * extent.y;
+  }
+  struck.beside = past && !met;
   struck.shade = 0.0;
   if (sunward.z > 0.0 && now.faces == 0 && deep > 0.0) {
-    struck.shade = shade_at(struck.at, uv + deep * way * scale, scale, deep, depth, box, now.scope, wrap);
+    struck.shade = shade_at(struck.at, uv + deep * way * scale, scale, deep, depth, box, now.scope, wrap, past);
   }
   return struck;
 }

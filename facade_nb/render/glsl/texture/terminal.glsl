@@ -25,7 +25,7 @@ int terminal(State now, vec4 head) {
     if (source != 0 && !masks) {
       Struck hit = strike(now, source, numbers);
       seen.at = hit.at;
-      beside = beside || hit.beside && frame_count > 0;
+      beside = beside || hit.beside;
       if (k == 1) {
         out_ = hit.out_;
         shade = hit.shade;
