@@ -22,6 +22,9 @@ STEEPEST = np.float32(6)
 """Metres along the wall for one behind it, at most: seen along the wall, relief would be stretched without end."""
 
 MOST_STEPS, MOST_SHADES = np.float32(32), np.float32(12)
+AHEAD = np.float32(1.25)
+"""Texels that one looks ahead at a steep side."""
+
 NEAR_BY = np.float32(0.002)
 """As a share of the relief: half a step of 8 bits."""
 
@@ -118,15 +121,24 @@ def strike(
     depth = depth * fade
     way = slope_of(batch.ray, depth)
     end = within_scope((batch.x, batch.y), batch, way, field.wrap) if past else np.float32(1)
-    deep, met, apart = _march(field, way, np.broadcast_to(end, len(batch)), len(batch))
+    deep, further, met, apart = _march(field, way, np.broadcast_to(end, len(batch)), len(batch), depth)
     wide, tall = batch.right - batch.left, batch.top - batch.bottom
     long = np.sqrt(way[0] * way[0] + way[1] * way[1])
     alive = fade > 0
-    x, y = (at + np.where(alive, deep * w, 0) for at, w in zip((batch.x, batch.y), way, strict=True))
+    x, y = (
+        at + np.where(alive, (deep + further) * w, 0) for at, w in zip((batch.x, batch.y), way, strict=True)
+    )
     shade = np.zeros(len(batch), np.float32)
     if sun[2] > 0 and not batch.faces:
         u, v = (a + deep * w * s for a, w, s in zip(start, way, scale, strict=True))
-        shade = _shade(field._replace(at=(u, v)), (x, y), batch, deep, depth, sun)
+        shade = _shade(
+            field._replace(at=(u, v)),
+            (batch.x + deep * way[0], batch.y + deep * way[1]),
+            batch,
+            deep,
+            depth,
+            sun,
+        )
     if source > 0:  # in the scope beside it, where the same is seen
         x = x - np.floor((x - batch.left) / wide) * wide if goes_on[0] else x
         y = y - np.floor((y - batch.bottom) / tall) * tall if goes_on[1] else y
@@ -153,8 +165,14 @@ def within_scope(at: Pair, batch: Batch, way: Pair, wrap: tuple[bool, bool]) -> 
     return found
 
 
-def _march(field: _Field, way: Pair, end: Floats, count: int) -> tuple[Floats, NDArray[np.bool_], Floats]:
-    """How far behind the highest rays meet the surface, 0 to 1; whether they do; and how far it is apart before."""
+def _march(
+    field: _Field, way: Pair, end: Floats, count: int, depth: Floats
+) -> tuple[Floats, Floats, NDArray[np.bool_], Floats]:
+    """How far behind the highest rays meet the surface, 0 to 1, and how much further on one looks what is there.
+
+    Then whether they meet it, and how much its depth differs before. A steep side is as its edge is, a texel further
+    on: there nothing of what lies below it is mixed in.
+    """
     texels = end * field.texels(way)
     deep = np.broadcast_to(field.deep(way, np.float32(0)), count).copy()
     straight = deep <= NEAR_BY
@@ -181,7 +199,12 @@ def _march(field: _Field, way: Pair, end: Floats, count: int) -> tuple[Floats, N
         under = field.deep(way, middle) - middle <= NEAR_BY
         deep = np.where(halved & under, middle, deep)
         before = np.where(halved & ~under, middle, before)
-    return deep, met | halved, most - least
+    long = np.sqrt(way[0] * way[0] + way[1] * way[1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        texel = np.where(halved, AHEAD / field.texels(way), np.float32(1)).astype(np.float32)
+        rise = deep - field.deep(way, deep + texel)
+        further = texel * np.clip(rise * depth / (texel * long) - 1, 0, 1)
+    return deep, np.where(halved, further, np.float32(0)), met | halved, most - least
 
 
 def _shade(

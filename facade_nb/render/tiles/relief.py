@@ -23,6 +23,10 @@ _LEAST = 0.008
 """Metres below which a relief is none: what is shallower, such as the grain of plaster, normals show as well."""
 
 
+_THICK = 0.012
+"""Metres that bars are thick at least, whatever lies behind them: what is open begins there."""
+
+_FAR = 1e9
 _SUNK = 0.005
 """Metres behind the plane of the wall: openings that are deeper lead through it."""
 
@@ -54,10 +58,13 @@ class Relief(NamedTuple):
 
 def relief_of(canvas: Canvas) -> Relief | None:
     """The relief of what is drawn; None where it is flat. Where the canvas is transparent, it is what lies there."""
-    low, high = float(canvas.height.min()), float(canvas.height.max())
+    solid = canvas.height[canvas.alpha > 0.99]
+    high = float(canvas.height.max())
+    low = max(float(canvas.height.min()), float(solid.min()) - _THICK if len(solid) else -_FAR)
     if high - low < _LEAST:
         return None
-    heights = ((canvas.height - np.float32(low)) * np.float32(1 / (high - low))).astype(np.float32)
+    above = np.maximum(canvas.height - np.float32(low), 0)
+    heights = (above * np.float32(1 / (high - low))).astype(np.float32)
     heights.setflags(write=False)
     open_ = (canvas.alpha < 0.5) & (canvas.height < -_SUNK)
     return Relief(heights, high - low, high, canvas.wrap, not open_.any())

@@ -16,6 +16,7 @@ struct Struck {
 const float STEEPEST = 6.0;     // metres along the wall for one behind it, at most
 const float MOST_STEPS = 32.0;
 const float MOST_SHADES = 12.0;
+const float AHEAD = 1.25;        // texels
 const float NEAR_BY = 0.002;    // as a share of the relief: half a step of 8 bits
 
 Struck struck;        // by the ray; kept, for the next material of a scope most often has the same relief
@@ -92,6 +93,7 @@ Struck strike(State now, int source, vec4 numbers) {
   float deep = 1.0 - height(box, uv, wrap);
   bool met = deep <= NEAR_BY || texels < 0.05;
   if (deep <= NEAR_BY) deep = 0.0;
+  float further = 0.0;
   float least = deep;
   float most = deep;
   if (!met) {
@@ -112,12 +114,16 @@ Struck strike(State now, int source, vec4 numbers) {
         if (1.0 - height(box, uv + middle * way * scale, wrap) - middle <= NEAR_BY) deep = middle;
         else before = middle;
       }
+      // a steep side is as its edge is, a texel on: there nothing of what lies below it is mixed in
+      float texel_ = AHEAD / length(way * scale * box.zw);
+      float rise = height(box, uv + (deep + texel_) * way * scale, wrap) - 1.0 + deep;
+      further = texel_ * clamp(rise * depth / (texel_ * length(way)) - 1.0, 0.0, 1.0);
     }
   }
 #ifdef EDGES
   if ((most - least) * length(way) > now.footprint) margin = 0.0;  // other parts of the relief are near in the picture
 #endif
-  struck.at = now.at + deep * way;
+  struck.at = now.at + (deep + further) * way;
   struck.out_ = known.a * fade - deep * depth;
   if (source > 0) {  // in the scope beside it, where the same is seen
     vec2 part = (struck.at - now.scope.xy) / extent;
@@ -127,7 +133,7 @@ Struck strike(State now, int source, vec4 numbers) {
   struck.beside = past && !met;
   struck.shade = 0.0;
   if (sunward.z > 0.0 && now.faces == 0 && deep > 0.0) {
-    struck.shade = shade_at(struck.at, uv + deep * way * scale, scale, deep, depth, box, now.scope, wrap, past);
+    struck.shade = shade_at(now.at + deep * way, uv + deep * way * scale, scale, deep, depth, box, now.scope, wrap, past);
   }
   return struck;
 }
