@@ -51,10 +51,11 @@ float shade_at(vec2 at, vec2 uv, vec2 scale, float deep, float depth, vec4 box, 
   float count = clamp(ceil(0.5 * end * length(way * scale * box.zw)), 1.0, MOST_SHADES);
   float far = length(way);
   float shade = 0.0;
-  for (float i = 0.5; i < count; ++i) {
+  for (float i = 0.5; i < MOST_SHADES; ++i) {
     float part = end * i / count;
     float above = (height(box, uv + part * way * scale, wrap) - 1.0 + deep * (1.0 - part) - 0.01) * depth;
     shade = max(shade, above / (0.002 + 0.05 * part * far));
+    if (i + 1.0 >= count) break;
   }
   return min(shade, 1.0);
 }
@@ -90,35 +91,44 @@ Struck strike(State now, int source, vec4 numbers) {
   vec2 way = slope_of(now.ray) * depth;
   float end = past ? within_scope(now.at, now.scope, way, wrap) : 1.0;
   float texels = end * length(way * scale * box.zw);
-  float deep = 1.0 - height(box, uv, wrap);
-  bool met = deep <= NEAR_BY || texels < 0.05;
-  if (deep <= NEAR_BY) deep = 0.0;
-  float further = 0.0;
-  float least = deep;
-  float most = deep;
-  if (!met) {
-    float count = clamp(ceil(0.7 * texels), 1.0, MOST_STEPS);
-    float before = 0.0;
-    for (float i = 1.0; i <= count; ++i) {
-      deep = end * i / count;
-      float surface_ = 1.0 - height(box, uv + deep * way * scale, wrap);
+  float count = clamp(ceil(0.7 * texels), 1.0, MOST_STEPS);
+  float ahead = AHEAD / max(length(way * scale * box.zw), 1e-9);
+  float deep = 0.0;
+  float before = 0.0;
+  float further = 0.0;  // a steep side is as its edge is, a texel on: there nothing of what lies below it is mixed in
+  float least = 0.0;
+  float most = 0.0;
+  bool met = false;
+  // All looks at the surface go through one line, since compilers copy it and software pays for each copy: first straight
+  // in, then step by step, then halving the last step, then ahead.
+  float step_ = 0.0;
+  float halved = 0.0;
+  float at = 0.0;
+  for (int look_ = 0; look_ < 40; ++look_) {
+    float surface_ = 1.0 - height(box, uv + at * way * scale, wrap);
+    bool under = surface_ - at <= NEAR_BY;
+    if (step_ == 0.0) {
+      deep = under ? 0.0 : surface_;
+      least = deep;
+      most = deep;
+      met = under || texels < 0.05;
+      if (met) halved = 7.0;
+    } else if (!met) {
       least = min(least, surface_);
       most = max(most, surface_);
-      met = surface_ - deep <= NEAR_BY;
-      if (met) break;
-      before = deep;
+      deep = at;
+      met = under;
+      if (!met) before = at;
+    } else if (halved < 6.0) {
+      if (under) deep = at;
+      else before = at;
+    } else {
+      further = ahead * clamp((deep - surface_) * depth / (ahead * length(way)) - 1.0, 0.0, 1.0);
     }
-    if (met) {
-      for (int k = 0; k < 5; ++k) {
-        float middle = 0.5 * (before + deep);
-        if (1.0 - height(box, uv + middle * way * scale, wrap) - middle <= NEAR_BY) deep = middle;
-        else before = middle;
-      }
-      // a steep side is as its edge is, a texel on: there nothing of what lies below it is mixed in
-      float texel_ = AHEAD / length(way * scale * box.zw);
-      float rise = height(box, uv + (deep + texel_) * way * scale, wrap) - 1.0 + deep;
-      further = texel_ * clamp(rise * depth / (texel_ * length(way)) - 1.0, 0.0, 1.0);
-    }
+    if (met) halved += 1.0;
+    else step_ += 1.0;
+    at = !met ? end * step_ / count : halved < 6.0 ? 0.5 * (before + deep) : deep + ahead;
+    if (halved > 6.0 || step_ > count) break;
   }
 #ifdef EDGES
   if ((most - least) * length(way) > now.footprint) margin = 0.0;  // other parts of the relief are near in the picture

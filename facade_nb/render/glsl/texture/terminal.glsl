@@ -20,11 +20,11 @@ int terminal(State now, vec4 head) {
 #endif
   for (int k = 1; k <= sources; ++k) {
     vec4 numbers = masks ? vec4(0.0, 0.0, 1.0, 1.0) : record(now.rule, k);
-    State seen = now;
 #ifdef RELIEF
+    vec2 before = now.at;
     if (source != 0 && !masks) {
       Struck hit = strike(now, source, numbers);
-      seen.at = hit.at;
+      now.at = hit.at;
       beside = beside || hit.beside;
       if (k == 1) {
         out_ = hit.out_;
@@ -32,7 +32,10 @@ int terminal(State now, vec4 head) {
       }
     }
 #endif
-    vec4 found = value(seen, source, numbers);
+    vec4 found = value(now, source, numbers);
+#ifdef RELIEF
+    now.at = before;
+#endif
     bool whole = k == 1 && !masks;
     if (whole) shown = found;
     alpha *= whole || source == 0 ? found.a : mask(abs(source), found);
