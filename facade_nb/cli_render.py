@@ -80,6 +80,9 @@ def add_render(commands: Any) -> None:
     )
     parser.add_argument("--hour", type=hour_of, metavar="HOUR", help="in the light of this hour, 0 to 24")
     parser.add_argument(
+        "--relief", action="store_true", help="show how deep cornices, reveals and ornaments are"
+    )
+    parser.add_argument(
         "--out", type=Output, metavar="FILE.png", help="write the picture; -: standard output"
     )
     parser.add_argument(
@@ -126,9 +129,8 @@ def render_command(options: argparse.Namespace) -> int:
     }
     files: list[tuple[Output, str | bytes]] = []
     if options.out is not None:
-        files.append(
-            (options.out, render_texture(grammar, **given, antialias=options.antialias, hour=options.hour))
-        )
+        looks = {"antialias": options.antialias, "hour": options.hour, "relief": options.relief}
+        files.append((options.out, render_texture(grammar, **given, **looks)))
     if options.rules is not None:
         import numpy as np
 

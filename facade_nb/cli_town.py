@@ -45,6 +45,12 @@ def add_town(commands: Any) -> None:
         "--pixels", type=pixels_of, default=(1024, 768), metavar="WxH", help="default: 1024x768"
     )
     parser.add_argument(
+        "--relief",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="cornices, reveals and ornaments as deep as they are; default: with relief",
+    )
+    parser.add_argument(
         "--samples", type=_samples, default=1, metavar="N", help="N × N points a pixel, 1 to 4; default: 1"
     )
     parser.add_argument("--backend", choices=("osmesa", "egl"), help="default: the best that works here")
@@ -120,22 +126,24 @@ def _town(options: argparse.Namespace) -> Town:
 def _stills(
     options: argparse.Namespace, renderer: Renderer, place: Viewpoint, seconds: dict[str, float], begin: float
 ) -> list[tuple[Output, str | bytes]]:
+    from .render.pipeline.frame import Looks
     from .render.pipeline.stills import buffers_of, still
     from .render.texture.daytime import Daytime
 
     daytime, frustum = Daytime.at(options.hour), place.frustum(options.pixels)
+    looks = Looks(relief=options.relief)
     found: list[tuple[Output, str | bytes]] = []
     if options.out or options.stats:
-        pixels = still(renderer, frustum, daytime, options.pixels, samples=options.samples)
+        pixels = still(renderer, frustum, daytime, options.pixels, looks, options.samples)
         seconds["first_frame"] = time.perf_counter() - begin
         if options.out:
             found.append((options.out, _png(pixels)))
     if options.stats:
         again = time.perf_counter()
-        still(renderer, frustum, daytime, options.pixels, samples=options.samples)
+        still(renderer, frustum, daytime, options.pixels, looks, options.samples)
         seconds["frame"] = time.perf_counter() - again
     if options.buffers:
-        for name, values in buffers_of(renderer, frustum, daytime, options.pixels).items():
+        for name, values in buffers_of(renderer, frustum, daytime, options.pixels, looks).items():
             found.append((Output(Path(options.buffers) / f"{name}.png"), _png(values)))
     return found
 
@@ -145,16 +153,17 @@ def _frames(
 ) -> list[tuple[Output, str | bytes]]:
     from PIL import Image
 
+    from .render.pipeline.frame import Looks
     from .render.pipeline.stills import still
     from .render.texture.daytime import Daytime
 
-    daytime, tell = Daytime.at(options.hour), _teller("frames")
+    daytime, looks, tell = Daytime.at(options.hour), Looks(relief=options.relief), _teller("frames")
     count = max(1, round(path.seconds * options.rate))
     found: list[tuple[Output, str | bytes]] = []
     images = []
     for number in range(count):
         frustum = path.at(number / options.rate).frustum(options.pixels)
-        pixels = still(renderer, frustum, daytime, options.pixels, samples=options.samples)
+        pixels = still(renderer, frustum, daytime, options.pixels, looks, options.samples)
         if options.frames:
             found.append((Output(Path(options.frames) / f"{number:05d}.png"), _png(pixels)))
         if options.animation:

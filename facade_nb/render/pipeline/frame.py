@@ -28,6 +28,8 @@ class Looks:
         Metres after which a third is left of what is seen; 0: none.
     reach
         How far occlusion looks, metres.
+    relief
+        Whether tiles that have heights are seen with them (docs/texture.md, "Relief").
     """
 
     shadow: bool = True
@@ -35,6 +37,7 @@ class Looks:
     smooth: bool = True
     haze: float = 2600.0
     reach: float = 2.2
+    relief: bool = True
 
 
 @dataclass(frozen=True, eq=False)

@@ -71,6 +71,8 @@ class Pass:
         Given to the shader.
     when
         It runs only where this is true of the frame: ``sun``, ``shadow``, ``occlusion``, ``smooth``; empty: always.
+    options
+        Those that are true of the frame, such as ``relief``, are defined for the shader too, in capitals.
     tells
         What it does, in a sentence.
     """
@@ -86,6 +88,7 @@ class Pass:
     both: bool = False
     defines: tuple[str, ...] = ()
     when: str = ""
+    options: tuple[str, ...] = ()
 
 
 SHADOW = 2048
@@ -99,7 +102,7 @@ BUFFERS: tuple[Buffer, ...] = (
     Buffer("facing", 4, "f4", "Which way its façade looks, and how deep it lies before the camera, metres."),
     Buffer("along", 4, "f2", "Which way its façade's width runs."),
     Buffer("depth", 1, "depth", "Which triangle is in front."),
-    Buffer("color", 4, "f2", "What the grammar gives: colour, multiplied by alpha."),
+    Buffer("color", 4, "f2", "What the grammar gives: colour, multiplied by alpha. Above 2: how much sun relief takes."),
     Buffer("normal", 4, "f2", "Its normal, short in rooms; and how near a split is, in pixels."),
     Buffer("specular", 4, "f4", "Its specular value, in rooms a lamp's colour; and how deep it lies."),
     Buffer("occlusion", 2, "f2", "How much around a point is open, of a few taps; and how deep it lies.", part=2),
@@ -120,7 +123,8 @@ PASSES: tuple[Pass, ...] = (
     Pass("G-buffer", "gbuffer.frag", (), (*_MESH, "depth"), "Draws the mesh, and notes what the grammar will ask.",
          "mesh.vert", "mesh", "camera"),
     Pass("grammar", "grammar.frag", _MESH, ("color", "normal", "specular"),
-         "Evaluates the grammar once for each pixel that is seen.", defines=("MIPS", "EDGES", "DEEP")),
+         "Evaluates the grammar once for each pixel that is seen.", defines=("MIPS", "EDGES", "DEEP"),
+         options=("relief",)),
     Pass("occlusion", "occlusion.frag", ("specular", "facing"), ("occlusion",),
          "Looks how much its neighbours hide of a point's surroundings.", when="occlusion"),
     Pass("soften", "soften.frag", ("occlusion",), ("softened",), "Evens that out.", when="occlusion"),

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..texture.gl import GlPainter
 from ..texture.shaders import room, shader
-from ..texture.uploads import grammar_upload, tile_uploads
+from ..texture.uploads import Upload, grammar_upload, tile_uploads
 from .frame import Frame, visible
 from .passes import BUFFERS, PASSES, Buffer, Pass, arranged
 from .scene import Scene
@@ -51,8 +51,9 @@ class Renderer:
         self._pixels = (0, 0)
         self._images: dict[str, Any] = {}
         self._targets: dict[str, Any] = {}
-        self._programs: dict[str, Any] = {}
-        self._meshes: dict[str, Any] = {}
+        self._programs: dict[tuple[str, ...], Any] = {}
+        self._meshes: dict[tuple[str, ...], Any] = {}
+        self._tiles: bool | None = None  # none yet, or whether heights are among them
         self._held: dict[str, Any] = {}
         self._maps: dict[str, bytes] = {}
         with painter.entered() as context:
@@ -67,33 +68,49 @@ class Renderer:
         context, question = self._context, self.scene.question
         self._vertices = self._keep(context.buffer(self.scene.vertices.tobytes() or bytes(VERTEX.itemsize)))
         self._indices = self._keep(context.buffer(self.scene.indices.tobytes() or bytes(12)))
-        wide = "llvmpipe" in self.painter.renderer
-        for upload in (grammar_upload(question, wide=wide), *tile_uploads(question.atlas)):
-            image = context.texture(
-                upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1
-            )
-            image.filter = (context.NEAREST, context.NEAREST)
-            self._held[upload.name] = self._keep(image)
+        self._hold(grammar_upload(question, wide="llvmpipe" in self.painter.renderer))
+        for own in self.passes:
+            if not own.options:
+                self._make((own.name,), own)
+
+    def _hold(self, upload: Upload) -> None:
+        """Give the card a texture, in the place of one of that name."""
+        if upload.name in self._held:
+            self._held[upload.name].release()
+        context = self._context
+        image = context.texture(upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1)
+        image.filter = (context.NEAREST, context.NEAREST)
+        self._held[upload.name] = self._keep(image)
+
+    def _hold_tiles(self, relief: bool) -> None:
+        """The tiles, once they are needed; their heights too, once those are: all that is drawn stays as it was."""
+        if self._tiles is None or (relief and not self._tiles):
+            question = self.scene.relief_question if relief else self.scene.question
+            for upload in tile_uploads(question.atlas):
+                self._hold(upload)
+            self._tiles = relief
+
+    def _make(self, key: tuple[str, ...], own: Pass) -> None:
+        """The program of a pass, with what it draws; the key is its name and its options."""
+        context, question = self._context, self.scene.question
         frames, seeds = map(room, question.stacks)
         bits = question.texture.dtype.itemsize * 8
-        for own in self.passes:
-            program = self._keep(
-                context.program(
-                    vertex_shader=shader(own.vertex),
-                    fragment_shader=shader(
-                        own.fragment, frames=frames, seeds=seeds, bits=bits, defines=own.defines
-                    ),
-                )
+        defines = (*own.defines, *(name.upper() for name in key[1:]))
+        program = self._keep(
+            context.program(
+                vertex_shader=shader(own.vertex),
+                fragment_shader=shader(own.fragment, frames=frames, seeds=seeds, bits=bits, defines=defines),
             )
-            self._programs[own.name] = program
-            if own.draws == "mesh":
-                content = _content(program)
-                array = context.vertex_array(
-                    program, [(self._vertices, *content)], self._indices, skip_errors=True
-                )
-            else:
-                array = context.vertex_array(program, [])
-            self._meshes[own.name] = self._keep(array)
+        )
+        self._programs[key] = program
+        if own.draws == "mesh":
+            content = _content(program)
+            array = context.vertex_array(
+                program, [(self._vertices, *content)], self._indices, skip_errors=True
+            )
+        else:
+            array = context.vertex_array(program, [])
+        self._meshes[key] = self._keep(array)
 
     def close(self) -> None:
         """Give back what it holds of the card."""
@@ -126,6 +143,7 @@ class Renderer:
             if max(frame.pixels) > most or min(frame.pixels) < 1:
                 raise ValueError(f"pixels: expected from 1 to {most} across and up; found {frame.pixels}")
             self._make_room(frame.pixels)
+            self._hold_tiles(frame.looks.relief)
             uniforms = frame.uniforms()
             written: set[str] = set()
             for own in self.passes:
@@ -150,7 +168,10 @@ class Renderer:
         return same
 
     def _run(self, own: Pass, uniforms: dict[str, Any], frame: Frame) -> None:
-        context, program = self._context, self._programs[own.name]
+        key = (own.name, *(name for name in own.options if frame.runs(name)))
+        if key not in self._programs:
+            self._make(key, own)
+        context, program, mesh = self._context, self._programs[key], self._meshes[key]
         target = self._targets[own.name]
         target.use()
         target.viewport = (0, 0, *target.size)
@@ -172,10 +193,10 @@ class Renderer:
             context.enable(context.DEPTH_TEST | (0 if own.both else context.CULL_FACE))
             context.front_face, context.cull_face = "ccw", "back"
             for first, count in visible(self.scene, uniforms[own.through]):
-                self._meshes[own.name].render(context.TRIANGLES, vertices=count, first=first)
+                mesh.render(context.TRIANGLES, vertices=count, first=first)
             context.disable(context.DEPTH_TEST | context.CULL_FACE)
         else:
-            self._meshes[own.name].render(context.TRIANGLES, vertices=3)
+            mesh.render(context.TRIANGLES, vertices=3)
 
     def _make_room(self, pixels: tuple[int, int]) -> None:
         """Images of the picture's size, kept until another is asked for."""

@@ -76,6 +76,11 @@ class Scene:
         """What the evaluator is given of the grammar."""
         return self.grammar.question((1.0, 1.0))
 
+    @cached_property
+    def relief_question(self) -> Question:
+        """The same with the heights of tiles."""
+        return self.grammar.question((1.0, 1.0), relief=True)
+
     @property
     def bytes(self) -> dict[str, int]:
         """What the graphics card holds of it."""

@@ -7,8 +7,8 @@ a repeated one and never beyond the edge of a stretched one, so neighbours in th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from math import ceil, sqrt
 from typing import Any, Protocol
 
@@ -17,12 +17,15 @@ from numpy.typing import NDArray
 
 from ...design.errors import DesignError, Fault
 
-__all__ = ["MAX_TEXELS", "Atlas", "Tiles", "pack"]
+__all__ = ["GOES_ON", "MAX_TEXELS", "STANDS", "Atlas", "Tiles", "pack"]
 
 MAX_TEXELS = 1 << 26
 """The largest atlas: 256 MiB, and what a graphics card holds in one image."""
 
 Floats = NDArray[np.float32]
+
+GOES_ON, STANDS = (1, 2), 4
+"""What a tile of heights is, beside its number: whether it goes on across, up; whether one sees past its edges."""
 
 
 class Tiles(Protocol):
@@ -38,6 +41,35 @@ class Tiles(Protocol):
         ...
 
 
+class _Relief(Protocol):
+    """What is asked of a tile's relief: `facade_nb.render.tiles.relief.Relief`, or anything like it."""
+
+    @property
+    def heights(self) -> NDArray[Any]:
+        """(h, w) from 0 to 1, row 0 at the top."""
+        ...
+
+    @property
+    def depth(self) -> float:
+        """Metres from 0 to 1."""
+        ...
+
+    @property
+    def high(self) -> float:
+        """How far 1 stands out of the wall, metres."""
+        ...
+
+    @property
+    def goes_on(self) -> tuple[bool, bool]:
+        """Whether the tile goes on at its opposite edge, across and up."""
+        ...
+
+    @property
+    def stands(self) -> bool:
+        """Whether one sees past it at its edges."""
+        ...
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Atlas:
     """Tiles in one image.
@@ -50,11 +82,17 @@ class Atlas:
         (tiles, levels, 4) int32: left, bottom, width, height of each level. A tile with fewer levels repeats its last.
     grey
         (tiles,) bool: the tile is opaque throughout; its mask is its brightness, not its alpha.
+    relief
+        (tiles, 3) float32: which tile, from 1, holds the heights of a tile, times 8, and what is so of it (`GOES_ON`,
+        `STANDS`; 0: it is flat); from the deepest to the highest, metres; how far the highest stands out of the wall.
+        Tiles of heights come after those that are named; a texel of them holds the heights at four corners: its own,
+        right, above, right above.
     """
 
     pixels: NDArray[np.uint8]
     table: NDArray[np.int32]
     grey: NDArray[np.bool_]
+    relief: NDArray[np.float32] = field(default_factory=lambda: np.zeros((1, 3), np.float32))
 
     def sample(
         self, tile: int, u: Floats, v: Floats, wrap: bool, level: int | NDArray[np.int32] = 0
@@ -80,6 +118,25 @@ class Atlas:
         mixed: Floats = (under * (1 - fy) + over * fy) * np.float32(1 / 255)
         return mixed
 
+    def height(
+        self,
+        tile: int,
+        u: Floats,
+        v: Floats,
+        wrap: tuple[bool, bool],
+        level: int | NDArray[np.int32] = 0,
+    ) -> Floats:
+        """Heights (n,) from 0 to 1 of the tile of heights number `tile`; parameters as of `sample`."""
+        levels = self.table[tile - 1]
+        left, bottom, width, height = levels[np.minimum(level, len(levels) - 1)].T
+        fx, x = _corner(u, width, wrap[0])
+        fy, y = _corner(v, height, wrap[1])
+        four = self.pixels.reshape(-1, 4)[(bottom + y) * self.pixels.shape[1] + left + x]
+        under = four[:, 0] * (1 - fx) + four[:, 1] * fx
+        over = four[:, 2] * (1 - fx) + four[:, 3] * fx
+        mixed: Floats = (under * (1 - fy) + over * fy) * np.float32(1 / 255)
+        return mixed
+
     def mask(self, tile: int, values: Floats) -> Floats:
         """What a tile's values (n, 4) mean as a mask: brightness of an opaque tile, alpha of another one."""
         if self.grey[tile - 1]:
@@ -100,8 +157,17 @@ def _neighbours(
     return at - low, np.maximum(first, 0), np.minimum(second, size - 1)
 
 
-def pack(tiles: Tiles | None, names: Sequence[str]) -> Atlas:
-    """Pack tiles, each with all its levels side by side, on shelves.
+def _corner(u: Floats, size: NDArray[np.int32], wrap: bool) -> tuple[Floats, NDArray[np.int32]]:
+    """How far a place is from the texel before it along one axis, and that texel."""
+    count, half = size.astype(np.float32), np.float32(0.5)
+    at = (u - np.floor(u)) * count - half if wrap else np.clip(np.clip(u, 0, 1) * count - half, 0, count - 1)
+    low = np.floor(at)
+    first = low.astype(np.int32)
+    return at - low, np.where(first < 0, size - 1, first)
+
+
+def pack(tiles: Tiles | None, names: Sequence[str], relief: bool = False) -> Atlas:
+    """Pack tiles, each with all its levels side by side, on shelves; with `relief` also their heights.
 
     Raises
     ------
@@ -110,8 +176,9 @@ def pack(tiles: Tiles | None, names: Sequence[str]) -> Atlas:
     """
     images: list[list[NDArray[np.uint8]]] = []
     texels = 0
-    for name in names if tiles is not None else ():
-        images.append([_stored(level) for level in tiles.mips(name)])  # type: ignore[union-attr]
+    reliefs = _Reliefs(tiles, names if relief else ())
+    for levels in (*(_read(tiles, name) for name in names), *reliefs.images()) if tiles is not None else ():
+        images.append(levels)
         texels += 4 * images[-1][0].shape[0] * images[-1][0].shape[1] // 3
         if texels > MAX_TEXELS:
             message = (
@@ -148,7 +215,56 @@ def pack(tiles: Tiles | None, names: Sequence[str]) -> Atlas:
             left, bottom, width, height = table[k, level]
             pixels[bottom : bottom + height, left : left + width] = image
     grey = np.array([bool((levels[0][..., 3] == 255).all()) for levels in images])
-    return Atlas(pixels, table, grey)
+    return Atlas(pixels, table, grey, reliefs.table(len(images)))
+
+
+def _read(tiles: Tiles, name: str) -> list[NDArray[np.uint8]]:
+    return [_stored(level) for level in tiles.mips(name)]
+
+
+class _Reliefs:
+    """The heights of tiles, those of companions once with their tile's."""
+
+    def __init__(self, tiles: Tiles | None, names: Sequence[str]) -> None:
+        self._of: list[_Relief | None] = []
+        bases: dict[str, _Relief | None] = {}
+        ask: Callable[[str], _Relief | None] = getattr(tiles, "relief", lambda _: None)
+        for name in names:
+            base = name.removesuffix(".normal").removesuffix(".specular")
+            if base not in bases:
+                bases[base] = ask(name)
+            self._of.append(bases[base])
+        self._own = [own for own in bases.values() if own is not None]
+
+    def images(self) -> Iterator[list[NDArray[np.uint8]]]:
+        """Of each, from the largest to one texel: heights at a texel and those right, above, and right above."""
+        for own in self._own:
+            level = np.asarray(own.heights, np.float32)
+            levels = []
+            while True:
+                up = np.roll(level, 1, axis=0)
+                four = np.stack([level, np.roll(level, -1, axis=1), up, np.roll(up, -1, axis=1)], axis=-1)
+                levels.append(_stored(four))
+                h, w = level.shape
+                if max(h, w) == 1:
+                    break
+                h, w = max(h // 2, 1), max(w // 2, 1)
+                tall, wide = level.shape[0] // h, level.shape[1] // w
+                level = level[: h * tall, : w * wide].reshape(h, tall, w, wide).mean(axis=(1, 3))
+            yield levels
+
+    def table(self, tiles: int) -> NDArray[np.float32]:
+        """`Atlas.relief` of so many tiles, those of heights among them."""
+        table = np.zeros((tiles, 3), np.float32)
+        first = tiles - len(self._own) + 1
+        numbers = {id(own): first + k for k, own in enumerate(self._own)}
+        for k, own in enumerate(self._of):
+            if own is not None:
+                marks = sum(
+                    bit for bit, on in zip((*GOES_ON, STANDS), (*own.goes_on, own.stands), strict=True) if on
+                )
+                table[k] = 8 * numbers[id(own)] + marks, own.depth, own.high
+        return table
 
 
 def _stored(image: NDArray[Any]) -> NDArray[np.uint8]:

@@ -24,6 +24,7 @@ from .encoding import Record
 from .limits import MAX_STEPS
 from .noise import Seed, look_up, steps_of
 from .operators import USAGES
+from .relief import Struck, strike
 from .steps import FACES, Chosen, Divided, Entered, Layered, Painted, Passed, Stacked, Step
 
 __all__ = ["BELOW_ONE", "OPAQUE", "Question", "Surface", "evaluate"]
@@ -85,6 +86,10 @@ class Question(NamedTuple):
         Whether a rule can come back to itself: only then steps are counted, for otherwise there are few enough.
     stacks
         How many Layer operators, and how many RandStack ones, can stand inside each other: room that the shader needs.
+    relief
+        Whether tiles with heights in the atlas are seen with their relief.
+    sun
+        Towards the sun: x to the right, y up, z out of the façade. The relief throws shadows if z is above 0.
     """
 
     texture: NDArray[Any]
@@ -96,6 +101,8 @@ class Question(NamedTuple):
     atlas: Atlas
     recurs: bool
     stacks: tuple[int, int]
+    relief: bool = False
+    sun: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 def evaluate(
@@ -107,6 +114,7 @@ def evaluate(
     steps: list[Step] | None = None,
     margin: Floats | None = None,
     color_only: bool = False,
+    shade: Floats | None = None,
 ) -> Surface:
     """The surface at points of a façade.
 
@@ -126,13 +134,17 @@ def evaluate(
         (n,) is filled with how near each point came to a boundary, in footprints as seen along the ray.
     color_only
         Passes over normals and specular values.
+    shade
+        (n,) is filled with how much of the sun the relief takes from what is seen.
     """
     count = len(points)
     color, normal, specular = (np.zeros((count, 4), np.float32) for _ in range(3))
     surface = Surface(color, normal, specular, np.full(count, -1, np.int32))
-    run = _Run(question, surface, footprint is not None, spread, steps, margin, color_only)
+    run = _Run(question, surface, footprint is not None, spread, steps, margin, color_only, shade)
     if margin is not None:
         margin[:] = _FAR
+    if shade is not None:
+        shade[:] = 0
     zero, (width, height) = np.zeros(1, np.float32), (np.full(1, v, np.float32) for v in question.size)
     ahead = (zero, zero, np.full(1, -1, np.float32))
     for first in range(0, count, _CHUNK):
@@ -161,8 +173,9 @@ class _Run:
         steps: list[Step] | None,
         margin: Floats | None,
         color_only: bool,
+        shade: Floats | None,
     ) -> None:
-        self.color_only = color_only
+        self.color_only, self.shade = color_only, shade
         self.question, self.surface, self.steps, self.margin = question, surface, steps, margin
         self.sized, self.spread = sized, np.float32(spread)
         self.bits = question.texture.dtype.itemsize * 8
@@ -426,17 +439,21 @@ class _Run:
         if self.color_only and usage != 1:
             self.passing[batch.index] = 0
             return
-        value = self._value(head, "m", batch)
+        value, struck = self._value(head, "m", batch)
         alpha = value[:, 3]
         if "a1" in head:
-            factor = self._value(head, "a", batch)
+            factor, also = self._value(head, "a", batch)
             tile = abs(int(head["a1"]))
             alpha = alpha * (self.question.atlas.mask(tile, factor) if tile else factor[:, 3])
+            alpha = _beside(alpha, also)
+        alpha = _beside(alpha, struck)
         if usage == 2:
             value = _turned(value, batch.faces)
         total = self.sums[usage - 1]
         held = total[batch.index]
         weight = (1 - held[:, 3]) * alpha
+        if usage == 1 and struck is not None and self.shade is not None:
+            self.shade[batch.index] += weight * struck.shade
         held[:, :3] += weight[:, None] * value[:, :3]
         held[:, 3] += weight
         total[batch.index] = held
@@ -449,12 +466,19 @@ class _Run:
             here = self._here(rule, batch, record.head_places)
             self.steps.append(Painted(**here, usage=_USAGES[usage], value=_four(added), total=_four(so_far)))
 
-    def _value(self, head: Any, letter: str, batch: Batch) -> Floats:
-        """Red, green, blue and alpha (n, 4) of a source and its four numbers."""
+    def _value(self, head: Any, letter: str, batch: Batch) -> tuple[Floats, Struck | None]:
+        """Red, green, blue and alpha (n, 4) of a source and its four numbers; and what rays met, if it has relief."""
         source = int(head[f"{letter}1"])
         numbers = tuple(np.float32(head[f"{letter}{k}"]) for k in range(2, 6))
         if not source:
-            return np.broadcast_to(np.array(numbers, np.float32), (len(batch), 4))
+            return np.broadcast_to(np.array(numbers, np.float32), (len(batch), 4)), None
+        struck = self._strike(source, batch, numbers) if self.question.relief else None
+        if struck is not None:
+            batch = replace(batch, x=struck.x, y=struck.y)
+        return self._tile(source, batch, numbers), struck
+
+    def _tile(self, source: int, batch: Batch, numbers: Sequence[Any]) -> Floats:
+        """A tile, stretched or repeated."""
         if source > 0:
             return self._fit(source, batch, numbers)
         u, v = numbers[0] + batch.x * numbers[2], numbers[1] + batch.y * numbers[3]
@@ -476,6 +500,33 @@ class _Run:
             False,
             self._level(tile, batch, across, up),
         )
+
+    def _strike(self, source: int, batch: Batch, numbers: Sequence[Any]) -> Struck | None:
+        """What rays meet of a tile that has heights."""
+        atlas = self.question.atlas
+        heights = int(atlas.relief[min(abs(source), len(atlas.relief)) - 1, 0]) // 8
+        if not heights:
+            return None
+        scale: tuple[Any, Any]
+        whole = (True, True)
+        if source < 0:
+            scale = numbers[2], numbers[3]
+            start = numbers[0] + batch.x * scale[0], numbers[1] + batch.y * scale[1]
+        else:
+            left, bottom, right, top = numbers
+            width, height = batch.right - batch.left, batch.top - batch.bottom
+            scale = (right - left) / width, (top - bottom) / height
+            whole = (abs(right - left) == 1, abs(top - bottom) == 1)
+            start = (
+                left + np.clip((batch.x - batch.left) / width, 0, 1) * (right - left),
+                bottom + np.clip((batch.y - batch.bottom) / height, 0, 1) * (top - bottom),
+            )
+        level = self._level(heights, batch, np.abs(scale[0]), np.abs(scale[1]))
+        below = any(layer > 1 for _, layer in batch.layers)
+        struck = strike(atlas, source, batch, start, scale, whole, below, level, self.question.sun)
+        if struck is not None and self.margin is not None:
+            self.margin[batch.index[struck.near]] = 0
+        return struck
 
     def _level(self, tile: int, batch: Batch, across: Any, up: Any) -> int | NDArray[np.int32]:
         """Which size of a tile fits a pixel, a tile that stands so often in a metre: 0 is the largest.
@@ -531,6 +582,11 @@ def _those(part: NDArray[Any], k: int, batch: Batch) -> list[tuple[Any, Batch]]:
     if not len(chosen):
         return []
     return [(slice(None), batch) if len(chosen) == len(batch) else (chosen, batch.take(chosen))]
+
+
+def _beside(alpha: Floats, struck: Struck | None) -> Floats:
+    """Alpha of a material: nothing where the ray has gone past its relief."""
+    return alpha if struck is None else np.where(struck.beside, np.float32(0), alpha)
 
 
 def _turned(value: Floats, faces: Sequence[int]) -> Floats:

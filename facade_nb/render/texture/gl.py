@@ -99,7 +99,7 @@ class GlPainter:
         count: bool = False,
     ) -> Shot:
         """Every pixel of a view at its centre; with `count`, how many texels each has read."""
-        defines = _defines(mips, color_only, count)
+        defines = _defines(mips, color_only, count, question.relief)
         with self._drawn(question, "sight.frag", defines, sight.pixels, sight_uniforms(sight), ()) as images:
             return _shot(question, _read(images, color_only), sight.pixels, count, flip=True)
 
@@ -125,7 +125,7 @@ class GlPainter:
             Upload(name, size, 4, "f4", array.tobytes())
             for name, array in (("points", points), ("rays", rays))
         ]
-        defines = _defines(mips, color_only, count)
+        defines = _defines(mips, color_only, count, question.relief)
         with self._drawn(question, "points.frag", defines, size, {"spread": looks.spread}, data) as images:
             shot = _shot(question, _read(images, color_only), size, count, flip=False)
         return spread(shot.first(number), looks.inside)
@@ -160,7 +160,7 @@ class GlPainter:
             for key, value in {**uniforms(question), **given}.items():
                 if key in program:
                     program[key].value = value
-            numbers = 4 if {"EDGES", "COUNT_FETCHES"} & set(defines) else 1  # or the rule alone
+            numbers = 4 if {"EDGES", "COUNT_FETCHES", "RELIEF"} & set(defines) else 1  # or the rule alone
             layout = ((4, "f4"), (4, "f4"), (4, "f4"), (numbers, "i4"))
             images = [keep(context.texture(size, count, dtype=kind)) for count, kind in layout]
             target = keep(context.framebuffer(images))
@@ -204,8 +204,8 @@ def _texture(context: Any, upload: Upload) -> Any:
     return texture
 
 
-def _defines(mips: bool, color_only: bool, count: bool) -> tuple[str, ...]:
-    wanted = {"MIPS": mips, "EDGES": mips, "COLOR_ONLY": color_only, "COUNT_FETCHES": count}
+def _defines(mips: bool, color_only: bool, count: bool, relief: bool) -> tuple[str, ...]:
+    wanted = {"MIPS": mips, "EDGES": mips, "COLOR_ONLY": color_only, "COUNT_FETCHES": count, "RELIEF": relief}
     return tuple(name for name, on in wanted.items() if on)
 
 
@@ -234,9 +234,9 @@ def _shot(
     margin = np.zeros(len(numbers), np.float32)
     if numbers.shape[1] > 1:
         margin = np.ascontiguousarray(numbers[:, 2]).view(np.float32)
-    return Shot(
-        Surface(color, normal, specular, rules[numbers[:, 0]]), margin, numbers[:, 1] if count else None
-    )
+    shade = np.ascontiguousarray(numbers[:, 3]).view(np.float32) if question.relief else None
+    surface = Surface(color, normal, specular, rules[numbers[:, 0]])
+    return Shot(surface, margin, numbers[:, 1] if count else None, shade)
 
 
 # Platforms --------------------------------------------------------------------------------------------------

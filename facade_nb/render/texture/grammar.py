@@ -185,6 +185,7 @@ class Grammar:
         seed: tuple[float, float] = (0.0, 0.0),
         start: str | None = None,
         tiles: Tiles | None = None,
+        relief: bool = False,
     ) -> Question:
         """Everything that an evaluator needs, except the points. It raises what `evaluate` raises."""
         width, height = _two(size, "size", "a width and a height in metres, from 0.001 to below 100000")
@@ -203,20 +204,24 @@ class Grammar:
             self.index(start),
             (width, height),
             Seed.of(place),
-            self.atlas(tiles),
+            self.atlas(tiles, relief),
             self._recurs,
             self._stacks,
+            relief,
         )
 
-    def atlas(self, tiles: Tiles | None = None) -> Atlas:
-        """The tiles that the grammar names, packed. Raises `GrammarError` for one that is not in `tiles`."""
+    def atlas(self, tiles: Tiles | None = None, relief: bool = False) -> Atlas:
+        """The tiles that the grammar names, packed, with `relief` also their heights.
+
+        Raises `GrammarError` for one that is not in `tiles`.
+        """
         if tiles is None or tiles is self.tiles:
-            return self._atlas
+            return self._relief_atlas if relief else self._atlas
         found = check_tiles(self.named, tiles)
         if found:
             lines = Lines(self.text)
             raise GrammarError(lines.fault(offset, message) for offset, message in found)
-        return pack(tiles, self.encoding.tiles)
+        return pack(tiles, self.encoding.tiles, relief)
 
     @cached_property
     def _records(self) -> tuple[Record, ...]:
@@ -232,8 +237,15 @@ class Grammar:
 
     @cached_property
     def _atlas(self) -> Atlas:
+        return self._packed(False)
+
+    @cached_property
+    def _relief_atlas(self) -> Atlas:
+        return self._packed(True)
+
+    def _packed(self, relief: bool) -> Atlas:
         names = self.encoding.tiles
-        return pack((self.tiles if self.tiles is not None else _shipped()) if names else None, names)
+        return pack((self.tiles if self.tiles is not None else _shipped()) if names else None, names, relief)
 
 
 def _shipped() -> Tiles:

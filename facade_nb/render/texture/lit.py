@@ -50,19 +50,23 @@ class Lit:
         self, question: Question, sight: Sight, *, mips: bool = False, color_only: bool = False
     ) -> Shot:
         """As `Painter.paint`; normal and specular are always read, since light needs them."""
-        return self._lit(self.painter.paint(question, sight, mips=mips), sight.looks())
+        return self._lit(self.painter.paint(self._asked(question), sight, mips=mips), sight.looks())
 
     def paint_at(
         self, question: Question, looks: Looks, *, mips: bool = False, color_only: bool = False
     ) -> Shot:
         """As `Painter.paint_at`."""
-        return self._lit(self.painter.paint_at(question, looks, mips=mips), looks)
+        return self._lit(self.painter.paint_at(self._asked(question), looks, mips=mips), looks)
+
+    def _asked(self, question: Question) -> Question:
+        """With the sun, for the shadows of relief."""
+        return question._replace(sun=self.daytime.towards) if any(self.daytime.sun) else question
 
     def _lit(self, shot: Shot, looks: Looks) -> Shot:
         color, normal, specular, rule = shot.surface
         count = len(color)
         rays = np.broadcast_to(floats([0, 0, -1]), (count, 3)) if looks.rays is None else looks.rays
-        sunny = np.ones(count, np.float32)
+        sunny = np.ones(count, np.float32) if shot.shade is None else 1 - shot.shade
         lit = light(color, normal, specular, rays, self.daytime, sunny, looks.points[:, 1])
         shown = developed(lit, self.daytime.exposure) * (color[:, 3:] > 0)
         # Multiplied by alpha, as colours are; a highlight may not be more than that.

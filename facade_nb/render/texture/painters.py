@@ -40,6 +40,7 @@ class _Cpu:
                 footprint[inside],
             )
         margin = np.zeros(len(points), np.float32) if mips else None
+        shade = np.zeros(len(points), np.float32) if question.relief else None
         surface = evaluate(
             question,
             points,
@@ -48,8 +49,10 @@ class _Cpu:
             looks.spread,
             margin=margin,
             color_only=color_only,
+            shade=shade,
         )
-        return spread(Shot(surface, np.zeros(len(points), np.float32) if margin is None else margin), inside)
+        margin = np.zeros(len(points), np.float32) if margin is None else margin
+        return spread(Shot(surface, margin, shade=shade), inside)
 
 
 PAINTERS: dict[str, Painter] = {"osmesa": OSMESA, "egl": EGL, "cpu": _Cpu()}

@@ -55,6 +55,8 @@ class Photo:
         Each pixel is the mean of `samples` × `samples` points.
     backend
         Who evaluates grammars: ``cpu``, ``osmesa`` or ``egl``, which is faster where there is a graphics card.
+    relief
+        Whether tiles that have heights are seen with them (docs/texture.md, "Relief").
     """
 
     pixels: tuple[int, int] = (1024, 768)
@@ -63,6 +65,7 @@ class Photo:
     frame: tuple[float, float, float, float] | None = None
     samples: int = 2
     backend: str = "cpu"
+    relief: bool = False
 
 
 def photograph(facades: Sequence[Facade], photo: Photo = Photo()) -> NDArray[np.uint8]:
@@ -94,7 +97,8 @@ def photographs(facades: Sequence[Facade], photo: Photo, hours: Sequence[float])
     rays = view.rays(large).reshape(-1, 3)[order]
     painter = choose_painter(photo.backend)
     pictures = []
-    for daytime, seen in zip(daytimes, _seen(facades, view, rays, daytimes, large, painter), strict=True):
+    found = _seen(facades, view, rays, daytimes, large, painter, photo.relief)
+    for daytime, seen in zip(daytimes, found, strict=True):
         picture = np.empty_like(rays)
         picture[order] = developed(seen, daytime.exposure)
         small = binned(picture.reshape(large[1], large[0], 3), photo.samples)
@@ -174,6 +178,7 @@ def _seen(
     daytimes: Sequence[Daytime],
     pixels: tuple[int, int],
     painter: Painter,
+    relief: bool,
 ) -> list[Floats]:
     """Light (n, 3) that comes along rays, at each hour."""
     eye = view.eye.astype(np.float32)
@@ -192,7 +197,7 @@ def _seen(
             own = np.flatnonzero(hits.facade == index)
             if len(own):
                 lights, alpha = _facade_light(
-                    facades, index, facade, eye, rays[at[own]], hits, own, daytimes, spread, painter
+                    facades, index, facade, eye, rays[at[own]], hits, own, daytimes, spread, painter, relief
                 )
                 for light_, more_light in zip(seen, lights, strict=True):
                     light_[at[own]] += clear[at[own], None] * more_light
@@ -215,23 +220,31 @@ def _facade_light(
     daytimes: Sequence[Daytime],
     spread: float,
     painter: Painter,
+    relief: bool,
 ) -> tuple[list[Floats], Floats]:
     """Light (n, 3), multiplied by alpha, at each hour, and alpha (n,) of what rays meet on one façade."""
     axes = facade.axes
     local = rays @ axes.T
     distance = hits.distance[own]
-    question = facade.grammar.question(facade.size, facade.seed, facade.start)
+    question = facade.grammar.question(facade.size, facade.seed, facade.start, relief=relief)
     # A pixel covers this much across the ray; how much of a tile that is, seen slantwise, the evaluator finds.
     everywhere = np.ones(len(own), bool)
     looks = Looks(
         np.ascontiguousarray(hits.places[own]), local, distance * np.float32(spread), spread, everywhere
     )
-    surface = painter.paint_at(question, looks, mips=True).surface
+    shot = painter.paint_at(question, looks, mips=True)
+    surface = shot.surface
     points = eye + distance[:, None] * rays
     skip = np.full(len(own), index, np.int32)
     lit = []
     for daytime in daytimes:
         free = sees(facades, points, floats(daytime.towards), skip).astype(np.float32)
+        if relief and any(daytime.sun):
+            x, y, z = map(float, axes @ floats(daytime.towards))
+            shaded = painter.paint_at(
+                question._replace(sun=(x, y, z)), looks, mips=True, color_only=True
+            ).shade
+            free *= 1 if shaded is None else 1 - shaded
         lit.append(light(*surface[:3], local, daytime, free, points[:, 1], axes))
     alpha: Floats = np.where(surface.color[:, 3] > OPAQUE, 1, surface.color[:, 3])
     return lit, alpha

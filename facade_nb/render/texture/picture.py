@@ -44,6 +44,7 @@ def render_texture(
     backend: str | None = None,
     antialias: str = "adaptive",
     hour: float | None = None,
+    relief: bool = False,
 ) -> bytes:
     """Render a façade by its grammar as a PNG picture.
 
@@ -68,6 +69,8 @@ def render_texture(
         ``none``, ``adaptive`` or ``supersample`` (see `antialias`).
     hour
         Of the day, 0 to 24, in whose light the façade stands (see `daytime`); None: colours as the grammar gives them.
+    relief
+        Whether tiles that have heights are seen with them: cornices, reveals, ornaments (docs/texture.md, "Relief").
 
     Returns
     -------
@@ -96,6 +99,7 @@ def render_texture(
             backend=backend,
             antialias=antialias,
             hour=hour,
+            relief=relief,
         )
     )
     if path is not None:
@@ -115,10 +119,11 @@ def texture_pixels(
     backend: str | None = None,
     antialias: str = "adaptive",
     hour: float | None = None,
+    relief: bool = False,
 ) -> NDArray[np.uint8]:
     """As `render_texture`, but the pixels: (h, w, 4) uint8, row 0 at the top, colour not multiplied by alpha."""
     sight = _sight(size, pixels, camera)
-    question = grammar.question(size, seed, start, tiles)
+    question = grammar.question(size, seed, start, tiles, relief)
     painter: Painter = choose_painter(backend)
     if hour is not None:
         painter = Lit(painter, Daytime.at(hour))

@@ -54,7 +54,8 @@ def shader(
     defines
         Names to be defined: ``MIPS`` (tiles in the size that fits a pixel), ``EDGES`` (how near a boundary is),
         ``COLOR_ONLY`` (normals and specular values are passed over),
-        ``DEEP`` (how far behind the façade colour comes from), ``PICK`` (which rule a pixel shows), ``COUNT_FETCHES``.
+        ``RELIEF`` (tiles that have heights are seen with them), ``DEEP`` (how far behind the façade colour comes
+        from), ``PICK`` (which rule a pixel shows), ``COUNT_FETCHES``.
     """
     head = PROFILES[profile]
     if name.endswith(".frag"):

@@ -26,17 +26,23 @@ class Shot:
         (n,) float32, how near each came to a boundary, in pixels.
     fetches
         (n,) int32, how many texels the shader has read for each, where that was asked for.
+    shade
+        (n,) float32, how much of the sun the relief takes from each, where there is relief.
     """
 
     surface: Surface
     margin: NDArray[np.float32]
     fetches: NDArray[np.int32] | None = None
+    shade: NDArray[np.float32] | None = None
 
     def first(self, number: int) -> Shot:
         """The first pixels alone."""
         color, normal, specular, rule = self.surface
         surface = Surface(color[:number], normal[:number], specular[:number], rule[:number])
-        return Shot(surface, self.margin[:number], None if self.fetches is None else self.fetches[:number])
+        fetches = None if self.fetches is None else self.fetches[:number]
+        return Shot(
+            surface, self.margin[:number], fetches, None if self.shade is None else self.shade[:number]
+        )
 
 
 class Painter(Protocol):
@@ -86,4 +92,5 @@ def spread(shot: Shot, inside: NDArray[np.bool_]) -> Shot:
 
     color, normal, specular, rule = shot.surface
     surface = Surface(of(color, 0), of(normal, 0), of(specular, 0), of(rule, -1))
-    return Shot(surface, of(shot.margin, 1e9), None if shot.fetches is None else of(shot.fetches, 0))
+    fetches, shade = (None if own is None else of(own, 0) for own in (shot.fetches, shot.shade))
+    return Shot(surface, of(shot.margin, 1e9), fetches, shade)

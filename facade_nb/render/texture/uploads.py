@@ -57,6 +57,7 @@ def tile_uploads(atlas: Atlas) -> tuple[Upload, ...]:
     table = np.zeros((len(atlas.table), atlas.table.shape[1] + 1, 4), np.float32)
     table[:, 1:] = atlas.table
     table[:, 0, 0] = atlas.grey
+    table[:, 0, 1:] = atlas.relief
     return (
         _upload("noise", noise_texture(), 1, "f4"),
         _upload("atlas", atlas.pixels, 4, "f1"),
@@ -72,6 +73,7 @@ def uniforms(question: Question) -> dict[str, Any]:
     """What is asked of the grammar."""
     seed = question.seed
     return {
+        "to_sun": question.sun,
         "grammar_width": question.texture.shape[1],
         "facade_size": question.size,
         "start_rule": question.records[question.start].place,

@@ -11,17 +11,15 @@ import numpy as np
 from .canvas import Canvas, Floats
 from .catalogue import CATALOGUE
 from .images import evened
-from .relief import normals, sky_light
+from .relief import Relief, normals, relief_of, sky_light
 
-__all__ = ["draw"]
+__all__ = ["draw", "relief"]
 
 
 @lru_cache(maxsize=8)
 def draw(name: str, size: int) -> Mapping[str, Floats]:
     """The pictures (size, size, 4) of a tile: ``color``, and those of `MAPS` that it has. Row 0 is at the top."""
-    recipe = CATALOGUE[name]
-    canvas = Canvas(size, recipe.width, recipe.height, wrap=("x" in recipe.tiling, "y" in recipe.tiling))
-    recipe.draw(canvas, recipe.seed)
+    recipe, canvas = CATALOGUE[name], _drawn(name, size)
     facing = normals(canvas) if recipe.shade or "normal" in recipe.maps else None
     colour = canvas.colour
     if recipe.shade and facing is not None:
@@ -46,3 +44,15 @@ def draw(name: str, size: int) -> Mapping[str, Floats]:
     for picture in finished.values():
         picture.setflags(write=False)
     return MappingProxyType(finished)
+
+
+def relief(name: str, size: int) -> Relief | None:
+    """How deep the tile is, where; None if it is flat, or if nothing stands out of what it shows (no normal map)."""
+    return relief_of(_drawn(name, size)) if "normal" in CATALOGUE[name].maps else None
+
+
+def _drawn(name: str, size: int) -> Canvas:
+    recipe = CATALOGUE[name]
+    canvas = Canvas(size, recipe.width, recipe.height, wrap=("x" in recipe.tiling, "y" in recipe.tiling))
+    recipe.draw(canvas, recipe.seed)
+    return canvas

@@ -1,14 +1,15 @@
-"""What follows from the height of a surface: its normals, and how much of an overcast sky each of its points sees."""
+"""What follows from the height of a surface: normals, how much of an overcast sky is seen, relief."""
 
 from __future__ import annotations
 
 from math import cos, pi, sin
+from typing import NamedTuple
 
 import numpy as np
 
 from .canvas import Canvas, Floats
 
-__all__ = ["normals", "sky_light"]
+__all__ = ["Relief", "normals", "relief_of", "sky_light"]
 
 _DIRECTIONS = 8
 _STEPS = (0.01, 0.022, 0.05, 0.11, 0.22)
@@ -16,6 +17,57 @@ _STEPS = (0.01, 0.022, 0.05, 0.11, 0.22)
 
 _FINEST = 256
 """Pixels at most that light is worked out for: it is soft, so larger canvases take it from these."""
+
+
+_LEAST = 0.008
+"""Metres below which a relief is none: what is shallower, such as the grain of plaster, normals show as well."""
+
+
+_THICK = 0.012
+"""Metres that bars are thick at least, whatever lies behind them: what is open begins there."""
+
+_FAR = 1e9
+_SUNK = 0.005
+"""Metres behind the plane of the wall: openings that are deeper lead through it."""
+
+
+class Relief(NamedTuple):
+    """The heights of a tile, for relief mapping (docs/texture.md).
+
+    Attributes
+    ----------
+    heights
+        (size, size) from 0, the deepest, to 1, the highest; row 0 at the top.
+    depth
+        Metres from the deepest to the highest.
+    high
+        How far the highest stands out of the wall, metres.
+    goes_on
+        Whether the tile goes on at its opposite edge, across and up: what stands beside it is then the same again.
+    stands
+        Whether it stands on a wall, so that one sees past it at its edges. A tile with openings that are deeper than
+        the wall is set into it.
+    """
+
+    heights: Floats
+    depth: float
+    high: float
+    goes_on: tuple[bool, bool] = (False, False)
+    stands: bool = True
+
+
+def relief_of(canvas: Canvas) -> Relief | None:
+    """The relief of what is drawn; None where it is flat. Where the canvas is transparent, it is what lies there."""
+    solid = canvas.height[canvas.alpha > 0.99]
+    high = float(canvas.height.max())
+    low = max(float(canvas.height.min()), float(solid.min()) - _THICK if len(solid) else -_FAR)
+    if high - low < _LEAST:
+        return None
+    above = np.maximum(canvas.height - np.float32(low), 0)
+    heights = (above * np.float32(1 / (high - low))).astype(np.float32)
+    heights.setflags(write=False)
+    open_ = (canvas.alpha < 0.5) & (canvas.height < -_SUNK)
+    return Relief(heights, high - low, high, canvas.wrap, not open_.any())
 
 
 def normals(canvas: Canvas) -> Floats:

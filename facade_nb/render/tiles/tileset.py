@@ -13,14 +13,18 @@ from ...design.errors import Fault, nearest, quoted
 from ...design.names import nfc
 from .canvas import Floats
 from .catalogue import CATALOGUE, MAPS
-from .drawing import draw
+from .drawing import draw, relief
 from .folder import Folder, TileError, read_folder
 from .images import bled, mipmaps, rounded
+from .relief import Relief
 
 __all__ = ["DEFAULT_SIZE", "TileSet"]
 
 DEFAULT_SIZE = 256
 """Pixels of a tile, across and up."""
+
+PICTURE_DEPTH = 0.05
+"""Metres from black to white of a picture of heights, ``NAME.height``."""
 
 _MAX_SIZE = 2048
 _KEPT = 1 << 27
@@ -184,6 +188,28 @@ class TileSet:
             self._levels[name] = levels
             self._forget()
         return levels
+
+    def relief(self, name: str) -> Relief | None:
+        """The heights of a tile; None if it is flat. Its companions have those of the tile.
+
+        Tiles that ship have those that they are drawn with; a picture has those of the picture ``NAME.height``:
+        white is the plane of the wall, black lies `PICTURE_DEPTH` behind it.
+
+        Raises
+        ------
+        TileError
+            For an unknown name, with the nearest valid one.
+        """
+        name = nfc(name)
+        self._known(name)
+        base, _, companion = name.rpartition(".")
+        base = base if companion in MAPS else name
+        heights = f"{base}.height"
+        if heights in self._pictures:
+            grey = self._pictures[heights][..., :3].mean(axis=-1).astype(np.float32)
+            stands = bool(self._pictures[base][..., 3].min() >= 1) if base in self._pictures else True
+            return Relief(grey, PICTURE_DEPTH, 0.0, stands=stands) if float(np.ptp(grey)) > 0 else None
+        return relief(base, self._size) if base in self._names and base not in self._pictures else None
 
     def sample(self, name: str, u: Floats, v: Floats, *, clamp: bool = False) -> Floats:
         """Colours (n, 4) of a tile at `u`, `v` (n,); (0, 0) is its lower left corner, (1, 1) the upper right one.

@@ -7,8 +7,8 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from ..texture.atlas import Tiles
 from ..tiles import CATALOGUE, TileSet
+from ..tiles.relief import Relief
 
 __all__ = ["SparingTiles", "town_tiles"]
 
@@ -30,7 +30,7 @@ class SparingTiles:
         The set.
     """
 
-    def __init__(self, tiles: Tiles) -> None:
+    def __init__(self, tiles: TileSet) -> None:
         self._tiles = tiles
 
     @property
@@ -42,6 +42,15 @@ class SparingTiles:
         """The tile in ever smaller sizes; companions (normals, highlights) begin with a half, as small things do."""
         levels = self._tiles.mips(name)
         return levels if _whole(name) or len(levels) < 2 else levels[1:]
+
+    def relief(self, name: str) -> Relief | None:
+        """The heights of a tile, in half its size; None if it is flat."""
+        found = self._tiles.relief(name)
+        if found is None:
+            return None
+        whole = found.heights
+        parts = whole.reshape(whole.shape[0] // 2, 2, whole.shape[1] // 2, 2)
+        return found._replace(heights=parts.mean(axis=(1, 3)))
 
 
 def _whole(name: str) -> bool:

@@ -28,7 +28,7 @@ from facade_nb.render.texture.facades import Facade, box, meet, sees
 
 PIXELS = (160, 120)
 NOON = Daytime.at(13)
-CLEAR = Looks(haze=0.0)
+CLEAR = Looks(haze=0.0, relief=False)
 GROUND = "Ground -> Mat(Color, 0, 0.5, 0.5, 0.5, 1)\n"
 
 
@@ -139,7 +139,7 @@ def test_rooms_are_deep(drawn: dict[str, np.ndarray]) -> None:
 def test_light_without_shadows_is_that_of_numpy(renderer: Renderer, rays: np.ndarray) -> None:
     for hour in (9.0, 13.0, 20.2, 23.0):
         daytime = Daytime.at(hour)
-        looks = Looks(shadow=False, occlusion=False, haze=0.0)
+        looks = Looks(shadow=False, occlusion=False, haze=0.0, relief=False)
         own = renderer.draw(
             frame(renderer, daytime, looks), ("color", "normal", "specular", "facing", "light")
         )
@@ -168,7 +168,9 @@ def test_shadows_are_where_the_sun_is_not_seen(
     facing, morning = drawn["facing"].reshape(-1, 4), Daytime.at(8.0)
     sums = []
     for shadow in (True, False):
-        lit = renderer.draw(frame(renderer, morning, Looks(shadow=shadow, haze=0.0)), ("light",))["light"]
+        lit = renderer.draw(
+            frame(renderer, morning, Looks(shadow=shadow, haze=0.0, relief=False)), ("light",)
+        )["light"]
         sums.append(lit.reshape(-1, 4)[:, :3].astype(np.float32).sum(axis=1))
     part = sums[0] / np.maximum(sums[1], 1e-3)
     ground = facing[:, 1] > 0.99
@@ -199,7 +201,7 @@ def test_occlusion_darkens_corners_and_leaves_the_open(drawn: dict[str, np.ndarr
 
 def test_air_takes_what_is_far(renderer: Renderer) -> None:
     clear, hazy = (
-        renderer.draw(frame(renderer, looks=Looks(haze=haze)), ("air", "facing", "light"))
+        renderer.draw(frame(renderer, looks=Looks(haze=haze, relief=False)), ("air", "facing", "light"))
         for haze in (0.0, 60.0)
     )
     facing = clear["facing"][..., 3]
@@ -223,7 +225,9 @@ def test_tone_is_that_of_photographs(drawn: dict[str, np.ndarray]) -> None:
 
 
 def test_edges_are_smoothed_and_nothing_else(renderer: Renderer, drawn: dict[str, np.ndarray]) -> None:
-    truth = still(renderer, PLACE.frustum(PIXELS), NOON, PIXELS, Looks(haze=0.0, smooth=False), samples=4)
+    truth = still(
+        renderer, PLACE.frustum(PIXELS), NOON, PIXELS, Looks(haze=0.0, smooth=False, relief=False), samples=4
+    )
     rough, smooth = (drawn[name][..., :3].astype(np.float64) for name in ("toned", "picture"))
     facing = drawn["facing"]
     apart = np.zeros(facing.shape[:2], bool)

@@ -7,7 +7,12 @@ uniform highp sampler2D rule;
 uniform highp sampler2D facing;
 uniform highp sampler2D along;
 
-layout(location = 0) out highp vec4 out_color;
+#ifdef RELIEF
+uniform vec3 towards;
+uniform vec3 sun;
+#endif
+
+layout(location = 0) out highp vec4 out_color;     // alpha: 2 and how much of the sun the relief takes, where it takes any
 layout(location = 1) out highp vec4 out_normal;    // of length 1 out of doors, 0 in a room; how near a boundary is, in pixels
 layout(location = 2) out highp vec4 out_specular;  // and how deep the pixel lies, behind walls too
 #ifdef PICK
@@ -31,11 +36,17 @@ void main() {
   vec3 ray = ray_at(gl_FragCoord.xy);
   vec3 own = vec3(dot(ray, tangent), dot(ray, up), dot(ray, face.xyz));
   float spread = min(window.z, window.w);
+#ifdef RELIEF
+  sunward = vec3(dot(towards, tangent), dot(towards, up), sun.r + sun.g > 0.0 ? dot(towards, face.xyz) : 0.0);
+#endif
   Surface found = evaluate(Question(
     ivec2(of_rule.xy), on.zw, clamp(on.xy, vec2(0.0), on.zw), own, uvec2(of_rule.zw * 64.0 + 0.5), vec2(0.0),
     face.w * spread, spread
   ));
   out_color = found.color;
+#ifdef RELIEF
+  if (found.color.a >= OPAQUE && shadow > 0.0) out_color.a = 2.0 + min(shadow, 1.0);
+#endif
   vec3 turned = 2.0 * (found.normal.xyz + (1.0 - found.normal.a) * vec3(0.5, 0.5, 1.0)) - 1.0;
   out_normal = vec4(turned.x * tangent + turned.y * up + turned.z * face.xyz, min(margin, 9.0));
   out_specular = vec4(found.specular.rgb, face.w + deep / spread);

@@ -42,6 +42,10 @@ void main() {
   vec4 shine = texelFetch(specular, at, 0);
   float around = shades.y > 0.0 ? open_at(at, shine.a) : 1.0;
   vec4 tint = texelFetch(color, at, 0);
+  if (tint.a > 1.5) {  // relief stands between
+    sees *= 3.0 - tint.a;
+    tint.a = 1.0;
+  }
   vec3 lit = light(
     tint, vec4(0.5 * own.xyz + 0.5, 1.0), shine, ray, vec2(sees, around), point.y
   );

@@ -24,6 +24,10 @@ Surface evaluate(Question question) {
 #ifdef DEEP
   deep = 0.0;
 #endif
+#ifdef RELIEF
+  struck_heights = 0;
+  shadow = 0.0;
+#endif
 #ifdef COUNT_FETCHES
   fetches = 0;
 #endif

@@ -6,7 +6,7 @@ uniform int grammar_width;
 layout(location = 0) out highp vec4 out_color;
 layout(location = 1) out highp vec4 out_normal;
 layout(location = 2) out highp vec4 out_specular;
-layout(location = 3) out highp ivec4 out_rule;   // number of the rule's first record, row by row; -1: none. Fetches. -, -
+layout(location = 3) out highp ivec4 out_rule;   // number of the rule's first record, row by row; -1: none. Fetches. Margin. Shadow
 
 void put(Surface found) {
   out_color = found.color;
@@ -17,4 +17,7 @@ void put(Surface found) {
   out_rule.y = fetches;
 #endif
   out_rule.z = floatBitsToInt(margin);
+#ifdef RELIEF
+  out_rule.w = floatBitsToInt(shadow);
+#endif
 }

@@ -8,8 +8,15 @@ uniform vec2 facade_size;
 uniform ivec2 start_rule;
 uniform uvec2 seed_whole;
 uniform vec2 seed_rest;
+#ifdef RELIEF
+uniform vec3 to_sun;         // in the façade's axes
+#endif
 
 void main() {
+#ifdef RELIEF
+  sunward = to_sun;
+  shadow = 0.0;
+#endif
   Look to = look(floor(gl_FragCoord.xy) + pixel_shift);
   Surface found = Surface(vec4(0.0), vec4(0.0), vec4(0.0), ivec2(-1));
   margin = 1e9;
