@@ -162,19 +162,19 @@ class CameraPath:
         return self.times[-1]
 
     def at(self, time: float) -> Viewpoint:
-        """Where one is at a time: on a smooth curve through the places (Catmull and Rom's), which holds at its ends."""
+        """Where one is at a time, on a smooth curve through the places that does not swing beyond any two of them."""
         places, times = self.places, self.times
         if len(places) == 1 or time <= 0:
             return places[0]
         if time >= times[-1]:
             return places[-1]
         k = max(i for i, own in enumerate(times) if own <= time)
-        t = (time - times[k]) / (times[k + 1] - times[k])
-        rows = [_row(places[min(max(k + d, 0), len(places) - 1)]) for d in (-1, 0, 1, 2)]
+        ends = (max(k - 1, 0), k, k + 1, min(k + 2, len(places) - 1))
+        rows = [_row(places[i]) for i in ends]
         for before, after in pairwise(rows):
             after[3] = before[3] + (after[3] - before[3] + 180.0) % 360.0 - 180.0  # the shorter way around
-        before, low, high, beyond = rows
-        values = [_between(before[c], low[c], high[c], beyond[c], t) for c in range(6)]
+        own_times = [times[i] for i in ends]
+        values = [_between(own_times, [row[c] for row in rows], time) for c in range(6)]
         return Viewpoint((values[0], values[1], values[2]), values[3], values[4], values[5])
 
     def to_dict(self) -> list[dict[str, Any]]:
@@ -208,5 +208,27 @@ def _row(place: Viewpoint) -> list[float]:
     return [*place.eye, place.yaw, place.pitch, place.angle]
 
 
-def _between(a: float, b: float, c: float, d: float, t: float) -> float:
-    return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)))
+def _between(times: Sequence[float], values: Sequence[float], time: float) -> float:
+    """A cubic between the middle two of four values, monotone where they are (Fritsch and Butland's slopes)."""
+    step = times[2] - times[1]
+    rise = (values[2] - values[1]) / step
+    first = _slope(times[1] - times[0], step, values[1] - values[0], rise)
+    last = _slope(times[3] - times[2], step, values[3] - values[2], rise)
+    t = (time - times[1]) / step
+    rest = 1 - t
+    return (
+        values[1] * rest * rest * (1 + 2 * t)
+        + values[2] * t * t * (1 + 2 * rest)
+        + step * t * rest * (first * rest - last * t)
+    )
+
+
+def _slope(beyond: float, step: float, change: float, rise: float) -> float:
+    """At a place, from what lies beyond it: so many seconds, and so large a change."""
+    if beyond <= 0:
+        return 0.0  # an end: one starts and stops gently
+    other = change / beyond
+    if other * rise <= 0:
+        return 0.0
+    near, far = 2 * step + beyond, step + 2 * beyond
+    return (near + far) / (near / other + far / rise)

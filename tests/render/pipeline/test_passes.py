@@ -138,6 +138,15 @@ class TestPath:
         eyes = np.array([self.PATH.at(t).eye for t in np.linspace(0, 3, 3001)])
         assert np.abs(np.diff(eyes, axis=0)).max() < 3e-3
 
+    def test_does_not_swing_beyond_its_places(self) -> None:
+        """Who walks and then rises does not dive into the ground first."""
+        heights = (1.65, 1.65, 3.0, 63.0, 63.0)
+        path = CameraPath(
+            (0.0, 6.0, 12.0, 13.0, 20.0), tuple(Viewpoint((9.0 * k, y, 0.0)) for k, y in enumerate(heights))
+        )
+        eyes = np.array([path.at(t).eye for t in np.linspace(0, 20, 999)])
+        assert (np.diff(eyes, axis=0) >= -1e-12).all() and eyes[:300, 1] == pytest.approx(1.65)
+
     def test_is_data(self) -> None:
         assert CameraPath.from_dict(self.PATH.to_dict()) == self.PATH
 
