@@ -11,6 +11,9 @@ from facade_nb import Design, DesignError, NoLayout, solve
 from facade_nb.design import Canvas, Suggestion, Symbol, edit
 from facade_nb.solver import Objective, tuning
 from facade_nb.solver.assembly import shapes as merging
+from facade_nb.solver.budget import Stopped
+from facade_nb.solver.model.problem import axis_problem
+from facade_nb.solver.selection.axis import AxisSearch
 from tests.oracle.designs import design, make_design
 
 
@@ -355,12 +358,30 @@ class TestMore:
 
     def test_nothing_is_tried_after_the_time_is_over(self) -> None:
         """An explanation, without what would help."""
-        calls = iter(range(10**6))
         for stop in range(0, 200, 3):
+            calls = iter(range(10**6))
             try:
                 solve(make_design(0), should_stop=lambda: next(calls) > stop, time_limit=None)  # noqa: B023
             except NoLayout as error:
                 assert str(error)
+
+    def test_a_search_that_takes_over_may_be_stopped(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """Where structures do not fit each other one search takes the place of several; till it is made these stay."""
+        one = design({"A": 1.0, "B": 1.5}, {"a": "A^k", "b": "B^l"}, [("a", "g"), ("b", "h")])
+        walk = AxisSearch(axis_problem(one, "x"), Objective(), 2.0)
+        walk.enumerate()
+        case = walk.case(next(walk.in_order()))
+        walk.open(case)
+        assert len(case.runs) == len(case.clusters) == 2
+
+        def stopped(*_: object) -> None:
+            raise Stopped
+
+        monkeypatch.setattr(AxisSearch, "size", lambda *_: None)
+        monkeypatch.setattr(walk.searches, "run", stopped)
+        with pytest.raises(Stopped):
+            walk.solve(case)
+        assert len(case.runs) == len(case.clusters) == 2
 
     def test_a_suggestion_is_plain_data(self) -> None:
         error = refused(design({"A": 1.0}, {"a": "A^9"}, ["a"]))

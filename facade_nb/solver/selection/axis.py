@@ -370,13 +370,13 @@ class AxisSearch:
             case.solved = self.size(case, [run.ties for run in case.runs])
         if case.solved is None and not case.unsizable:
             case.unsizable = True
-            case.clusters = [
-                list(range(len(case.groups)))
-            ]  # which structures fit each other is asked as they come
+            # Which structures fit each other is asked as they come. The clock may stop the making of this search: until
+            # it is there, the case keeps those that it has.
             own = range(len(case.groups))
-            case.runs = [
+            runs = [
                 self.searches.run(case.groups, lambda priced: self.size(case, [[priced]]) is not None, own)
             ]
+            case.clusters, case.runs = [list(own)], runs
             return self._turn(case, limit, top)
         return case.solved
 
