@@ -70,9 +70,8 @@ Struck strike(State now, int source, vec4 numbers) {
 #endif
   if (heights == 0 || fade <= 0.0) return Struck(now.at, 0.0, 0.0, false);
   bool past = source > 0 && frame_count > 0 && (marks & 4) == 4;  // one may see past it
-  if (heights == struck_heights && past == struck_past && numbers == struck_numbers && now.at == struck_at && now.scope == struck_scope) {
-    return struck;
-  }
+  bool same = heights == struck_heights && past == struck_past && numbers == struck_numbers;
+  if (same && now.at == struck_at && now.scope == struck_scope) return struck;
   struck_heights = heights;
   struck_past = past;
   struck_numbers = numbers;
