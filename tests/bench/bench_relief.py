@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
-
 from facade_nb.render import Grammar
 from facade_nb.render.pipeline.device import choose_device
 from facade_nb.render.pipeline.frame import Frame, Looks
@@ -14,6 +11,7 @@ from facade_nb.render.texture.gl import GlPainter
 from facade_nb.render.texture.view import Sight
 from facade_nb.render.town import Town
 
+from .bench_texture import timed
 from .textures import FULL, SIZE
 
 __all__ = ["main"]
@@ -47,7 +45,7 @@ def main() -> None:
         for name, painter in cards.items():
             least = 0.0
             for relief, question in questions.items():
-                wall, spent = _timed(lambda: painter.paint(question, sight, mips=True))  # noqa: B023
+                wall, spent = timed(lambda: painter.paint(question, sight, mips=True))  # noqa: B023
                 least = least or spent
                 fetches = painter.paint(question, sight, mips=True, count=True).fetches
                 assert fetches is not None
@@ -70,7 +68,7 @@ def _town(cards: dict[str, GlPainter]) -> None:
                 for relief in (False, True):
                     frustum = town.viewpoint(view).frustum(PIXELS)
                     frame = Frame(town.scene, frustum, Daytime.at(14.5), PIXELS, Looks(relief=relief))
-                    wall, spent = _timed(lambda: renderer.draw(frame))  # noqa: B023
+                    wall, spent = timed(lambda: renderer.draw(frame))  # noqa: B023
                     least = least or spent
                     passes: dict[str, float] = {}
                     for _ in range(RUNS):
@@ -93,15 +91,3 @@ def _row(cells: list[str]) -> str:
 
 def _said(relief: bool) -> str:
     return "on" if relief else "off"
-
-
-def _timed(work: Callable[[], object]) -> tuple[float, float]:
-    """Least milliseconds of wall time, and of CPU time of all threads: others share this machine."""
-    work()
-    wall, spent = [], []
-    for _ in range(RUNS):
-        start, used = time.perf_counter(), time.process_time()
-        work()
-        wall.append(1000 * (time.perf_counter() - start))
-        spent.append(1000 * (time.process_time() - used))
-    return min(wall), min(spent)

@@ -20,7 +20,7 @@ from facade_nb.render.texture.view import Sight
 from .designs import line_of
 from .textures import FULL, RANDOM, SIMPLE, SIZE
 
-__all__ = ["main"]
+__all__ = ["main", "timed"]
 
 GRAMMARS = {"Simple": SIMPLE, "Random": RANDOM, "Full": FULL}
 PIXELS = (1024, 768)
@@ -46,7 +46,7 @@ def main() -> None:
     _memory()
 
 
-def _timed(work: Callable[[], object]) -> tuple[float, float]:
+def timed(work: Callable[[], object]) -> tuple[float, float]:
     """Least milliseconds of wall time, and of CPU time of all threads: others share this machine."""
     work()
     wall, spent = [], []
@@ -69,8 +69,8 @@ def _frames(questions: dict[str, Question], present: dict[str, Painter]) -> None
     for name, question in questions.items():
         for view, sight in SIGHTS.items():
             for one, painter in reversed(present.items()):  # NumPy first: the others are compared with it
-                whole = _timed(partial(painter.paint, question, sight))
-                alone = _timed(partial(painter.paint, question, sight, color_only=True))
+                whole = timed(partial(painter.paint, question, sight))
+                alone = timed(partial(painter.paint, question, sight, color_only=True))
                 spent[name, view, one] = alone[1]
                 read = "–"
                 if isinstance(painter, GlPainter):
@@ -131,7 +131,7 @@ def _antialiasing(questions: dict[str, Question], present: dict[str, Painter]) -
             for how in ANTIALIAS:
                 error = 255 * (smoothed(cpu, question, sight, how) - truth)[:, :3]
                 spent = {
-                    one: _timed(partial(smoothed, painter, question, sight, how))[1]
+                    one: timed(partial(smoothed, painter, question, sight, how))[1]
                     for one, painter in present.items()
                 }
                 first = first or spent["cpu"]

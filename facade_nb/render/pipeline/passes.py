@@ -102,7 +102,7 @@ BUFFERS: tuple[Buffer, ...] = (
     Buffer("facing", 4, "f4", "Which way its façade looks, and how deep it lies before the camera, metres."),
     Buffer("along", 4, "f2", "Which way its façade's width runs."),
     Buffer("depth", 1, "depth", "Which triangle is in front."),
-    Buffer("color", 4, "f2", "What the grammar gives: colour, multiplied by alpha. Above 2: how much sun relief takes."),
+    Buffer("color", 4, "f2", "What the grammar gives: colour times alpha; from 2 on, how much sun relief takes."),
     Buffer("normal", 4, "f2", "Its normal, short in rooms; and how near a split is, in pixels."),
     Buffer("specular", 4, "f4", "Its specular value, in rooms a lamp's colour; and how deep it lies."),
     Buffer("occlusion", 2, "f2", "How much around a point is open, of a few taps; and how deep it lies.", part=2),

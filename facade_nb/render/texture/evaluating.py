@@ -439,13 +439,12 @@ class _Run:
         if self.color_only and usage != 1:
             self.passing[batch.index] = 0
             return
-        value, struck = self._value(head, "m", batch)
+        value, struck = self._value(head, "m", batch, self.question.relief)
         alpha = value[:, 3]
         if "a1" in head:
-            factor, also = self._value(head, "a", batch)
+            factor, _ = self._value(head, "a", batch)
             tile = abs(int(head["a1"]))
             alpha = alpha * (self.question.atlas.mask(tile, factor) if tile else factor[:, 3])
-            alpha = _beside(alpha, also)
         alpha = _beside(alpha, struck)
         if usage == 2:
             value = _turned(value, batch.faces)
@@ -466,13 +465,15 @@ class _Run:
             here = self._here(rule, batch, record.head_places)
             self.steps.append(Painted(**here, usage=_USAGES[usage], value=_four(added), total=_four(so_far)))
 
-    def _value(self, head: Any, letter: str, batch: Batch) -> tuple[Floats, Struck | None]:
+    def _value(
+        self, head: Any, letter: str, batch: Batch, relief: bool = False
+    ) -> tuple[Floats, Struck | None]:
         """Red, green, blue and alpha (n, 4) of a source and its four numbers; and what rays met, if it has relief."""
         source = int(head[f"{letter}1"])
         numbers = tuple(np.float32(head[f"{letter}{k}"]) for k in range(2, 6))
         if not source:
             return np.broadcast_to(np.array(numbers, np.float32), (len(batch), 4)), None
-        struck = self._strike(source, batch, numbers) if self.question.relief else None
+        struck = self._strike(source, batch, numbers) if relief else None
         if struck is not None:
             batch = replace(batch, x=struck.x, y=struck.y)
         return self._tile(source, batch, numbers), struck

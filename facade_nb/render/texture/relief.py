@@ -1,8 +1,9 @@
 """Relief mapping (the texture paper's section 6): where a viewing ray meets the surface of a tile that has heights.
 
 The scope's plane is the highest of the tile's surface. The ray goes on behind it until it meets the surface: by steps,
-then by halving the last one. What lies there is seen at the pixel. Beyond a scope a stretched tile is the same again where
-it goes on, else as it is at its edge; past one that stands on a wall the layer below is seen, if there is one. ``glsl/texture/relief.glsl`` does the same for one pixel.
+then by halving the last one. What lies there is seen at the pixel. Beyond a scope a stretched tile is the same again
+where it goes on, else as it is at its edge; past one that stands on a wall the layer below is seen, if there is one.
+``glsl/texture/relief.glsl`` does the same for one pixel.
 """
 
 from __future__ import annotations
@@ -131,7 +132,7 @@ def strike(
     shade = np.zeros(len(batch), np.float32)
     if sun[2] > 0 and not batch.faces:
         u, v = (a + deep * w * s for a, w, s in zip(start, way, scale, strict=True))
-        shade = _shade(
+        shade = fade * _shade(
             field._replace(at=(u, v)),
             (batch.x + deep * way[0], batch.y + deep * way[1]),
             batch,
@@ -161,8 +162,7 @@ def within_scope(at: Pair, batch: Batch, way: Pair, wrap: tuple[bool, bool]) -> 
         if not around:
             space = np.where(w < 0, a - low, high - a)
             found = np.minimum(found, space / np.maximum(np.abs(w), _TINY))
-    found = np.maximum(found, 0)
-    return found
+    return np.maximum(found, np.float32(0))
 
 
 def _march(
@@ -213,7 +213,7 @@ def _shade(
     """How much of the sun is hidden: the more the surface stands above the way there, and the nearer, the more."""
     way = slope_of([np.float32(value) for value in sun], deep * depth)
     end = within_scope(at, batch, way, field.wrap) if field.past else np.float32(1)
-    count = np.clip(np.ceil(_HALF * end * field.texels(way)), 1, MOST_SHADES)
+    count = np.clip(np.ceil(_HALF * end * field.texels(way)), 2, MOST_SHADES)
     far = np.sqrt(way[0] * way[0] + way[1] * way[1])
     shade = np.zeros(len(deep), np.float32)
     step = _HALF

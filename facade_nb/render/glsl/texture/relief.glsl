@@ -48,7 +48,7 @@ float within_scope(vec2 at, vec4 scope, vec2 way, bvec2 wrap) {
 float shade_at(vec2 at, vec2 uv, vec2 scale, float deep, float depth, vec4 box, vec4 scope, bvec2 wrap, bool past) {
   vec2 way = slope_of(sunward) * (deep * depth);
   float end = past ? within_scope(at, scope, way, wrap) : 1.0;
-  float count = clamp(ceil(0.5 * end * length(way * scale * box.zw)), 1.0, MOST_SHADES);
+  float count = clamp(ceil(0.5 * end * length(way * scale * box.zw)), 2.0, MOST_SHADES);
   float far = length(way);
   float shade = 0.0;
   for (float i = 0.5; i < MOST_SHADES; ++i) {
@@ -64,12 +64,14 @@ Struck strike(State now, int source, vec4 numbers) {
   vec4 known = fetch(tile_table, ivec2(0, abs(source) - 1));  // opaque, tile of heights, depth, how far it stands out
   int heights = int(known.g) / 8;
   int marks = int(known.g) & 7;
-  float fade = clamp(2.0 - 2.0 * now.footprint / max(known.b, 1e-6), 0.0, 1.0);
+  float fade = 1.0;
+#ifdef MIPS
+  fade = clamp(2.0 - 2.0 * now.footprint / max(known.b, 1e-6), 0.0, 1.0);
+#endif
   if (heights == 0 || fade <= 0.0) return Struck(now.at, 0.0, 0.0, false);
   bool past = source > 0 && frame_count > 0 && (marks & 4) == 4;  // one may see past it
-  if (heights == struck_heights && past == struck_past && numbers == struck_numbers && now.at == struck_at && now.scope == struck_scope) {
-    return struck;
-  }
+  bool same = heights == struck_heights && past == struck_past && numbers == struck_numbers;
+  if (same && now.at == struck_at && now.scope == struck_scope) return struck;
   struck_heights = heights;
   struck_past = past;
   struck_numbers = numbers;
@@ -143,7 +145,7 @@ Struck strike(State now, int source, vec4 numbers) {
   struck.beside = past && !met;
   struck.shade = 0.0;
   if (sunward.z > 0.0 && now.faces == 0 && deep > 0.0) {
-    struck.shade = shade_at(now.at + deep * way, uv + deep * way * scale, scale, deep, depth, box, now.scope, wrap, past);
+    struck.shade = fade * shade_at(now.at + deep * way, uv + deep * way * scale, scale, deep, depth, box, now.scope, wrap, past);
   }
   return struck;
 }

@@ -1,5 +1,5 @@
 // SkipMask, Mat and MatAlpha. The value is how many layers are passed over. The two sources of MatAlpha are read
-// by the same lines, one after the other, and so is the mask of SkipMask.
+// by the same lines, one after the other, and so is the mask of SkipMask. Relief is that of the first source.
 #include "record.glsl"
 #include "value.glsl"
 #include "relief.glsl"
@@ -13,33 +13,23 @@ int terminal(State now, vec4 head) {
   int sources = code == OP_MATALPHA ? 2 : 1;
   vec4 shown = vec4(0.0);
   float alpha = 1.0;
+  vec4 numbers = masks ? vec4(0.0, 0.0, 1.0, 1.0) : record(now.rule, 1);
 #ifdef RELIEF
-  bool beside = false;
-  float out_ = 0.0;
-  float shade = 0.0;
+  vec2 before = now.at;
+  Struck hit = Struck(now.at, 0.0, 0.0, false);
+  if (source != 0 && !masks) hit = strike(now, source, numbers);
+  now.at = hit.at;
 #endif
   for (int k = 1; k <= sources; ++k) {
-    vec4 numbers = masks ? vec4(0.0, 0.0, 1.0, 1.0) : record(now.rule, k);
-#ifdef RELIEF
-    vec2 before = now.at;
-    if (source != 0 && !masks) {
-      Struck hit = strike(now, source, numbers);
-      now.at = hit.at;
-      beside = beside || hit.beside;
-      if (k == 1) {
-        out_ = hit.out_;
-        shade = hit.shade;
-      }
-    }
-#endif
+    if (k == 2) numbers = record(now.rule, 2);
     vec4 found = value(now, source, numbers);
-#ifdef RELIEF
-    now.at = before;
-#endif
     bool whole = k == 1 && !masks;
     if (whole) shown = found;
     alpha *= whole || source == 0 ? found.a : mask(abs(source), found);
     source = int(head.MatAlpha_a1);
+#ifdef RELIEF
+    now.at = before;  // the second source stays on the wall
+#endif
   }
   if (masks) {
 #ifdef EDGES
@@ -48,9 +38,9 @@ int terminal(State now, vec4 head) {
     return int(alpha >= 0.5 ? head.SkipMask_l1 : head.SkipMask_l0);
   }
 #ifdef RELIEF
-  if (beside) alpha = 0.0;
-  if (int(head.MatAlpha_u) == USAGE_COLOR) shadow += (1.0 - surface.color.a) * alpha * shade;
-  now.footprint -= asked.spread * out_ / max(abs(now.ray.z), 0.15 * length(now.ray));
+  if (hit.beside) alpha = 0.0;
+  if (int(head.MatAlpha_u) == USAGE_COLOR) shadow += (1.0 - surface.color.a) * alpha * hit.shade;
+  now.footprint -= asked.spread * hit.out_ / max(abs(now.ray.z), 0.15 * length(now.ray));
 #endif
   paint(now, int(head.MatAlpha_u), shown.rgb, alpha);
   return 0;
