@@ -33,6 +33,9 @@ __all__ = ["main"]
 PIXELS = (1024, 768)
 HOUR = 14.5
 RUNS = 4
+FLAT = Looks(relief=False)
+"""What relief costs has a bench of its own."""
+
 SAMPLE = 60
 """Façades of which baked and explicit ones are made; the town's are reckoned from them."""
 
@@ -107,7 +110,7 @@ def _figure_11(town: Town) -> None:
                 continue
             with renderer_of(scene, device) as renderer:
                 for k, view in enumerate(VIEWS):
-                    frame = Frame(scene, town.viewpoint(view).frustum(PIXELS), Daytime.at(HOUR), PIXELS)
+                    frame = Frame(scene, town.viewpoint(view).frustum(PIXELS), Daytime.at(HOUR), PIXELS, FLAT)
                     wall, spent = timed(renderer, frame)
                     paper = PAPER[view][("Simple", "Random", "Full").index(name)]
                     cells[view, device.name, name] = f"{wall:.0f} / {spent:.0f} ({paper})"
@@ -137,7 +140,7 @@ def _fetches(town: Town, view: str) -> float:
     ]
     device = next(own for own in DEVICES.values() if own.available)
     with renderer_of(town.scene, device, passes=passes) as renderer:
-        frame = Frame(town.scene, town.viewpoint(view).frustum(PIXELS), Daytime.at(HOUR), PIXELS)  # type: ignore[arg-type]
+        frame = Frame(town.scene, town.viewpoint(view).frustum(PIXELS), Daytime.at(HOUR), PIXELS, FLAT)  # type: ignore[arg-type]
         drawn = renderer.draw(frame, ("color", "facing"))
     return float(drawn["color"][..., 0][drawn["facing"][..., 3] > 0].mean())
 
@@ -198,7 +201,7 @@ def _growth() -> None:
             spent = [
                 timed(
                     renderer,
-                    Frame(town.scene, town.viewpoint(view).frustum(PIXELS), Daytime.at(HOUR), PIXELS),
+                    Frame(town.scene, town.viewpoint(view).frustum(PIXELS), Daytime.at(HOUR), PIXELS, FLAT),
                 )[1]
                 for view in ("distance", "street")
             ]
@@ -245,7 +248,7 @@ def _alone(text: str) -> float:
 
     scene = Scene.of_facades([Facade(Grammar.parse(text), (24.0, 18.0))])
     place = Viewpoint.towards((12.0, 9.0, 10.0), (12.0, 9.0, 0.0), 90.0)
-    looks = Looks(shadow=False, occlusion=False, smooth=False, haze=0.0)
+    looks = Looks(shadow=False, occlusion=False, smooth=False, haze=0.0, relief=False)
     frame = Frame(scene, place.frustum(PIXELS), Daytime.at(HOUR), PIXELS, looks)
     device = next(own for own in DEVICES.values() if own.available)
     found: list[float] = []
