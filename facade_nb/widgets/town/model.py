@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -172,9 +172,7 @@ class TownModel(Undoable[_Snapshot], HasTraits):
         names = [one.name for one in self.town.styles]
         if isinstance(style, str):
             if style not in names:
-                raise ValueError(
-                    f"style: expected one of {', '.join(names)}; found {style!r}{nearest(style, names)}"
-                )
+                raise ValueError(f"style: {_unknown(style, names)}")
             style = names.index(style)
         if not 0 <= style < len(names):
             raise ValueError(f"style: expected a number below {len(names)}; found {style}")
@@ -287,3 +285,8 @@ class TownModel(Undoable[_Snapshot], HasTraits):
     def travel(self, rows: Sequence[dict[str, object]]) -> None:
         """Take a path from the browser; an empty one ends it."""
         self.path = CameraPath.from_dict(rows) if rows else None
+
+
+def _unknown(name: object, known: Iterable[str]) -> str:
+    names = list(known)
+    return f"expected one of {', '.join(names)}; found {name!r}{nearest(str(name), names)}"

@@ -1,4 +1,4 @@
-"""What the browser is told of a town: a head with all that is small, and large things in blocks, as it asks for them."""
+"""What the browser is told of a town: a head with all that is small, and large things in blocks that it asks for."""
 
 from __future__ import annotations
 
@@ -58,7 +58,8 @@ class Blob:
 
 
 def _bytes(array: NDArray[Any]) -> memoryview:
-    return memoryview(np.ascontiguousarray(array).reshape(-1).view(np.uint8))
+    flat: Any = np.ascontiguousarray(array).reshape(-1).view(np.uint8)
+    return memoryview(flat)
 
 
 def blobs_of(model: TownModel, version: int) -> dict[str, Blob]:
@@ -107,7 +108,7 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
         "looks": {"haze": 2600.0, "reach": 1.4},
         "stride": VERTEX.itemsize,
         "attributes": {
-            name: [int(np.prod(VERTEX[name].shape, dtype=int)), VERTEX.fields[name][1]]
+            name: [int(np.prod(VERTEX[name].shape, dtype=int)), (VERTEX.fields or {})[name][1]]
             for name in VERTEX.names or ()
         },
         "block": BLOCK,

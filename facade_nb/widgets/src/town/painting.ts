@@ -5,6 +5,7 @@ import { mark } from "../shared/dom.ts";
 import { rowsFor } from "../texture/painting.ts";
 import { context } from "./context.ts";
 import { frustumOf, type Sunlight, sunlightOf } from "./frame.ts";
+import type { Shown } from "./pipeline.ts";
 import type { Session } from "./session.ts";
 import type { Pass, Pixels, Values, Vector } from "./types.ts";
 
@@ -31,6 +32,8 @@ export interface Told {
   milliseconds: number;
   pixels: Pixels;
   factor: number;
+  /** Milliseconds of each pass, where each was waited for. */
+  spent: Map<string, number>;
 }
 
 export interface Painting {
@@ -43,12 +46,14 @@ export interface Painting {
 
 interface Options {
   off?: () => readonly string[];
+  /** Which buffer is shown, and how; by default the last one. */
+  shown?: () => [name: string, shown: Shown] | null;
   /** Called after each picture. */
   told: (told: Told) => void;
   failed: (message: string) => void;
 }
 
-export function painting(canvas: HTMLCanvasElement, session: Session, { off, told, failed }: Options): Painting {
+export function painting(canvas: HTMLCanvasElement, session: Session, { off, shown, told, failed }: Options): Painting {
   const paper = canvas.getContext("2d", { alpha: false, willReadFrequently: context().software });
   const left = off ?? (() => []);
   let [timer, frame] = [0, 0];
@@ -80,8 +85,8 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, tol
     return held.sun;
   };
   const show = (passes: Pass[], pixels: Pixels): boolean => {
-    const name = passes.at(-1)?.writes[0];
-    if (!paper || !name || !session.pipeline?.show(name, pixels, paper)) return false;
+    const [name, how] = shown?.() ?? [passes.at(-1)?.writes[0], undefined];
+    if (!paper || !name || !session.pipeline?.show(name, pixels, paper, how)) return false;
     last = pixels;
     return true;
   };
@@ -105,7 +110,7 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, tol
     if (!show(passes, pixels)) return;
     const milliseconds = performance.now() - began;
     mark(canvas, "data-coarse", String(factor));
-    told({ milliseconds, pixels, factor });
+    told({ milliseconds, pixels, factor, spent: new Map() });
     factor = coarser(factor, milliseconds);
   };
   /** The pieces of a finer picture. */
@@ -117,9 +122,11 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, tol
     held = null;
     const passes = session.passes(left());
     const began = performance.now();
+    const spent = new Map<string, number>();
     for (const pass of passes) {
+      const add = (since: number) => spent.set(pass.name, (spent.get(pass.name) ?? 0) + performance.now() - since);
       if (pass.draws === "mesh") {
-        if (!pipeline.fresh(pass, values)) yield* meshed(pass, values, pixels);
+        if (!pipeline.fresh(pass, values)) yield* meshed(pass, values, pixels, add);
         continue;
       }
       const height = pipeline.sizeOf(pipeline.buffer(pass.writes[0] as string), pixels)[1];
@@ -129,6 +136,7 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, tol
         const start = performance.now();
         pipeline.run(pass, values, pixels, { rows: [low, high] });
         pipeline.finish();
+        add(start);
         rates.set(pass.name, rowsFor(BUDGET * 0.8, high - low, performance.now() - start));
         low = high;
         yield;
@@ -136,9 +144,9 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, tol
     }
     if (!show(passes, pixels)) return;
     mark(canvas, "data-coarse", String(fine));
-    told({ milliseconds: performance.now() - began, pixels, factor: fine });
+    told({ milliseconds: performance.now() - began, pixels, factor: fine, spent });
   }
-  function* meshed(pass: Pass, values: Values, pixels: Pixels): Generator<void> {
+  function* meshed(pass: Pass, values: Values, pixels: Pixels, add: (since: number) => void): Generator<void> {
     const { pipeline } = session;
     const runs = session.runs(values[pass.through] as Float64Array);
     let first = true;
@@ -156,6 +164,7 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, tol
       const start = performance.now();
       pipeline?.run(pass, values, pixels, { runs: own, first });
       pipeline?.finish();
+      add(start);
       const drawn = own.reduce((sum, [, count]) => sum + count, 0);
       const spent = Math.max(performance.now() - start, 1);
       if (drawn) rates.set(pass.name, Math.max(3000, Math.min(4 * drawn, Math.round((drawn * BUDGET * 0.8) / spent))));

@@ -31,7 +31,7 @@ uniform highp SAMPLER source;
 uniform vec2 scale;
 uniform vec4 low;
 uniform vec4 high;
-uniform int mode;  // 0: as it is; 1: between low and high; 2: a colour for each value; 3: one channel, as grey; 4: deep
+uniform int mode;  // 0: as it is; 1: between low and high; 2: a colour for each value; 3: one channel, as grey; 4: a net of metres; 5: a depth
 layout(location = 0) out vec4 color;
 vec3 hue(float h) { return 0.55 + 0.35 * cos(6.2831853 * (h + vec3(0.0, 0.33, 0.67))); }
 void main() {
@@ -43,8 +43,8 @@ void main() {
   if (mode == 2) color = own == vec4(0.0) ? vec4(0.0, 0.0, 0.0, 1.0)
     : vec4(hue(fract(dot(own, vec4(0.137, 0.731, 0.0713, 0.0917)))), 1.0);
   if (mode == 3) color = vec4(vec3(part.r), 1.0);
-  if (mode == 4) color = own.a <= 0.0 ? vec4(0.0, 0.0, 0.0, 1.0)
-    : vec4(vec3(1.0 - clamp(log(max(own.a, 1e-3) / max(low.a, 1e-3)) / log(max(high.a / max(low.a, 1e-3), 1.01)), 0.0, 1.0)), 1.0);
+  if (mode == 4) color = own.z <= 0.0 ? vec4(0.0, 0.0, 0.0, 1.0) : vec4(fract(own.xy / high.xy), 0.35, 1.0);
+  if (mode == 5) color = vec4(own.r >= 1.0 ? vec3(0.0) : vec3(1.0 + log2(1.0 - own.r) / 14.0), 1.0);
 }
 `;
 const WHOLE = `#version 300 es

@@ -113,12 +113,14 @@ export class Session extends Entering<Entered> {
 
   /** The passes that run: not those that are switched off, nor those for which there is no cause now. */
   passes(off: readonly string[] = []): Pass[] {
-    const light = this.light;
-    const sun = isDay(light);
-    return (this.pipeline?.passes ?? []).filter(({ name, when }) => {
-      if (off.includes(name)) return false;
-      if (when === "shadow") return sun;
-      return when !== "chosen" || this.chosen >= 0;
+    if (!this.head) return [];
+    const sun = isDay(this.light);
+    const written = new Set<string>();
+    return (this.pipeline?.passes ?? []).filter(({ name, when, reads, writes }) => {
+      if (off.includes(name) || (when === "shadow" && !sun)) return false;
+      if (when === "chosen" && (this.chosen < 0 || !reads.every((own) => written.has(own)))) return false;
+      for (const own of writes) written.add(own);
+      return true;
     });
   }
 

@@ -6,6 +6,7 @@ import { timeOf } from "../texture/controls.ts";
 import { context } from "./context.ts";
 import { type Flying, flying } from "./flying.ts";
 import { type Painting, painting, type Told } from "./painting.ts";
+import type { Shown } from "./pipeline.ts";
 import type { Session } from "./session.ts";
 
 const TALLEST = 640; // pixels of the page
@@ -20,6 +21,8 @@ export interface Stage {
 
 interface Options {
   off?: () => readonly string[];
+  shown?: () => [name: string, shown: Shown] | null;
+  told?: (told: Told) => void;
   clicked: (across: number, up: number) => void;
   escaped: () => void;
   changed: () => void;
@@ -56,17 +59,23 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
     mark(note, "data-small", session.drawable && !failure && !context().lost);
     mark(canvas, "data-loaded", loaded.toFixed(3));
   };
-  const tell = ({ milliseconds, pixels: [w, t], factor }: Told) => {
+  const tell = (own: Told) => {
+    const {
+      milliseconds,
+      pixels: [w, t],
+      factor,
+    } = own;
     failure = "";
     const coarse = factor === 1 ? "" : `, 1 : ${factor}`;
     setText(told, `${Math.round(milliseconds)} ms · ${w} × ${t}${coarse}`);
     say();
+    options.told?.(own);
   };
   const failed = (message: string) => {
     failure = message;
     say();
   };
-  const paint = painting(canvas, session, { ...(options.off ? { off: options.off } : {}), told: tell, failed });
+  const paint = painting(canvas, session, { ...options, told: tell, failed });
   const fly = flying(canvas, session, options, signal);
 
   const resize = () => {
