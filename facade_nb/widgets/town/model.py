@@ -219,7 +219,7 @@ class TownModel(Undoable[_Snapshot], HasTraits):
             self._parts = {**self._parts, section: text}
             self.section, self.text = section, text
             try:
-                grammar = Grammar.parse(joined(self._parts), self.source.grammar.tiles)
+                grammar = _sharing(Grammar.parse(joined(self._parts), self.source.grammar.tiles), self.grammar)
                 if self.starts is not None:
                     places = self.starts.places(grammar)
                     self._original  # noqa: B018 (kept before the rules change)
@@ -290,3 +290,10 @@ class TownModel(Undoable[_Snapshot], HasTraits):
 def _unknown(name: object, known: Iterable[str]) -> str:
     names = list(known)
     return f"expected one of {', '.join(names)}; found {name!r}{nearest(str(name), names)}"
+
+
+def _sharing(grammar: Grammar, old: Grammar) -> Grammar:
+    """The grammar, with the tiles of one that names the same: to draw and pack them takes seconds."""
+    if grammar.encoding.tiles == old.encoding.tiles:
+        grammar.__dict__["_atlas"] = old.atlas()
+    return grammar

@@ -34,8 +34,8 @@ def views_of(source: Town | Scene) -> dict[str, Viewpoint]:
     west, south, east, north = source.plan.bounds
     x, z = (west + east) / 2, -(south + north) / 2
     radius = max(hypot(east - west, north - south) / 2, 30.0)
-    back, high = min(0.75 * radius, 900.0), min(0.32 * radius, 300.0)
-    distance = Viewpoint.towards((x, high, z + back), (x, 0.0, z + 0.05 * back))
+    back, high = min(0.8 * radius, 900.0), min(0.19 * radius, 200.0)
+    distance = Viewpoint.towards((x, high, z + back), (x, 0.0, z - 0.25 * back))
     street, close = _in_the_street(source.plan, (x, z))
     return {"distance": distance, "street": street or distance, "close-up": close or distance}
 
@@ -67,14 +67,14 @@ def _in_the_street(plan: Plan, centre: tuple[float, float]) -> tuple[Viewpoint |
         along = (b[k] - a[k]) / max(hypot(*(b[k] - a[k])), 1e-9)
         out = np.array([-along[1], along[0]])  # z runs south: outside is on the left here
         for way in (along, -along):
-            eye = middle[k] + 5.5 * out
-            look = way - 0.22 * out
+            eye = middle[k] + 7.0 * out
+            look = way - 0.3 * out
             free = _free(eye, look / np.hypot(*look), edges)
             ahead = _free(eye, way, edges)
             room = _free(eye, out, edges)
             score = min(ahead, 140.0) + min(free, 60.0) - 3.0 * max(0.0, room - 14.0)
             if min(room, free) > 4.0 and (street is None or score > street[0]):
-                street = (score, _looking(eye, way - 0.12 * out, 5.0))
+                street = (score, _looking(eye, way - 0.04 * out, 6.0))
             near = middle[k] + 3.6 * out - 1.1 * way
             score = -abs(float(away[k]) - 60.0) + 8.0 * min(int(tall[k]), 4)
             if room > 6.0 and (close is None or score > close[0]):

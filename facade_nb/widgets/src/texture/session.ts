@@ -3,7 +3,7 @@
 import { Entering } from "../shared/entering.ts";
 import { oneFor } from "../shared/one.ts";
 import type { Fault } from "../shared/types.ts";
-import { type Bytes, byteLength, unpack } from "../solver/packing.ts";
+import { type Bytes, byteLength, bytesOf, unpack } from "../solver/packing.ts";
 import { renderer } from "./renderer.ts";
 import type { Common, Pair, Scene, Step, Tiles, Triple } from "./types.ts";
 
@@ -66,10 +66,7 @@ export class Session extends Entering<Entered> {
   /** A picture in PNG, where one was drawn for pages that cannot draw. */
   get still(): Uint8Array<ArrayBuffer> | null {
     const bytes = this.channel.get<Bytes>("still");
-    if (!byteLength(bytes)) return null;
-    return bytes instanceof ArrayBuffer
-      ? new Uint8Array(bytes)
-      : new Uint8Array(bytes.buffer as ArrayBuffer, bytes.byteOffset, bytes.byteLength);
+    return byteLength(bytes) ? bytesOf(bytes) : null;
   }
   /** Whether a text is on its way. */
   get typing(): boolean {

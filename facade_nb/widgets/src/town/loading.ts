@@ -1,7 +1,7 @@
 // What is large comes in blocks, as it is asked for: what lies near first. Each is kept here too, for the day when the
 // context is lost or the kernel is gone.
 
-import type { Bytes } from "../solver/packing.ts";
+import { type Bytes, inflated } from "../solver/packing.ts";
 import type { BlobInfo, Chunks, Head, Place } from "./types.ts";
 
 const AT_ONCE = 2_500_000; // bytes that one message asks for, about, before they are deflated
@@ -100,7 +100,7 @@ export class Loading {
   /** Take the blocks of a message. */
   async receive({ name, version, blocks }: Reply, buffers: Bytes[]): Promise<void> {
     this.flying = Math.max(0, this.flying - 1);
-    const whole = await Promise.all(buffers.map(inflate));
+    const whole = (await Promise.all(buffers.map(inflated))).map((data) => new Uint8Array(data));
     const own = this.blobs.get(name);
     if (own?.info.version !== version) return;
     blocks.forEach((block, k) => {
@@ -169,16 +169,4 @@ function* indexBlocks({ first, count }: Chunks, chunk: number, { block }: BlobIn
   const begin = 4 * (first[chunk] as number);
   const end = begin + 4 * (count[chunk] as number);
   for (let k = Math.floor(begin / block); k * block < end; k += 1) yield k;
-}
-
-/** A message's bytes, however the host hands them over. */
-export function bytesOf(bytes: Bytes): Uint8Array<ArrayBuffer> {
-  return bytes instanceof ArrayBuffer
-    ? new Uint8Array(bytes)
-    : new Uint8Array(bytes.buffer as ArrayBuffer, bytes.byteOffset, bytes.byteLength);
-}
-
-async function inflate(bytes: Bytes): Promise<Uint8Array> {
-  const stream = new Blob([bytesOf(bytes)]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
 }

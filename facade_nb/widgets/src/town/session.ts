@@ -3,11 +3,11 @@
 import { Entering } from "../shared/entering.ts";
 import { oneFor } from "../shared/one.ts";
 import type { Fault } from "../shared/types.ts";
-import { type Bytes, byteLength, unpack } from "../solver/packing.ts";
+import { type Bytes, byteLength, bytesOf, unpack } from "../solver/packing.ts";
 import { CHOSEN, MARKED, SHADER } from "./chosen.ts";
 import { context } from "./context.ts";
 import { cropped, daylight, frustumOf, isDay, type Sunlight, uniformsOf, visible } from "./frame.ts";
-import { bytesOf, Loading, type Reply } from "./loading.ts";
+import { Loading, type Reply } from "./loading.ts";
 import { Pipeline, type Source } from "./pipeline.ts";
 import type { Head, Light, Pass, Pixels, Place, Stop, Values, Vector } from "./types.ts";
 import { Walls } from "./walls.ts";
