@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -31,8 +31,6 @@ class _Snapshot:
     """What undo brings back."""
 
     texts: tuple[str, ...]
-    read: str
-    section: str
     styles: tuple[tuple[int, int], ...]
     hour: float
 
@@ -181,7 +179,8 @@ class TownModel(Undoable[_Snapshot], HasTraits):
         changed = {**dict(self.restyled), building: style}
         if changed[building] == int(self.town.plan.style[building]):
             del changed[building]
-        self.restyled = tuple(sorted(changed.items()))
+        with self._editing(("style", building)):
+            self.restyled = tuple(sorted(changed.items()))
 
     @observe("restyled")
     def _on_restyled(self, change: Any) -> None:
@@ -219,7 +218,9 @@ class TownModel(Undoable[_Snapshot], HasTraits):
             self._parts = {**self._parts, section: text}
             self.section, self.text = section, text
             try:
-                grammar = _sharing(Grammar.parse(joined(self._parts), self.source.grammar.tiles), self.grammar)
+                grammar = _sharing(
+                    Grammar.parse(joined(self._parts), self.source.grammar.tiles), self.grammar
+                )
                 if self.starts is not None:
                     places = self.starts.places(grammar)
                     self._original  # noqa: B018 (kept before the rules change)
@@ -242,22 +243,19 @@ class TownModel(Undoable[_Snapshot], HasTraits):
             self._key = None
 
     def _snapshot(self) -> _Snapshot:
-        return _Snapshot(
-            tuple(self._parts.values()), self.grammar.text, self.section, self.restyled, self.hour
-        )
+        return _Snapshot(tuple(self._parts.values()), self.restyled, self.hour)
 
     def _record(self, _: Any) -> None:
-        now = self._snapshot()
-        if replace(now, section="") == replace(self._history.present, section=""):
-            return  # only another part is shown
-        self._history.record(now, key=self._key, now=time.monotonic())
+        self._history.record(self._snapshot(), key=self._key, now=time.monotonic())
 
     def _restore(self, state: _Snapshot) -> None:
         with self.hold_trait_notifications():
-            self._parts = dict(zip(self._parts, state.texts, strict=True))
+            before, self._parts = self._parts, dict(zip(self._parts, state.texts, strict=True))
+            changed = [name for name, text in self._parts.items() if text != before[name]]
+            section = self.section if not changed or self.section in changed else changed[0]
             if joined(self._parts) != self.grammar.text or self.faults:
-                self._read(state.section, self._parts[state.section])
-            self.section, self.text = state.section, self._parts[state.section]
+                self._read(section, self._parts[section])
+            self.section, self.text = section, self._parts[section]
             self.restyled, self.hour = state.styles, state.hour
 
     @validate("hour")

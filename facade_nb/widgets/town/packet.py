@@ -107,10 +107,7 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
         "sunlight": {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR, "side": SHADOW},
         "looks": {"haze": 2600.0, "reach": 1.4},
         "stride": VERTEX.itemsize,
-        "attributes": {
-            name: [int(np.prod(VERTEX[name].shape, dtype=int)), (VERTEX.fields or {})[name][1]]
-            for name in VERTEX.names or ()
-        },
+        "attributes": {name: [int(np.prod(VERTEX[name].shape, dtype=int)), at] for name, at in _offsets()},
         "block": BLOCK,
         "blobs": {
             name: {"bytes": len(own.content), "block": own.block or len(own.content), "version": own.version}
@@ -137,6 +134,12 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
         head["starts"] = model.starts.places(model.grammar).reshape(-1).astype(int).tolist()
         head["town"] = described(model)
     return pack(head)
+
+
+def _offsets() -> list[tuple[str, int]]:
+    """Where each attribute begins in a vertex."""
+    fields: Any = VERTEX.fields
+    return [(name, int(fields[name][1])) for name in VERTEX.names or ()]
 
 
 @lru_cache(maxsize=1)

@@ -48,12 +48,17 @@ def located(faults: tuple[Fault, ...], parts: Mapping[str, str], edited: str) ->
         line = fault.line - first
         if name == edited:
             yield replace(fault, line=line)
-        elif before == edited and not "".join(parts[name].split("\n")[: line - 1]).strip():
+        elif before == edited and not any(map(_says, parts[name].split("\n")[: line - 1])):
             yield _at_the_end(
                 fault, parts[edited]
             )  # what is missing there is noticed where the next part begins
         else:
             yield Fault(f"{name}, line {line}", fault.message, None, None, fault.excerpt)
+
+
+def _says(line: str) -> bool:
+    """Whether there is more in a line than a remark."""
+    return bool(line.split("#", maxsplit=1)[0].strip())
 
 
 def _at_the_end(fault: Fault, text: str) -> Fault:
