@@ -12,9 +12,9 @@ import nbformat
 from nbclient import NotebookClient
 
 ROOT = Path(__file__).resolve().parents[1]
-WIDGETS = ("studio", "solver", "texture")
+WIDGETS = ("studio", "solver", "texture", "town")
 """Those in `notebooks` that have widgets; all in `tutorials` have."""
-STATIC = ("texture",)
+STATIC = ("texture", "town")
 """Saved with static forms alone: the tiles would make their state too large."""
 
 

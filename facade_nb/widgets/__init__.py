@@ -27,6 +27,7 @@ from .studio.parts import (
 )
 from .studio.studio import MassingView, Studio
 from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
+from .town import PipelineView, TownModel, TownView
 
 __all__ = [
     "AlignmentView",
@@ -45,6 +46,7 @@ __all__ = [
     "NetworkView",
     "Part",
     "PatternEditor",
+    "PipelineView",
     "PixelInspector",
     "PlayerView",
     "QualifiersView",
@@ -57,6 +59,8 @@ __all__ = [
     "TextureStudio",
     "TextureView",
     "Toolbar",
+    "TownModel",
+    "TownView",
     "TraceModel",
     "TraceView",
     "WordsView",

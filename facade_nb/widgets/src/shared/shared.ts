@@ -8,7 +8,7 @@ export abstract class Shared {
   readonly client = Math.random().toString(36).slice(2);
   protected readonly views = new Set<() => void>();
   readonly kernel: Kernel;
-  private present = new AbortController();
+  protected present = new AbortController();
 
   protected constructor(protected readonly channel: WidgetModel) {
     this.kernel = Kernel.of(channel);

@@ -14,16 +14,24 @@ export function byteLength(bytes: Bytes | null | undefined): number {
   return bytes?.byteLength ?? 0;
 }
 
-/** The value in a piece of a trace. Arrays are views of one buffer: nothing is copied. */
-export async function unpack<T>(bytes: Bytes): Promise<T> {
-  const source =
-    bytes instanceof ArrayBuffer
-      ? new Uint8Array(bytes)
-      : new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+/** A message's bytes, however the host hands them over. */
+export function bytesOf(bytes: Bytes): Uint8Array<ArrayBuffer> {
+  return bytes instanceof ArrayBuffer
+    ? new Uint8Array(bytes)
+    : new Uint8Array(bytes.buffer as ArrayBuffer, bytes.byteOffset, bytes.byteLength);
+}
+
+export async function inflated(bytes: Bytes): Promise<ArrayBuffer> {
   const { readable, writable } = new DecompressionStream("deflate");
   const writer = writable.getWriter();
-  const written = writer.write(source as BufferSource).then(() => writer.close());
+  const written = writer.write(bytesOf(bytes)).then(() => writer.close());
   const [data] = await Promise.all([new Response(readable).arrayBuffer(), written]);
+  return data;
+}
+
+/** The value in a piece of a trace. Arrays are views of one buffer: nothing is copied. */
+export async function unpack<T>(bytes: Bytes): Promise<T> {
+  const data = await inflated(bytes);
   const length = new DataView(data).getUint32(0, true);
   const base = Math.ceil((4 + length) / 8) * 8;
   const text = new TextDecoder().decode(new Uint8Array(data, 4, length));

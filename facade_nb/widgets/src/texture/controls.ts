@@ -6,7 +6,7 @@ import type { WidgetModel } from "../shared/types.ts";
 import type { Session } from "./session.ts";
 import type { Steering } from "./steering.ts";
 
-interface Slider {
+export interface Slider {
   label: string;
   range: [low: number, high: number, step: number];
   get(): number;
@@ -83,7 +83,11 @@ export function sliders(session: Session, signal: AbortSignal): HTMLElement {
   return h("div", { class: "fnb-tex-slides" }, ...all.map((one) => slider(one, session, signal)));
 }
 
-function slider({ label, range, get, set, show }: Slider, session: Session, signal: AbortSignal): HTMLElement {
+export function slider(
+  { label, range, get, set, show }: Slider,
+  session: Pick<Session, "hold">,
+  signal: AbortSignal,
+): HTMLElement {
   const [min, max, step] = range;
   const input = h("input", { type: "range", min, max, step, "aria-label": label });
   const value = h("output", {});

@@ -3,8 +3,25 @@
 
 import { h, mark, setText } from "../shared/dom.ts";
 import { button } from "../shared/fields.ts";
+import type { Fault } from "../shared/types.ts";
 import { write } from "../shared/writing.ts";
-import type { Session } from "./session.ts";
+
+/** What the editor edits: the text of a grammar, and what is wrong with it. */
+export interface Edited {
+  readonly text: string;
+  readonly faults: Fault[];
+  /** Whether a text is on its way; whether what changes does so because it is undone. */
+  readonly typing: boolean;
+  readonly undoing: boolean;
+  readonly live: boolean;
+  readonly canUndo: boolean;
+  readonly canRedo: boolean;
+  /** What is told of a text without faults. */
+  readonly report: string;
+  set(name: "text", value: string): void;
+  ask(op: "undo" | "redo"): void;
+  hold(update: () => void, signal: AbortSignal): void;
+}
 
 /** The offset of a line and column, both from 1. */
 export function offsetOf(text: string, line: number, column: number): number {
@@ -19,7 +36,7 @@ export function marked(text: string, line: number, column: number): [before: str
   return [own.slice(0, column - 1), /^[\p{L}\p{N}_.:-]+/u.exec(rest)?.[0] || [...rest][0] || " "];
 }
 
-export function editor(session: Session, signal: AbortSignal): HTMLElement {
+export function editor(session: Edited, signal: AbortSignal): HTMLElement {
   const area = h("textarea", {
     class: "fnb-tex-text",
     spellcheck: "false",
@@ -75,7 +92,7 @@ export function editor(session: Session, signal: AbortSignal): HTMLElement {
     mark(area, "aria-invalid", session.faults.length ? "true" : null);
     number();
     underline();
-    if (!session.faults.length) setText(list, session.scene?.report ?? "");
+    if (!session.faults.length) setText(list, session.report);
     const key = JSON.stringify(session.faults);
     if (list.dataset.key === key) return;
     list.dataset.key = key;

@@ -3,12 +3,30 @@
 import { h, setText } from "../shared/dom.ts";
 import type { Session } from "./session.ts";
 
+/** Whose picture it is. */
+interface Pictured {
+  readonly still: Uint8Array<ArrayBuffer> | null;
+  readonly live: boolean;
+  askStill(): void;
+  hold(update: () => void, signal: AbortSignal): void;
+}
+
 export function stillPicture(session: Session, whyNot: string, signal: AbortSignal): HTMLElement {
+  const what = () => `Façade, ${session.size[0]} by ${session.size[1]} metres, straight on`;
+  return stillOf(session, { whyNot, what, label: "Still picture of the façade", type: "image/png" }, signal);
+}
+
+/** The still picture of whatever has one. */
+export function stillOf(
+  session: Pictured,
+  { whyNot, what, label, type }: { whyNot: string; what: () => string; label: string; type: string },
+  signal: AbortSignal,
+): HTMLElement {
   const image = h("img", { class: "fnb-tex-still", hidden: true });
   const note = h("p", {});
   const stage = h(
     "div",
-    { class: "fnb-tex-stage fnb-tex-without", role: "group", "aria-label": "Still picture of the façade" },
+    { class: "fnb-tex-stage fnb-tex-without", role: "group", "aria-label": label },
     h("div", { class: "fnb-tex-why", role: "alert" }, h("strong", {}, whyNot), note),
     image,
   );
@@ -17,14 +35,13 @@ export function stillPicture(session: Session, whyNot: string, signal: AbortSign
   const forget = () => URL.revokeObjectURL(address);
   session.hold(() => {
     const { still } = session;
-    const [w, t] = session.size;
-    image.alt = `Façade, ${w} by ${t} metres, straight on`;
+    image.alt = what();
     image.hidden = !still;
     setText(note, help(session.live, !!still));
     if (!still || still.buffer === shown) return;
     shown = still.buffer;
     forget();
-    address = URL.createObjectURL(new Blob([still], { type: "image/png" }));
+    address = URL.createObjectURL(new Blob([still], { type }));
     image.src = address;
   }, signal);
   session.askStill();

@@ -1,0 +1,213 @@
+// When a picture is drawn, and how finely: coarse while one moves, as the time of frames allows; at rest finer, in pieces
+// between which the page can do other things. Anything that changes begins anew.
+
+import { mark } from "../shared/dom.ts";
+import { rowsFor } from "../texture/painting.ts";
+import { context } from "./context.ts";
+import { frustumOf, type Sunlight, sunlightOf } from "./frame.ts";
+import type { Shown } from "./pipeline.ts";
+import type { Session } from "./session.ts";
+import type { Pass, Pixels, Values, Vector } from "./types.ts";
+
+const BUDGET = 48; // milliseconds of a frame in motion, and of a piece of the picture at rest
+const RESTED = 140; // milliseconds after which it becomes finer
+export const FACTORS = [1, 1.5, 2, 3, 4, 6, 8] as const;
+const INDICES = 60_000; // of the mesh that a first piece draws
+
+/** How coarse the next frame should be, after one that was so coarse and took so long. */
+export function coarser(factor: number, milliseconds: number): number {
+  const wanted = factor * Math.sqrt(milliseconds / BUDGET);
+  if (wanted > factor) return FACTORS.find((own) => own >= wanted * 0.98) ?? 8;
+  return FACTORS.findLast((own) => own >= wanted * 1.1 && own <= factor) === undefined
+    ? factor
+    : (FACTORS.find((own) => own >= wanted * 1.1) ?? factor);
+}
+
+export const pixelsOf = ({ width, height }: HTMLCanvasElement, factor: number): Pixels => [
+  Math.max(1, Math.ceil(width / factor)),
+  Math.max(1, Math.ceil(height / factor)),
+];
+
+export interface Told {
+  milliseconds: number;
+  pixels: Pixels;
+  factor: number;
+  /** Milliseconds of each pass, where each was waited for. */
+  spent: Map<string, number>;
+}
+
+export interface Painting {
+  /** Draw it anew. */
+  redraw(): void;
+  stop(): void;
+  /** The last picture that was drawn as a whole; null: none. */
+  readonly last: Pixels | null;
+}
+
+interface Options {
+  off?: () => readonly string[];
+  /** Which buffer is shown, and how; by default the last one. */
+  shown?: () => [name: string, shown: Shown] | null;
+  /** Called after each picture. */
+  told: (told: Told) => void;
+  failed: (message: string) => void;
+}
+
+export function painting(canvas: HTMLCanvasElement, session: Session, { off, shown, told, failed }: Options): Painting {
+  const paper = canvas.getContext("2d", { alpha: false, willReadFrequently: context().software });
+  const left = off ?? (() => []);
+  let [timer, frame] = [0, 0];
+  let factor: number = context().software ? 4 : 1;
+  let last: Pixels | null = null;
+  let held: { sun: Sunlight; eye: Vector; yaw: number; hour: number } | null = null;
+  const rates = new Map<string, number>();
+
+  const attempt = (act: () => void) => {
+    try {
+      act();
+    } catch (error) {
+      if (!context().lost) failed(error instanceof Error ? error.message : String(error));
+    }
+  };
+  const able = () => !!paper && canvas.width > 1 && session.drawable && !context().lost;
+  /** The sun's views: those of a while ago do as long as one is near to where they were taken. */
+  const sunHeld = (pixels: Pixels): Sunlight | undefined => {
+    const { head, place, hour, light } = session;
+    if (!head) return undefined;
+    const [x, y, z, yaw] = place;
+    const near = held ? (held.sun.texels[0] * head.sunlight.side) / 2 : 0;
+    const moved = held ? Math.hypot(x - held.eye[0], y - held.eye[1], z - held.eye[2]) : Infinity;
+    const turned = held ? Math.abs(((yaw - held.yaw + 540) % 360) - 180) : 0;
+    if (!held || moved > 0.15 * near || turned > 25 || held.hour !== hour) {
+      const sun = sunlightOf(light.towards as Vector, frustumOf(place, pixels), head.box, head.sunlight);
+      held = { sun, eye: [x, y, z], yaw, hour };
+    }
+    return held.sun;
+  };
+  const show = (passes: Pass[], pixels: Pixels): boolean => {
+    const [name, how] = shown?.() ?? [passes.at(-1)?.writes[0], undefined];
+    if (!paper || !name || !session.pipeline?.show(name, pixels, paper, how)) return false;
+    last = pixels;
+    return true;
+  };
+  /** The whole picture at once. */
+  const rough = () => {
+    const { pipeline } = session;
+    if (!pipeline || !able()) return;
+    if (!pipeline.ready()) {
+      timer = window.setTimeout(redraw, 60);
+      return;
+    }
+    const pixels = pixelsOf(canvas, factor);
+    const began = performance.now();
+    const values = session.values(pixels, left(), undefined, sunHeld(pixels));
+    const passes = session.passes(left());
+    for (const pass of passes) {
+      if (pass.draws === "screen") pipeline.run(pass, values, pixels);
+      else if (!pipeline.fresh(pass, values))
+        pipeline.run(pass, values, pixels, { runs: session.runs(values[pass.through] as Float64Array) });
+    }
+    if (!show(passes, pixels)) return;
+    const milliseconds = performance.now() - began;
+    mark(canvas, "data-coarse", String(factor));
+    told({ milliseconds, pixels, factor, spent: new Map() });
+    factor = coarser(factor, milliseconds);
+  };
+  /** The pieces of a finer picture. */
+  function* pieces(fine: number): Generator<void> {
+    const { pipeline } = session;
+    if (!pipeline) return;
+    const pixels = pixelsOf(canvas, fine);
+    const values = session.values(pixels, left());
+    held = null;
+    const passes = session.passes(left());
+    const began = performance.now();
+    const spent = new Map<string, number>();
+    for (const pass of passes) {
+      const add = (since: number) => spent.set(pass.name, (spent.get(pass.name) ?? 0) + performance.now() - since);
+      if (pass.draws === "mesh") {
+        if (!pipeline.fresh(pass, values)) yield* meshed(pass, values, pixels, add);
+        continue;
+      }
+      const height = pipeline.sizeOf(pipeline.buffer(pass.writes[0] as string), pixels)[1];
+      for (let low = 0; low < height; ) {
+        const rate = rates.get(pass.name) ?? Math.max(4, Math.floor(8000 / pixels[0]));
+        const high = Math.min(height, low + rate);
+        const start = performance.now();
+        pipeline.run(pass, values, pixels, { rows: [low, high] });
+        pipeline.finish();
+        add(start);
+        rates.set(pass.name, rowsFor(BUDGET * 0.8, high - low, performance.now() - start));
+        low = high;
+        yield;
+      }
+    }
+    if (!show(passes, pixels)) return;
+    mark(canvas, "data-coarse", String(fine));
+    told({ milliseconds: performance.now() - began, pixels, factor: fine, spent });
+  }
+  function* meshed(pass: Pass, values: Values, pixels: Pixels, add: (since: number) => void): Generator<void> {
+    const { pipeline } = session;
+    const runs = session.runs(values[pass.through] as Float64Array);
+    let first = true;
+    while (first || runs.length) {
+      let room = rates.get(pass.name) ?? INDICES;
+      const own: Pixels[] = [];
+      while (runs.length && room > 0) {
+        const [begin, count] = runs[0] as Pixels;
+        const taken = Math.min(count, room - (room % 3) || 3);
+        own.push([begin, taken]);
+        room -= taken;
+        if (taken < count) runs[0] = [begin + taken, count - taken];
+        else runs.shift();
+      }
+      const start = performance.now();
+      pipeline?.run(pass, values, pixels, { runs: own, first });
+      pipeline?.finish();
+      add(start);
+      const drawn = own.reduce((sum, [, count]) => sum + count, 0);
+      const spent = Math.max(performance.now() - start, 1);
+      if (drawn) rates.set(pass.name, Math.max(3000, Math.min(4 * drawn, Math.round((drawn * BUDGET * 0.8) / spent))));
+      first = false;
+      yield;
+    }
+  }
+  const refine = () =>
+    attempt(() => {
+      if (!able() || !session.pipeline?.ready()) return;
+      const steps = [...new Set([factor > 3 ? 3 : 1, 1])].filter((own) => own < factor || own === 1);
+      const work = (function* () {
+        for (const fine of steps) yield* pieces(fine);
+      })();
+      const next = () =>
+        attempt(() => {
+          if (context().lost) return;
+          const start = performance.now();
+          let done = false;
+          while (!done && performance.now() - start < BUDGET / 3) done = !!work.next().done;
+          if (!done) timer = window.setTimeout(next, 0);
+          else mark(canvas, "data-state", "sharp");
+        });
+      next();
+    });
+  const redraw = () => {
+    clearTimeout(timer);
+    timer = window.setTimeout(refine, RESTED);
+    mark(canvas, "data-state", "moving");
+    if (frame) return;
+    frame = requestAnimationFrame(() => {
+      frame = 0;
+      attempt(rough);
+    });
+  };
+  return {
+    redraw,
+    stop() {
+      clearTimeout(timer);
+      cancelAnimationFrame(frame);
+    },
+    get last() {
+      return last;
+    },
+  };
+}

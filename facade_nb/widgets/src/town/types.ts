@@ -1,0 +1,104 @@
+// What facade_nb/widgets/town/packet.py packs.
+
+export type Vector = [number, number, number];
+/** x, y, z in metres; yaw, pitch, angle in degrees (Python: Viewpoint). */
+export type Place = [x: number, y: number, z: number, yaw: number, pitch: number, angle: number];
+export type Pixels = [width: number, height: number];
+/** One number, some, or a matrix row by row (16). */
+export type Value = number | readonly number[] | Float64Array;
+export type Values = Record<string, Value>;
+
+export interface Buffer {
+  name: string;
+  channels: number;
+  kind: "f1" | "f2" | "f4" | "i4" | "depth";
+  tells: string;
+  side: number;
+  part: number;
+}
+
+export interface Pass {
+  name: string;
+  vertex: string;
+  fragment: string;
+  reads: string[];
+  writes: string[];
+  draws: "mesh" | "screen";
+  through: string;
+  when: string;
+  tells: string;
+}
+
+/** A texture that shaders read, under the name of their sampler. */
+export interface Image {
+  size: Pixels;
+  channels: number;
+  kind: "f1" | "f2" | "f4";
+}
+
+export interface Chunks {
+  first: Int32Array;
+  count: Int32Array;
+  low: Float32Array;
+  high: Float32Array;
+  needs: Int32Array;
+  blocks: Int32Array;
+}
+
+export interface BlobInfo {
+  bytes: number;
+  block: number;
+  version: number;
+}
+
+export interface Buildings {
+  styles: string[];
+  kinds: string[];
+  roofs: string[];
+  seed: Int32Array;
+  style: Int32Array;
+  storeys: Int32Array;
+  eaves: Float32Array;
+  rise: Float32Array;
+  roof: Int32Array;
+  kind: Int32Array;
+  /** Of the grammar. */
+  parts: string[];
+}
+
+export type Light = Record<string, number | number[]>;
+
+export interface Head {
+  passes: Pass[];
+  buffers: Buffer[];
+  /** Sources by pass: `grammar:fragment`. */
+  shaders: Record<string, string>;
+  hours: Light[];
+  sunlight: { near: number; rise: number; most: number; far: number; side: number };
+  looks: { haze: number; reach: number };
+  stride: number;
+  attributes: Record<string, [count: number, offset: number]>;
+  /** Vertices of a block. */
+  block: number;
+  blobs: Record<string, BlobInfo>;
+  textures: Record<string, Image>;
+  grammar: Uint8Array;
+  chunks: Chunks;
+  box: number[];
+  views: Record<string, Place>;
+  /** Metres of the eye of one who walks. */
+  eye: number;
+  report: string;
+  /** Column and row of the rules that walls may begin with. */
+  starts: number[];
+  town: Buildings | null;
+}
+
+/** A place on a path. */
+export interface Stop {
+  time: number;
+  eye: Vector;
+  yaw: number;
+  pitch: number;
+  angle: number;
+}

@@ -1,0 +1,6 @@
+"""The town in the notebook, and the pipeline that draws it, buffer by buffer (docs/town-widgets.md)."""
+
+from .model import TownModel
+from .view import PipelineView, TownView
+
+__all__ = ["PipelineView", "TownModel", "TownView"]

@@ -1,0 +1,172 @@
+"""The wire between a town and the browser: a head, blocks as they are asked for, and what is edited."""
+
+from __future__ import annotations
+
+import traceback
+from typing import Any
+
+from traitlets import Bool, Bytes, Dict, Float, Int, List, TraitError, Unicode
+
+from ...design.errors import DesignError
+from ...render.pipeline.vertices import VERTEX
+from ...render.pipeline.viewpoint import Viewpoint
+from ..shared.bundled import Message, ModelWire
+from ..studio.wire import describe_faults
+from .model import TownModel
+from .packet import BLOCK, Blob, blobs_of, head_piece, row
+from .still import still
+
+__all__ = ["TownChannel"]
+
+
+def _state(model: TownModel) -> dict[str, Any]:
+    return {
+        "hour": model.hour,
+        "viewpoint": row(model.viewpoint),
+        "path": [] if model.path is None else model.path.to_dict(),
+        "chosen": model.chosen,
+        "section": model.section,
+        "text": model.text,
+        "faults": describe_faults(model.faults),
+        "restyled": [list(pair) for pair in model.restyled],
+        "can_undo": model.can_undo,
+        "can_redo": model.can_redo,
+    }
+
+
+class TownChannel(ModelWire):
+    """One town model's line to the browser. Get it by `TownChannel.of`: there is one for each."""
+
+    front = "town"
+
+    head = Bytes(help="All that is small; see `packet.head_piece`.").tag(sync=True)
+    still = Bytes(help="A picture in JPEG, for a page that cannot draw.").tag(sync=True)
+    hour = Float().tag(sync=True)
+    viewpoint = List(Float()).tag(sync=True)
+    path = List(Dict()).tag(sync=True)
+    chosen = Int(-1).tag(sync=True)
+    section = Unicode().tag(sync=True)
+    text = Unicode().tag(sync=True)
+    faults = List(Dict()).tag(sync=True)
+    restyled = List(List(Int())).tag(sync=True)
+    ack = Dict(help="Client and number of the last value that was taken.").tag(sync=True)
+    can_undo = Bool().tag(sync=True)
+    can_redo = Bool().tag(sync=True)
+
+    def __init__(self, model: TownModel) -> None:
+        self._blobs: dict[str, Blob] = {}
+        self._tiles: tuple[str, ...] = ()
+        self._version = 0
+        self._stills = False
+        super().__init__(model, **_state(model))
+        self._refill()
+        model.observe(self._on_model)
+
+    def close(self) -> None:
+        """Close the wire; the model lives on."""
+        if self.comm is not None:
+            self.model.unobserve(self._on_model)
+        super().close()
+
+    def draw_still(self) -> bytes:
+        """The still picture, drawn now."""
+        self.still = still(self.model)
+        return self.still
+
+    def _refill(self) -> None:
+        tiles = self.model.grammar.encoding.tiles
+        if tiles != self._tiles:
+            self._tiles = tiles
+            self._version += 1
+        try:
+            self._blobs = blobs_of(self.model, self._version)
+            self.head = head_piece(self.model, self._blobs)
+        except Exception:  # the edge to the browser: it is shown there, not lost in a log
+            self.trouble = traceback.format_exc()
+
+    def _empty(self) -> None:
+        self._stills = False
+        self._blobs = {}
+        self.head = self.still = b""
+
+    def _on_model(self, change: Any) -> None:
+        with self.hold_sync():
+            if change["name"] == "grammar" and not self._asleep:
+                self._refill()
+            for name, value in _state(self.model).items():
+                setattr(self, name, value)
+            if self._stills and change["name"] in ("grammar", "hour", "restyled", "viewpoint"):
+                self.draw_still()
+        if change["name"] == "restyled" and not self._asleep:
+            self._patch({own for own, _ in set(change["old"] or ()) ^ set(change["new"])})
+
+    def _patch(self, buildings: set[int]) -> None:
+        """Send the vertices of buildings that have changed."""
+        self._blobs["vertices"] = Blob(
+            memoryview(self.model.vertices.view("u1").reshape(-1)), BLOCK * VERTEX.itemsize
+        )
+        content = self._blobs["vertices"].content
+        for building in sorted(buildings):
+            first, end = (VERTEX.itemsize * at for at in self.model.vertices_of(building))
+            self.send({"kind": "patch", "name": "vertices", "at": first}, buffers=[bytes(content[first:end])])
+
+    def _answer(self, message: Message) -> None:
+        try:
+            op = message.get("op")
+            if op == "blocks":
+                self._send_blocks(message)
+                return
+            with self.hold_sync():
+                if op == "still":
+                    self._stills = True
+                    self.draw_still()
+                    return
+                if "seq" not in message:
+                    return
+                self.trouble = ""
+                try:
+                    self._edit(str(op), message)
+                finally:  # what was refused is answered, too: the page shows what the model has
+                    self.ack = {"client": message["client"], "seq": message["seq"]}
+        except (TraitError, DesignError, ValueError, IndexError) as error:
+            self.trouble = str(error)
+        except Exception:  # as above
+            self.trouble = traceback.format_exc()
+
+    def _send_blocks(self, message: Message) -> None:
+        name, version, numbers = message["name"], message["version"], message["blocks"]
+        blob = self._blobs.get(name)
+        if blob is None or blob.version != version:
+            return  # it has been replaced; the new head says so
+        self.send(
+            {
+                "kind": "blocks",
+                "name": name,
+                "version": version,
+                "blocks": numbers,
+                "client": message["client"],
+            },
+            buffers=[blob.deflated(number) for number in numbers],
+        )
+
+    def _edit(self, op: str, message: Message) -> None:
+        model = self.model
+        if op in ("undo", "redo"):
+            getattr(model, op)()
+            return
+        name, value = message["name"], message["value"]
+        if name == "text":
+            model.enter(str(value))
+        elif name == "section":
+            model.edit(str(value))
+        elif name == "hour":
+            model.adjust(float(value))
+        elif name == "chosen":
+            model.chosen = int(value)
+        elif name == "restyled":
+            model.restyle(*map(int, value))
+        elif name == "viewpoint":
+            x, y, z, yaw, pitch, angle = map(float, value)
+            model.viewpoint = Viewpoint((x, y, z), yaw, pitch, angle)
+        elif name == "path":
+            model.travel(value)

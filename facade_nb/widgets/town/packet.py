@@ -1,0 +1,186 @@
+"""What the browser is told of a town: a head with all that is small, and large things in blocks that it asks for."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...render.pipeline.passes import BUFFERS, PASSES, SHADOW
+from ...render.pipeline.sunlight import _FAR, _MOST, _NEAR, _RISE
+from ...render.pipeline.vertices import VERTEX
+from ...render.pipeline.viewpoint import Viewpoint
+from ...render.texture.daytime import Daytime
+from ...render.texture.shaders import room, shader
+from ...render.texture.uploads import Upload, grammar_upload, tile_uploads
+from ...render.town.plan import KINDS, ROOFS
+from ..solver.packing import pack
+from ..texture.packet import HOURS
+from .model import TownModel
+from .places import EYE, edges_of
+
+__all__ = ["BLOCK", "Blob", "blobs_of", "described", "head_piece", "needs_of", "row"]
+
+BLOCK = 4096
+"""Vertices of a block, which a message carries; and three times as many indices."""
+
+_ROWS = 64
+"""Rows of the tiles' image in a block."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Blob:
+    """Something large, sent in blocks.
+
+    Attributes
+    ----------
+    content
+        Its bytes.
+    block
+        Bytes of a block; 0: it goes in one.
+    version
+        Grows when there is another one in its place.
+    """
+
+    content: memoryview
+    block: int = 0
+    version: int = 0
+
+    def deflated(self, number: int) -> bytes:
+        """A block, deflated."""
+        size = self.block or len(self.content)
+        return zlib.compress(self.content[number * size : (number + 1) * size], 1)
+
+
+def _bytes(array: NDArray[Any]) -> memoryview:
+    flat: Any = np.ascontiguousarray(array).reshape(-1).view(np.uint8)
+    return memoryview(flat)
+
+
+def blobs_of(model: TownModel, version: int) -> dict[str, Blob]:
+    """All that is large, by name; `version` counts the sets of tiles."""
+    noise, atlas, table = tile_uploads(model.grammar.atlas())
+    found = {
+        "vertices": Blob(_bytes(model.vertices), BLOCK * VERTEX.itemsize),
+        "indices": Blob(_bytes(model.source.indices), BLOCK * 12),
+        "noise": Blob(memoryview(noise.content)),
+        "atlas": Blob(memoryview(atlas.content), atlas.size[0] * 4 * _ROWS, version),
+        "tile_table": Blob(memoryview(table.content), 0, version),
+    }
+    if model.town is not None:
+        found["edges"] = Blob(_bytes(edges_of(model.town.plan)))
+    return found
+
+
+def needs_of(model: TownModel) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Which blocks of vertices each chunk draws: offsets (c + 1,) into the numbers of blocks."""
+    blocks = model.source.indices // BLOCK
+    offsets, numbers = [0], []
+    for first, count in zip(
+        model.source.chunks["first"].tolist(), model.source.chunks["count"].tolist(), strict=True
+    ):
+        numbers += np.unique(blocks[first : first + count]).tolist()
+        offsets.append(len(numbers))
+    return np.array(offsets, np.int32), np.array(numbers, np.int32)
+
+
+def row(place: Viewpoint) -> list[float]:
+    """A viewpoint as the browser has it: x, y, z, yaw, pitch, angle."""
+    return [*map(float, place.eye), float(place.yaw), float(place.pitch), float(place.angle)]
+
+
+def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
+    """What is small, and comes first: passes, shaders, light, grammar, chunks, buildings."""
+    question = model.grammar.question((1.0, 1.0))
+    chunks, scene = model.source.chunks, model.scene
+    offsets, numbers = needs_of(model)
+    head: dict[str, Any] = {
+        "passes": [{**asdict(own), "reads": list(own.reads), "writes": list(own.writes)} for own in PASSES],
+        "buffers": [asdict(own) for own in BUFFERS],
+        "shaders": _shaders(model),
+        "hours": _hours(),
+        "sunlight": {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR, "side": SHADOW},
+        "looks": {"haze": 2600.0, "reach": 1.4},
+        "stride": VERTEX.itemsize,
+        "attributes": {name: [int(np.prod(VERTEX[name].shape, dtype=int)), at] for name, at in _offsets()},
+        "block": BLOCK,
+        "blobs": {
+            name: {"bytes": len(own.content), "block": own.block or len(own.content), "version": own.version}
+            for name, own in blobs.items()
+        },
+        "textures": _textures(model),
+        "grammar": np.frombuffer(grammar_upload(question).content, np.uint8),
+        "chunks": {
+            "first": chunks["first"].astype(np.int32),
+            "count": chunks["count"].astype(np.int32),
+            "low": chunks["low"].astype(np.float32).reshape(-1),
+            "high": chunks["high"].astype(np.float32).reshape(-1),
+            "needs": offsets,
+            "blocks": numbers,
+        },
+        "box": scene.box.reshape(-1).tolist(),
+        "views": {name: row(place) for name, place in model.views.items()},
+        "eye": EYE,
+        "report": model.grammar.report(),
+        "starts": [],
+        "town": None,
+    }
+    if model.starts is not None:
+        head["starts"] = model.starts.places(model.grammar).reshape(-1).astype(int).tolist()
+        head["town"] = described(model)
+    return pack(head)
+
+
+def _offsets() -> list[tuple[str, int]]:
+    """Where each attribute begins in a vertex."""
+    fields: Any = VERTEX.fields
+    return [(name, int(fields[name][1])) for name in VERTEX.names or ()]
+
+
+@lru_cache(maxsize=1)
+def _hours() -> list[dict[str, Any]]:
+    return [Daytime.at(hour).uniforms() for hour in HOURS]
+
+
+def _shaders(model: TownModel) -> dict[str, str]:
+    """The source of each shader of each pass, by the pass and which it is."""
+    frames, seeds = map(room, model.grammar.question((1.0, 1.0)).stacks)
+    bits = model.grammar.encoding.bits
+    found = {}
+    for own in PASSES:
+        found[f"{own.name}:vertex"] = shader(own.vertex, "es")
+        found[f"{own.name}:fragment"] = shader(
+            own.fragment, "es", frames=frames, seeds=seeds, bits=bits, defines=own.defines
+        )
+    return found
+
+
+def _textures(model: TownModel) -> dict[str, Any]:
+    question = model.grammar.question((1.0, 1.0))
+    every: Sequence[Upload] = (grammar_upload(question), *tile_uploads(question.atlas))
+    return {own.name: {"size": list(own.size), "channels": own.channels, "kind": own.kind} for own in every}
+
+
+def described(model: TownModel) -> dict[str, Any]:
+    """What an inspector tells of each building, and the names of what it counts."""
+    town = model.town
+    assert town is not None
+    plan = town.plan
+    return {
+        "styles": [one.name for one in town.styles],
+        "kinds": list(KINDS),
+        "roofs": list(ROOFS),
+        "seed": plan.seed.astype(np.int32).reshape(-1),
+        "style": plan.style.astype(np.int32),
+        "storeys": plan.storeys.astype(np.int32),
+        "eaves": plan.eaves.astype(np.float32),
+        "rise": plan.rise.astype(np.float32),
+        "roof": plan.roof.astype(np.int32),
+        "kind": plan.kind.astype(np.int32),
+        "parts": list(model.parts),
+    }

@@ -1,0 +1,56 @@
+"""A still picture of a town: for pages where none can be drawn."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from html import escape
+from io import BytesIO
+
+from ...render.pipeline.frame import Frame, Looks
+from ...render.pipeline.renderer import renderer_of
+from ...render.texture.daytime import Daytime
+from ...render.texture.gl import EGL, OSMESA, GlPainter
+from .model import TownModel
+
+__all__ = ["SIZE", "painter", "still", "told"]
+
+SIZE = (720, 405)
+"""Pixels of it."""
+
+_QUALITY = 82
+
+
+def painter() -> GlPainter | None:
+    """Who draws it here; None: nobody can."""
+    return next((own for own in (OSMESA, EGL) if own.available), None)
+
+
+def still(model: TownModel, pixels: tuple[int, int] = SIZE) -> bytes:
+    """What is seen from the viewpoint in the light of the hour, as JPEG; empty where no OpenGL can be had."""
+    from PIL import Image
+
+    by = painter()
+    if by is None:
+        return b""
+    frame = Frame(model.scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, Looks())
+    with renderer_of(frame.scene, by) as renderer:
+        drawn = renderer.draw(frame)["picture"]
+    out = BytesIO()
+    Image.fromarray(drawn[..., :3]).save(out, "JPEG", quality=_QUALITY, optimize=True)
+    return out.getvalue()
+
+
+def told(model: TownModel) -> str:
+    """What it shows, in words."""
+    count = 0 if model.town is None else len(model.town.plan)
+    hour, minute = divmod(round(60 * model.hour), 60)
+    what = f"A town of {count:,} buildings" if model.town is not None else "Façades"
+    return f"{what} at {hour}:{minute:02d}"
+
+
+def image(model: TownModel, data: bytes) -> str:
+    """A picture as HTML; empty if there is none."""
+    if not data:
+        return ""
+    source = b64encode(data).decode("ascii")
+    return f'<img alt="{escape(told(model))}" src="data:image/jpeg;base64,{source}">'

@@ -1,0 +1,144 @@
+"""The views of a town: widgets of one kilobyte that name the channel and the part to show."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, ClassVar
+
+from anywidget import AnyWidget
+from ipywidgets import Widget, widget_serialization
+from traitlets import Bool, Instance, Int, List, Unicode
+
+from ...render.pipeline.scene import Scene
+from ...render.pipeline.viewpoint import CameraPath, Viewpoint
+from ...render.town import Town
+from ..shared.bundled import as_run, bundle
+from .channel import TownChannel
+from .model import TownModel
+from .still import image
+
+__all__ = ["PipelineView", "TownView"]
+
+
+class _TownWidget(AnyWidget):
+    """A view of a town or of a scene; which one, says the class.
+
+    Parameters
+    ----------
+    source
+        A town, a scene, or the `model` of another view. Views of one model follow each other.
+    viewpoint
+        Where one stands at first: a `Viewpoint`, or the name of one of `model.views`.
+    hour
+        Of the day, 0 to 24.
+    path
+        A way through the town.
+    """
+
+    _esm = bundle("loader.js")
+    _shows: ClassVar[str] = ""
+
+    channel = Instance(Widget).tag(sync=True, **widget_serialization)
+    part = Unicode().tag(sync=True)
+    height = Int(0, help="Pixels of the picture; 0: as it suits its width.").tag(sync=True)
+
+    def __init__(
+        self,
+        source: TownModel | Town | Scene,
+        viewpoint: Viewpoint | str | None = None,
+        *,
+        hour: float | None = None,
+        path: CameraPath | Sequence[dict[str, object]] | None = None,
+        **options: Any,
+    ) -> None:
+        self.model = source if isinstance(source, TownModel) else TownModel(source)
+        if hour is not None:
+            self.model.hour = hour
+        super().__init__(channel=TownChannel.of(self.model), part=self._shows, **options)
+        if viewpoint is not None:
+            self.viewpoint = viewpoint
+        if path is not None:
+            self.path = path
+
+    @property
+    def viewpoint(self) -> Viewpoint:
+        """Where one stands."""
+        return self.model.viewpoint
+
+    @viewpoint.setter
+    def viewpoint(self, place: Viewpoint | str) -> None:
+        if isinstance(place, str):
+            self.model.look(place)
+        else:
+            self.model.viewpoint = place
+
+    @property
+    def path(self) -> CameraPath | None:
+        """A way through the town, which the view plays; None: there is none."""
+        return self.model.path
+
+    @path.setter
+    def path(self, path: CameraPath | Sequence[dict[str, object]] | None) -> None:
+        if path is None or isinstance(path, CameraPath):
+            self.model.path = path
+        else:
+            self.model.travel(list(path))
+
+    @property
+    def hour(self) -> float:
+        """Of the day, 0 to 24."""
+        return float(self.model.hour)
+
+    @hour.setter
+    def hour(self, hour: float) -> None:
+        self.model.hour = hour
+
+    def __repr__(self) -> str:
+        town = self.model.town
+        what = f"{len(self.model.source.chunks)} chunks" if town is None else f"{len(town.plan):,} buildings"
+        return f"{type(self).__name__}({what})"
+
+    def to_html(self) -> str:
+        """The static form: a picture for pages where no widget can run; empty where there is none."""
+        return image(self.model, self.channel.draw_still())
+
+    def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
+        """The live view and, for pages where none can run, the static form, marked as of the cell's run."""
+        self.channel.wake()
+        made = super()._repr_mimebundle_(**options)
+        if made is not None:
+            static = self.to_html()
+            if static:
+                made[0]["text/html"] = as_run(static)
+        return made
+
+
+class TownView(_TownWidget):
+    """The town: fly and walk, day to night; a click tells of a building, whose style and grammar can be changed.
+
+    Attributes
+    ----------
+    controls
+        Whether there are buttons, sliders, inspector and editor.
+    """
+
+    _shows = "view"
+
+    controls = Bool(True).tag(sync=True)
+
+
+class PipelineView(_TownWidget):
+    """Every buffer of the pipeline side by side, with what each pass reads and writes.
+
+    Attributes
+    ----------
+    off
+        Names of passes that are left out.
+    enlarged
+        The buffer that is shown large; empty: the last one.
+    """
+
+    _shows = "pipeline"
+
+    off = List(Unicode()).tag(sync=True)
+    enlarged = Unicode().tag(sync=True)
