@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...render.pipeline.frame import Looks
 from ...render.pipeline.passes import BUFFERS, PASSES, SHADOW
 from ...render.pipeline.sunlight import _FAR, _MOST, _NEAR, _RISE
 from ...render.pipeline.vertices import VERTEX
@@ -25,6 +26,8 @@ from .model import TownModel
 from .places import EYE, edges_of
 
 __all__ = ["BLOCK", "Blob", "blobs_of", "described", "head_piece", "needs_of", "row"]
+
+_LOOKS = Looks()
 
 BLOCK = 4096
 """Vertices of a block, which a message carries; and three times as many indices."""
@@ -105,7 +108,7 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
         "shaders": _shaders(model),
         "hours": _hours(),
         "sunlight": {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR, "side": SHADOW},
-        "looks": {"haze": 2600.0, "reach": 1.4},
+        "looks": {"haze": _LOOKS.haze, "reach": _LOOKS.reach},
         "stride": VERTEX.itemsize,
         "attributes": {name: [int(np.prod(VERTEX[name].shape, dtype=int)), at] for name, at in _offsets()},
         "block": BLOCK,

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from facade_nb.render.pipeline.frame import Frame, visible
+from facade_nb.render.pipeline.frame import Frame, Looks, visible
 from facade_nb.render.pipeline.passes import SHADOW
 from facade_nb.render.pipeline.scene import Scene
 from facade_nb.render.pipeline.sunlight import _FAR, _MOST, _NEAR, _RISE
@@ -61,7 +61,7 @@ def made() -> dict[str, Any]:
         "head": {
             "box": scene.box.reshape(-1).tolist(),
             "sunlight": {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR, "side": SHADOW},
-            "looks": {"haze": 2600.0, "reach": 1.4},
+            "looks": {"haze": Looks().haze, "reach": Looks().reach},
         },
         "hours": [
             {name: plain(value) for name, value in Daytime.at(hour).uniforms().items()} for hour in HOURS
