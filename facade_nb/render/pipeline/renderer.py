@@ -73,6 +73,7 @@ class Renderer:
                 upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1
             )
             image.filter = (context.NEAREST, context.NEAREST)
+            image.repeat_x = image.repeat_y = False
             self._held[upload.name] = self._keep(image)
         frames, seeds = map(room, question.stacks)
         bits = question.texture.dtype.itemsize * 8

@@ -201,6 +201,7 @@ class GlPainter:
 def _texture(context: Any, upload: Upload) -> Any:
     texture = context.texture(upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1)
     texture.filter = (context.NEAREST, context.NEAREST)
+    texture.repeat_x = texture.repeat_y = False
     return texture
 
 

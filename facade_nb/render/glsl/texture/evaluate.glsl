@@ -17,6 +17,10 @@ bool passes(int code) { return code >= OP_RANDSTACK && code <= OP_SKIP || code =
 bool chooses(int code) { return code == OP_RAND || code == OP_RANDUNI; }
 
 Surface evaluate(Question question) {
+  of_grammar = 1.0 / vec2(textureSize(grammar, 0));
+  of_atlas = 1.0 / vec2(textureSize(atlas, 0));
+  of_tile_table = 1.0 / vec2(textureSize(tile_table, 0));
+  tile_levels = textureSize(tile_table, 0).x - 1;
   asked = question;
   surface = Surface(vec4(0.0), vec4(0.0), vec4(0.0), ivec2(-1));
   frame_count = 0;

@@ -7,6 +7,11 @@ uniform highp sampler2D noise;       // 256 × 256 random numbers
 uniform highp sampler2D atlas;       // tiles
 uniform highp sampler2D tile_table;  // row: tile; column: level; left, bottom, width, height. First column: whether it is opaque
 
+vec2 of_grammar;                     // 1 / size of each
+vec2 of_atlas;
+vec2 of_tile_table;
+int tile_levels;
+
 Question asked;
 Surface surface;
 Frame frames[MAX_FRAMES];

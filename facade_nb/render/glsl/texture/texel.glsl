@@ -3,11 +3,11 @@
 
 vec4 texel(int tile, vec2 uv, bool wrap, int level) {
 #ifdef MIPS
-  int column = min(level, textureSize(tile_table, 0).x - 2) + 1;
+  int column = min(level, tile_levels - 1) + 1;
 #else
   int column = 1;
 #endif
-  vec4 box = fetch(tile_table, ivec2(column, tile - 1));
+  vec4 box = fetch(tile_table, of_tile_table, vec2(column, tile - 1));
   vec2 place = (wrap ? uv - floor(uv) : clamp(uv, vec2(0.0), vec2(1.0))) * box.zw - 0.5;
   vec2 low = floor(place);
   vec2 part = place - low;
@@ -23,8 +23,8 @@ vec4 texel(int tile, vec2 uv, bool wrap, int level) {
     first = max(first, ivec2(0));
     second = min(second, count - 1);
   }
-  ivec2 origin = ivec2(box.xy);
-  vec4 under = mix(fetch(atlas, origin + first), fetch(atlas, origin + ivec2(second.x, first.y)), part.x);
-  vec4 over = mix(fetch(atlas, origin + ivec2(first.x, second.y)), fetch(atlas, origin + second), part.x);
+  vec2 origin = box.xy;
+  vec4 under = mix(fetch(atlas, of_atlas, origin + vec2(first)), fetch(atlas, of_atlas, origin + vec2(second.x, first.y)), part.x);
+  vec4 over = mix(fetch(atlas, of_atlas, origin + vec2(first.x, second.y)), fetch(atlas, of_atlas, origin + vec2(second)), part.x);
   return mix(under, over, part.y);
 }
