@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..texture.gl import GlPainter
-from ..texture.shaders import room, shader
+from ..texture.shaders import room, rooms_for, shader
 from ..texture.uploads import grammar_upload, tile_uploads
 from .frame import Frame, visible
 from .passes import BUFFERS, PASSES, Buffer, Pass, arranged
@@ -76,13 +76,14 @@ class Renderer:
             image.repeat_x = image.repeat_y = False
             self._held[upload.name] = self._keep(image)
         frames, seeds = map(room, question.stacks)
+        rooms = rooms_for(question.rooms)
         bits = question.texture.dtype.itemsize * 8
         for own in self.passes:
             program = self._keep(
                 context.program(
                     vertex_shader=shader(own.vertex),
                     fragment_shader=shader(
-                        own.fragment, frames=frames, seeds=seeds, bits=bits, defines=own.defines
+                        own.fragment, frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=own.defines
                     ),
                 )
             )

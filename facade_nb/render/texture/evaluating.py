@@ -85,6 +85,8 @@ class Question(NamedTuple):
         Whether a rule can come back to itself: only then steps are counted, for otherwise there are few enough.
     stacks
         How many Layer operators, and how many RandStack ones, can stand inside each other: room that the shader needs.
+    rooms
+        How many Intrusion operators can.
     """
 
     texture: NDArray[Any]
@@ -96,6 +98,7 @@ class Question(NamedTuple):
     atlas: Atlas
     recurs: bool
     stacks: tuple[int, int]
+    rooms: int
 
 
 def evaluate(

@@ -205,7 +205,8 @@ class Grammar:
             Seed.of(place),
             self.atlas(tiles),
             self._recurs,
-            self._stacks,
+            self._stacks[:2],
+            self._stacks[2],
         )
 
     def atlas(self, tiles: Tiles | None = None) -> Atlas:
@@ -223,7 +224,7 @@ class Grammar:
         return read_records(self.texture())
 
     @cached_property
-    def _stacks(self) -> tuple[int, int]:
+    def _stacks(self) -> tuple[int, int, int]:
         return stack_heights(self.rules)
 
     @cached_property

@@ -16,6 +16,8 @@ Question asked;
 Surface surface;
 Frame frames[MAX_FRAMES];
 int frame_count;
+Room outside[MAX_ROOMS];             // of each intrusion that the pixel is in, the outermost first
+vec2 filling;                        // sum of a Split's absolute sizes, and of half a step of each; -1: not known
 uvec2 seed_stack[MAX_SEEDS];
 float margin;                        // how near the pixel came to a boundary, in pixels
 #ifdef DEEP
