@@ -79,12 +79,14 @@ Surface evaluate(Question question) {
           code = int(head.r);
         }
       } while (descends(code) || divides(code) || chooses(code));
-      if (ends(code)) {
-        int skipped = code == OP_SKIP ? int(head.Skip_l) : 0;
-        if (code != OP_SKIP && code != OP_NOTHING) skipped = terminal(now, head);
-        head = next_layer(now, skipped) ? enter(now, taken) : END;
-        code = int(head.r);
-      }
+      do {
+        if (ends(code)) {
+          int skipped = code == OP_SKIP ? int(head.Skip_l) : 0;
+          if (code != OP_SKIP && code != OP_NOTHING) skipped = terminal(now, head);
+          head = next_layer(now, skipped) ? enter(now, taken) : END;
+          code = int(head.r);
+        }
+      } while (ends(code));
     } while (descends(code) || divides(code) || chooses(code) || ends(code));
     if (code > UNKNOWN) {
       code -= UNKNOWN;
