@@ -61,7 +61,9 @@ def stack_heights(rules: Sequence[Rule]) -> tuple[int, int, int]:
     """How high the stacks of layers, seeds and rooms can become, from whichever rule one begins."""
     below = children(rules)
     groups = _components(below)
-    frames, seeds, rooms = (max(_heights(rules, below, groups, pushes), default=0) for _, _, pushes in _STACKS)
+    frames, seeds, rooms = (
+        max(_heights(rules, below, groups, pushes), default=0) for _, _, pushes in _STACKS
+    )
     return frames, seeds, rooms
 
 

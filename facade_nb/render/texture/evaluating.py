@@ -504,7 +504,7 @@ class _Run:
             long = np.broadcast_to(large > _LONG * np.maximum(small, 1), len(batch))
             self.margin[batch.index[long]] = 0
         texels = np.maximum(np.maximum(small, large * _SHARE), 1)
-        return np.floor(np.float32(0.5) * np.log2(texels)).astype(np.int32)
+        return (np.frexp(texels)[1] - 1) >> 1  # half the exponent: how often its root can be halved
 
     # Steps ------------------------------------------------------------------------------------------------
 

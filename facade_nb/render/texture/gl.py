@@ -188,9 +188,7 @@ class GlPainter:
         bits = question.texture.dtype.itemsize * 8
         key = (name, frames, seeds, rooms, bits, defines)
         if key not in self._programs:
-            fragment = shader(
-                name, frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=defines
-            )
+            fragment = shader(name, frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=defines)
             self._programs[key] = self._context.program(
                 vertex_shader=shader("whole.vert"), fragment_shader=fragment
             )

@@ -61,7 +61,8 @@ def shader(
     if name.endswith(".frag"):
         head += "".join(f"#define {define}\n" for define in defines)
         head += (
-            f"const int MAX_FRAMES = {frames};\nconst int MAX_SEEDS = {seeds};\nconst int MAX_ROOMS = {rooms};\n{_floats(bits)}{constants()}"
+            f"const int MAX_FRAMES = {frames};\nconst int MAX_SEEDS = {seeds};\nconst int MAX_ROOMS = {rooms};\n"
+            f"{_floats(bits)}{constants()}"
         )
     return head + "".join(_included(name, set()))
 

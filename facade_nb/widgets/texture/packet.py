@@ -28,7 +28,12 @@ def scene_piece(grammar: Grammar) -> bytes:
     question = grammar.question((1.0, 1.0))
     frames, seeds = map(room, question.stacks)
     texture = grammar.texture()
-    needs = {"frames": frames, "seeds": seeds, "rooms": rooms_for(question.rooms), "bits": grammar.encoding.bits}
+    needs = {
+        "frames": frames,
+        "seeds": seeds,
+        "rooms": rooms_for(question.rooms),
+        "bits": grammar.encoding.bits,
+    }
     return pack(
         {
             "width": texture.shape[1],

@@ -20,7 +20,9 @@ const int UNKNOWN = 100;  // added to the code of a Split that waits for the sum
 bool divides(int code) { return code >= OP_REPEATX && code <= OP_SPLITY; }
 bool chooses(int code) { return code == OP_RAND || code == OP_RANDUNI; }
 bool descends(int code) { return code == OP_RANDSTACK || code == OP_LAYER; }
-bool ends(int code) { return code >= OP_SKIP && code <= OP_NOTHING && code != OP_INTRUSION; }
+bool ends(int code) {
+  return code >= OP_SKIP && code <= OP_MATALPHA && code != OP_INTRUSION || code == OP_NOTHING;
+}
 
 Surface evaluate(Question question) {
   of_grammar = 1.0 / vec2(textureSize(grammar, 0));
@@ -59,7 +61,7 @@ Surface evaluate(Question question) {
           do {
             if (descends(code)) {
               if (code == OP_LAYER) layer(now, head);
-              else stack(now, head);
+              else if (code == OP_RANDSTACK) stack(now, head);
               head = enter(now, taken);
               code = int(head.r);
             }

@@ -17,7 +17,8 @@ int level(State now, int tile, vec2 repeats) {
 #ifdef EDGES
   if (large > 16.0 * max(small, 1.0)) margin = 0.0;
 #endif
-  return int(floor(0.5 * log2(max(max(small, large * 0.11111111), 1.0))));
+  float square = max(max(small, large * 0.11111111), 1.0);
+  return ((floatBitsToInt(square) >> 23) - 127) >> 1;  // half the exponent: how often it can be halved
 #else
   return 0;
 #endif

@@ -12,7 +12,14 @@ int terminal(State now, vec4 head) {
   int sources = code == OP_MATALPHA ? 2 : 1;
   vec4 shown = vec4(0.0);
   float alpha = 1.0;
-  for (int k = 1; k <= sources; ++k) {
+  int first = 1;
+  if (source == 0) {  // a colour with a mask does not go around twice
+    shown = record(now.rule, 1);
+    alpha = shown.a;
+    source = int(head.MatAlpha_a1);
+    first = 2;
+  }
+  for (int k = first; k <= sources; ++k) {
     vec4 numbers = masks ? vec4(0.0, 0.0, 1.0, 1.0) : record(now.rule, k);
     vec4 found = value(now, source, numbers);
     bool whole = k == 1 && !masks;
