@@ -1,5 +1,5 @@
 // One texel; counted where a bench asks for it. `share`: 1 / size of the texture. It samples the texel's middle, which all
-// cards give as it is: llvmpipe's texelFetch takes thrice as long, since it looks up a size for each pixel.
+// cards give as it is. llvmpipe's texelFetch takes twice the instructions, for it looks up a level's size for each pixel.
 #include "globals.glsl"
 
 vec4 fetch(highp sampler2D source, vec2 share, vec2 place) {
