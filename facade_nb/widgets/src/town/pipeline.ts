@@ -166,7 +166,7 @@ export class Pipeline {
       gl.enable(gl.DEPTH_TEST);
       gl.depthFunc(gl.LESS);
       if (piece.first ?? true) this.clear(gl, pass);
-      gl.enable(gl.CULL_FACE);
+      if (!pass.both) gl.enable(gl.CULL_FACE);
       gl.bindVertexArray(this.array(gl, pass, program));
       for (const [first, count] of piece.runs ?? []) gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 4 * first);
       gl.bindVertexArray(null);

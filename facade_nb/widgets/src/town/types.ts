@@ -25,6 +25,8 @@ export interface Pass {
   writes: string[];
   draws: "mesh" | "screen";
   through: string;
+  /** Whether a triangle is drawn from behind, too. */
+  both: boolean;
   when: string;
   tells: string;
 }
