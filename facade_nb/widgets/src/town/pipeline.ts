@@ -109,11 +109,11 @@ export class Pipeline {
 
   /** Take other shaders, textures or passes; what stays is kept. */
   replace(source: Source): void {
-    const gl = this.gl();
+    const gl = context().whyNot ? null : this.gl();
     for (const [name, own] of Object.entries(source.textures)) {
       if (this.source.textures[name]?.content === own.content) continue;
       const old = this.held.get(name);
-      if (old && !context().lost) gl.deleteTexture(old.texture);
+      if (old && !context().lost) gl?.deleteTexture(old.texture);
       this.held.delete(name);
       this.due = this.due.filter((part) => part.name !== name);
     }
@@ -243,7 +243,7 @@ export class Pipeline {
 
   /** Give back what it holds of the card. */
   free(): void {
-    const gl = context().lost ? null : this.gl();
+    const gl = context().lost || context().whyNot ? null : this.gl();
     if (gl) {
       for (const { texture } of [...this.held.values(), ...this.images.values()]) gl.deleteTexture(texture);
       for (const frame of this.frames.values()) gl.deleteFramebuffer(frame);

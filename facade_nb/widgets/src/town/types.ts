@@ -26,7 +26,7 @@ export interface Pass {
   draws: "mesh" | "screen";
   through: string;
   /** Whether a triangle is drawn from behind, too. */
-  both: boolean;
+  both?: boolean;
   when: string;
   tells: string;
 }
