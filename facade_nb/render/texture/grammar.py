@@ -206,8 +206,7 @@ class Grammar:
             Seed.of(place),
             self.atlas(tiles, relief),
             self._recurs,
-            self._stacks[:2],
-            self._stacks[2],
+            self._stacks,
             relief,
         )
 
@@ -229,7 +228,7 @@ class Grammar:
         return read_records(self.texture())
 
     @cached_property
-    def _stacks(self) -> tuple[int, int, int]:
+    def _stacks(self) -> tuple[int, int]:
         return stack_heights(self.rules)
 
     @cached_property
