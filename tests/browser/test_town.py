@@ -19,7 +19,7 @@ from .waiting import eventually, frames
 HEAD = """
 import base64
 import numpy as np
-from facade_nb.render.pipeline.frame import Frame
+from facade_nb.render.pipeline.frame import Frame, Looks
 from facade_nb.render.pipeline.renderer import renderer_of
 from facade_nb.render.pipeline.viewpoint import CameraPath, Viewpoint
 from facade_nb.render.texture.daytime import Daytime
@@ -29,7 +29,8 @@ from facade_nb.widgets import PipelineView, TownView
 town = Town.generate(60, seed=1)
 view = TownView(town, "street", height=250, layout={"width": "430px"})
 def drawn(pixels):
-    frame = Frame(view.model.scene, view.viewpoint.frustum(pixels), Daytime.at(view.hour), pixels)
+    flat = Looks(relief=False)
+    frame = Frame(view.model.scene, view.viewpoint.frustum(pixels), Daytime.at(view.hour), pixels, flat)
     with renderer_of(frame.scene, OSMESA) as renderer:
         return base64.b64encode(renderer.draw(frame)["picture"][..., :3].tobytes()).decode()
 def within(place):
