@@ -18,15 +18,12 @@ _STEPS = (0.01, 0.022, 0.05, 0.11, 0.22)
 _FINEST = 256
 """Pixels at most that light is worked out for: it is soft, so larger canvases take it from these."""
 
-
 _LEAST = 0.008
 """Metres below which a relief is none: what is shallower, such as the grain of plaster, normals show as well."""
-
 
 _THICK = 0.012
 """Metres that bars are thick at least, whatever lies behind them: what is open begins there."""
 
-_FAR = 1e9
 _SUNK = 0.005
 """Metres behind the plane of the wall: openings that are deeper lead through it."""
 
@@ -60,7 +57,7 @@ def relief_of(canvas: Canvas) -> Relief | None:
     """The relief of what is drawn; None where it is flat. Where the canvas is transparent, it is what lies there."""
     solid = canvas.height[canvas.alpha > 0.99]
     high = float(canvas.height.max())
-    low = max(float(canvas.height.min()), float(solid.min()) - _THICK if len(solid) else -_FAR)
+    low = max(float(canvas.height.min()), float(solid.min()) - _THICK) if len(solid) else high
     if high - low < _LEAST:
         return None
     above = np.maximum(canvas.height - np.float32(low), 0)
