@@ -4,7 +4,7 @@
 import { type Bytes, inflated } from "../solver/packing.ts";
 import type { BlobInfo, Chunks, Head, Place } from "./types.ts";
 
-const AT_ONCE = 2_500_000; // bytes that one message asks for, about, before they are deflated
+const AT_ONCE = 4_000_000; // bytes that one message asks for, about, before they are deflated
 const UNDER_WAY = 2; // messages
 
 export interface Reply {

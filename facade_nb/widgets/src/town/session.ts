@@ -257,8 +257,8 @@ export class Session extends Entering<Entered> {
       const bytes = bytesOf(buffers[0]);
       this.loading.content(message.name).set(bytes, message.at);
       this.pipeline?.changed(message.name, message.at, message.at + bytes.length);
+      this.touched += 1;
     } else return;
-    this.touched += 1;
     this.tell();
   }
 

@@ -10,6 +10,7 @@ import type { Shown } from "./pipeline.ts";
 import type { Session } from "./session.ts";
 
 const TALLEST = 640; // pixels of the page
+const STEPS = 16; // how often it is drawn anew while the town is on its way
 const MOST = 1_400_000; // pixels of a picture: what its buffers hold is a hundred times as many bytes
 
 export interface Stage {
@@ -105,7 +106,8 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
     const now = JSON.stringify([
       session.hour,
       session.chosen,
-      loading.part,
+      session.drawable,
+      Math.floor(loading.part * STEPS),
       canvas.width,
       canvas.height,
       session.touched,
