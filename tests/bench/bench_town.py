@@ -109,12 +109,11 @@ def _figure_11(town: Town) -> None:
             if not device.available:
                 continue
             with renderer_of(scene, device) as renderer:
-                for k, view in enumerate(VIEWS):
+                for view in VIEWS:
                     frame = Frame(scene, town.viewpoint(view).frustum(PIXELS), Daytime.at(HOUR), PIXELS, FLAT)
                     wall, spent = timed(renderer, frame)
                     paper = PAPER[view][("Simple", "Random", "Full").index(name)]
                     cells[view, device.name, name] = f"{wall:.0f} / {spent:.0f} ({paper})"
-                    del k
     for view in VIEWS:
         for device in DEVICES.values():
             if device.available:
