@@ -180,6 +180,7 @@ class TestAddresses:
             tried.append(self)
             raise wasmtime.WasmtimeError("mmap failed to reserve 0x20000000 bytes: Cannot allocate memory")
 
+        compiled._local.sessions[0].close()  # what other tests have left could be used again
         monkeypatch.setattr(compiled._Instance, "__init__", none)
         monkeypatch.setattr(compiled, "_idle", [])
         without = solve(one)
@@ -214,6 +215,7 @@ class TestIdle:
             begin(self)
             found.append(self)
 
+        compiled._local.sessions[0].close()
         monkeypatch.setattr(compiled._Instance, "__init__", watched)
         monkeypatch.setattr(compiled, "_idle", [])
         return found
