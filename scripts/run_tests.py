@@ -45,9 +45,10 @@ class Step:
 
 
 # In the order in which they are started. The browser tests take the longest, for a browser and a kernel wait for each
-# other by turns. They use a fifth of a core, and their clock is a hand's: so all else runs beside them and gives way.
+# other by turns. Their clock is a hand's, and two of them side by side leave room: so all else runs beside them and
+# gives way.
 STEPS: dict[str, Step] = {
-    "browser": Step((*PYTEST, "tests/browser"), cores=0),
+    "browser": Step((*PYTEST, "-n", "2", "--dist", "loadfile", "tests/browser"), cores=0),
     "mypy": Step((BIN / "mypy",)),
     "ruff": Step((BIN / "ruff", "check")),
     "format": Step((BIN / "ruff", "format", "--check")),
