@@ -1,7 +1,7 @@
 """Designs: model, pattern language, documents, errors. Readable without numpy."""
 
 from .errors import DesignError, FacadeError, Fault, NoLayout, PatternError, Suggestion
-from .model import Canvas, Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol
+from .model import Canvas, Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol, Variant
 from .pattern import Glyph, Pattern, parse
 
 __all__ = [
@@ -21,5 +21,6 @@ __all__ = [
     "Shape",
     "Suggestion",
     "Symbol",
+    "Variant",
     "parse",
 ]

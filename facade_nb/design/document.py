@@ -11,7 +11,7 @@ from typing import Any
 from .errors import DesignError, cut
 from .files import write_atomically
 from .inputs import Members, read_json_text, read_text
-from .model import Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol
+from .model import Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol, Variant
 from .sections import FORMAT, DocumentReader
 
 __all__ = ["FORMAT", "read", "read_json", "write", "write_json"]
@@ -72,6 +72,8 @@ def write(design: Design) -> dict[str, Any]:
         "name": design.name,
         "canvas": {"width": design.canvas.width, "height": design.canvas.height},
     }
+    if design.seed:
+        document["seed"] = design.seed
     sections = {
         "symbols": {name: _changed(symbol, Symbol(name)) for name, symbol in design.symbols.items()},
         "counters": {name: _changed(counter, Counter(name)) for name, counter in design.counters.items()},
@@ -105,7 +107,19 @@ def _changed(value: Any, default: Any) -> dict[str, Any]:
 
 
 def _write_shapes(shapes: Mapping[str, Shape]) -> dict[str, Any]:
-    return {key: _changed(shape, Shape()) for key, shape in shapes.items()}
+    return {key: _write_shape(shape) for key, shape in shapes.items()}
+
+
+def _write_shape(shape: Shape) -> dict[str, Any]:
+    document = _changed(shape, Shape())
+    if shape.variants is not None:
+        document["variants"] = [_write_variant(variant) for variant in shape.variants]
+    return document
+
+
+def _write_variant(variant: Variant) -> dict[str, Any]:
+    weight = {"weight": variant.weight} if variant.weight != 1 else {}
+    return weight | _write_shape(variant.shape)
 
 
 def _write_pattern(pattern: PatternDef) -> str | dict[str, Any]:

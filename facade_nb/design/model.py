@@ -28,6 +28,7 @@ __all__ = [
     "Placement",
     "Shape",
     "Symbol",
+    "Variant",
 ]
 
 Axis = Literal["x", "y"]
@@ -82,6 +83,15 @@ class Shape:
     offset: float | None = None
     thickness: float | None = None
     visible: bool | None = None
+    variants: tuple[Variant, ...] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One of several looks of a shape. Each instance takes one of them, with a chance in proportion to `weight`."""
+
+    shape: Shape
+    weight: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +136,10 @@ class Layer:
 
 @dataclass(frozen=True, slots=True)
 class Design:
-    """A canvas, symbols, counters, patterns, shapes and a stack of layers (listed bottom first)."""
+    """A canvas, symbols, counters, patterns, shapes and a stack of layers (listed bottom first).
+
+    `seed` chooses among the variants of shapes.
+    """
 
     name: str = "Untitled"
     canvas: Canvas = field(default_factory=Canvas)
@@ -135,6 +148,7 @@ class Design:
     patterns: Mapping[str, PatternDef] = field(default_factory=dict)
     layers: tuple[Layer, ...] = ()
     shapes: Mapping[str, Shape] = field(default_factory=dict)
+    seed: int = 0
 
     def symbol(self, name: str) -> Symbol:
         """The symbol of that name; an undeclared one is unsized."""

@@ -9,8 +9,9 @@ from typing import Any, TypeVar
 from .errors import PatternError, listed, quoted
 from .fields import Faults, at
 from .inputs import Members
+from .instances import split_instance
 from .limits import nearest_zero
-from .model import Canvas, Counter, Design, Layer, LayerAxis, PatternDef, Placement, Shape, Symbol
+from .model import Canvas, Counter, Design, Layer, LayerAxis, PatternDef, Placement, Shape, Symbol, Variant
 from .names import nfc
 from .pattern import Pattern, parse
 from .text import clean_name, counter_fault, fault_at, symbol_fault
@@ -24,6 +25,7 @@ FORMAT = "facade-nb/design/1"
 T = TypeVar("T")
 
 _SHAPE_FIELDS = tuple(field.name for field in fields(Shape))
+_VARIANT_FIELDS = ("weight", *(name for name in _SHAPE_FIELDS if name != "variants"))
 _SYMBOL_FIELDS = tuple(field.name for field in fields(Symbol))[1:]
 _FLAGS = {"opaque": True, "attached": False, "unoccludable": False, "transparent": False}
 _PLACEMENTS: tuple[Placement, ...] = ("center", "left", "right")  # the first is the default
@@ -62,12 +64,13 @@ class DocumentReader:
         if not isinstance(document, Mapping):
             faults.expected("", "a design document (an object)", document)
             return Design()
-        known = ("format", "name", "canvas", "symbols", "counters", "patterns", "layers", "shapes")
+        known = ("format", "name", "canvas", "seed", "symbols", "counters", "patterns", "layers", "shapes")
         values = faults.record(document, "", known, ("format",))
         if "format" in values and values["format"] != FORMAT:
             faults.expected("format", repr(FORMAT), values["format"])
         name = faults.text(values.get("name", "Untitled"), "name", "Untitled", empty=True)
         canvas = self.canvas(values.get("canvas", {}))
+        seed = faults.integer(values.get("seed", 0), "seed", 0)
         self.symbols = self.named(values, "symbols", self.symbol, self.symbol_name)
         counters = self.named(values, "counters", self.counter, self.counter_name)
         patterns = self.named(values, "patterns", self.pattern, self.pattern_name)
@@ -76,7 +79,7 @@ class DocumentReader:
         self.check_sizes()
         self.check_letters(counters)
         self.check_keys()
-        return Design(name, canvas, self.symbols, counters, patterns, layers, shapes)
+        return Design(name, canvas, self.symbols, counters, patterns, layers, shapes, seed)
 
     def named(
         self,
@@ -270,7 +273,24 @@ class DocumentReader:
 
     def shape(self, value: object, place: str) -> Shape:
         """A shape; null is as good as missing."""
-        values = self.faults.record(value, place, _SHAPE_FIELDS)
+        return self.looks(self.faults.record(value, place, _SHAPE_FIELDS), place)
+
+    def variants(self, value: object, place: str) -> tuple[Variant, ...] | None:
+        """Variants of a shape, each with its fields and its weight; null and an empty list are as good as missing."""
+        found: list[Variant] = []
+        for index, item in enumerate(self.faults.sequence(value, place, "a list of variants")):
+            inside = at(place, index)
+            values = dict(self.faults.record(item, inside, _VARIANT_FIELDS))
+            weight = values.pop("weight", None)
+            if weight is not None:
+                weight = self.faults.number(weight, at(inside, "weight"), None, least=0)
+            found.append(Variant(self.looks(values, inside), 1.0 if weight is None else weight))
+        if found and not any(variant.weight for variant in found):
+            self.faults.add(place, "expected a variant with a weight greater than 0; found none")
+        return tuple(found) or None
+
+    def looks(self, values: Mapping[str, Any], place: str) -> Shape:
+        """The fields of a shape, or of a variant."""
         given = {key: member for key, member in values.items() if member is not None}
         found: dict[str, Any] = {}
         for key, member in given.items():
@@ -282,6 +302,8 @@ class DocumentReader:
                     found[key] = self.faults.number(member, inside, None, least=0)
                 case "visible":
                     found[key] = self.faults.flag(member, inside, None)
+                case "variants":
+                    found[key] = self.variants(member, inside)
                 case _:
                     found[key] = self.faults.text(member, inside, None)
         return Shape(**found)
@@ -329,7 +351,10 @@ class DocumentReader:
                 )
 
     def check_keys(self) -> None:
-        """Shapes are keyed by two symbols that some pattern uses, or that are declared; either may be ``*``."""
+        """Shapes are keyed by two symbols that some pattern uses, or that are declared; either may be ``*``.
+
+        A symbol may have the number of an instance: ``B[2]``.
+        """
         used = (symbol for pattern in self.patterns.values() if pattern for symbol in pattern.symbols)
         known = dict.fromkeys((*used, *self.symbols))
         unsure = None in self.patterns.values()  # a pattern that cannot be read may use any symbol
@@ -339,8 +364,19 @@ class DocumentReader:
             if not pairs:
                 expected = "two symbols with a blank between them, horizontal first, such as 'A P' or 'A *'"
                 self.faults.expected(place, expected, key)
-            elif not unsure and not any(all(name == "*" or name in known for name in pair) for pair in pairs):
-                for name in pairs[0] if len(pairs) == 1 else (key,):
+                continue
+            parted = [tuple(split_instance(name, known) for name in pair) for pair in pairs]
+            good = [
+                pair for pair in parted if all(name == "*" or unsure or name in known for name, _ in pair)
+            ]
+            if not good:
+                for name, _ in parted[0] if len(parted) == 1 else ((key, None),):
                     if name != "*" and name not in known:
                         hint = self.faults.nearest(name, known)
                         self.faults.expected(place, "symbols that a pattern uses, or *", name, hint)
+            elif any(name == "*" and number is not None for name, number in good[0]):
+                star = next(f"*[{number}]" for name, number in good[0] if name == "*" and number is not None)
+                self.faults.expected(place, "an instance of a symbol, such as 'B[2]'", star)
+            elif any(number == 0 for _, number in good[0]):
+                expected = "an instance from 1, the first, or -1, the last"
+                self.faults.expected(place, expected, 0)

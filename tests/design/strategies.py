@@ -18,6 +18,7 @@ from facade_nb.design import (
     PatternDef,
     Shape,
     Symbol,
+    Variant,
     parse,
 )
 from facade_nb.design.modes import MODES
@@ -132,13 +133,14 @@ numbers = st.floats(-10, 10, allow_nan=False)
 
 @st.composite
 def shape_maps(draw: st.DrawFn, known: list[str]) -> dict[str, Shape]:
-    """Shapes keyed by pairs of known symbols and wildcards."""
-    side = st.sampled_from([*known, "*"])
+    """Shapes keyed by pairs of known symbols, instances of them and wildcards."""
+    side = st.sampled_from([*known, *(f"{name}[{n}]" for name in known for n in (-1, 2)), "*"])
     keys = st.tuples(side, side).map(" ".join)
     free = st.none() | labels
-    shape = st.builds(
-        Shape, free, free, free, st.none() | numbers, st.none() | st.floats(0, 3), st.none() | st.booleans()
-    )
+    plain = (free, free, free, st.none() | numbers, st.none() | st.floats(0, 3), st.none() | st.booleans())
+    variant = st.builds(Variant, st.builds(Shape, *plain), st.floats(0.5, 9) | st.just(1.0))
+    several = st.lists(variant, min_size=1, max_size=3).map(tuple)
+    shape = st.builds(Shape, *plain, st.none() | several)
     return draw(st.dictionaries(keys, shape, max_size=3))
 
 
@@ -183,4 +185,5 @@ def designs(draw: st.DrawFn) -> Design:
         for title in titles
     )
     canvas = Canvas(draw(lengths), draw(lengths))
-    return Design(draw(labels), canvas, symbols, declared, defs, layers, draw(shape_maps(used)))
+    seed = draw(st.integers(-9, 99))
+    return Design(draw(labels), canvas, symbols, declared, defs, layers, draw(shape_maps(used)), seed)

@@ -272,6 +272,34 @@ FAULTS: list[tuple[Callable[[Any], None], list[str]]] = [
         put("shapes", "B  Q", value={}),
         ["shapes[\"B  Q\"]: 'B Q' stands twice, once in another Unicode form or with other blanks"],
     ),
+    (
+        put("shapes", "B[0] Q", value={}),
+        ['shapes["B[0] Q"]: expected an instance from 1, the first, or -1, the last; found 0'],
+    ),
+    (
+        put("shapes", "*[2] Q", value={}),
+        ["shapes[\"*[2] Q\"]: expected an instance of a symbol, such as 'B[2]'; found '*[2]'"],
+    ),
+    (
+        put("shapes", "B[2] q[1]", value={}),
+        ["shapes[\"B[2] q[1]\"]: expected symbols that a pattern uses, or *; found 'q'; did you mean 'Q'?"],
+    ),
+    (
+        put("shapes", "B Q", "variants", value={"material": "brick"}),
+        ['shapes["B Q"].variants: expected a list of variants; found an object'],
+    ),
+    (
+        put("shapes", "B Q", "variants", value=[{"weight": -1}, {"wight": 2}]),
+        [
+            'shapes["B Q"].variants[0].weight: expected a number from 0; found -1',
+            "shapes[\"B Q\"].variants[1].wight: unknown field 'wight'; did you mean 'weight'?",
+        ],
+    ),
+    (
+        put("shapes", "B Q", "variants", value=[{"weight": 0}]),
+        ['shapes["B Q"].variants: expected a variant with a weight greater than 0; found none'],
+    ),
+    (put("seed", value=1.5), ["seed: expected a whole number; found 1.5"]),
 ]
 
 

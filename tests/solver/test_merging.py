@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from facade_nb import Design, Layout, solve
 from facade_nb.design import Canvas
-from facade_nb.solver.assembly.shapes import find_holes, shape_of
+from facade_nb.solver.assembly.looks import Looks
+from facade_nb.solver.assembly.shapes import find_holes
 from facade_nb.solver.model.layout import PlacedShape, Rect
 from tests.oracle.designs import design
 
@@ -170,7 +171,8 @@ class TestWhatItLooksLike:
 
     def test_all_fields_are_filled(self) -> None:
         one = stack(layer("wall", "a", "p"))
-        shape = shape_of(one, one.stack[0], "A", "P")
+        looks = Looks(one, one.stack[0])
+        shape = looks.of(looks.sort(("A", 1, 2)), looks.sort(("P", 1, 1)))
         assert None not in (
             shape.kind,
             shape.geometry,

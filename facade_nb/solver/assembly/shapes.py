@@ -4,50 +4,21 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import fields, replace
 from itertools import product
-from typing import Any
 
 import numpy as np
 
 from ...design.errors import NoLayout
 from ...design.model import AXES, Axis, Canvas, Design, Layer, Shape
 from ..model.layout import AxisLayout, PlacedLetter, PlacedShape, Rect
+from .looks import Instance, Looks, instances
 
-__all__ = ["DEFAULT_SHAPE", "find_holes", "hole_warnings", "merge", "shape_of"]
-
-DEFAULT_SHAPE = Shape("wall", "box", "card", 0.0, 0.2, True)
-"""What a shape is where nothing is said: a plain box, as in the paper."""
-
-_FIELDS = tuple(f.name for f in fields(Shape))
+__all__ = ["find_holes", "hole_warnings", "merge"]
 
 MAX_SHAPES = 250_000
 """Most shapes of one layer."""
 
 _NEAR = 1e-6
-
-
-def shape_of(design: Design, layer: Layer, x: str, y: str) -> Shape:
-    """What the pair of symbols looks like in a layer, every field filled in.
-
-    A layer's shapes override its patterns', which override the design's; within each, ``"X Y"`` beats ``"X
-    *"``, which beats
-    ``"* Y"``, which beats ``"* *"``.
-    """
-    told: dict[str, Any] = {}
-    sources = (
-        design.shapes,
-        design.patterns[layer.x.pattern].shapes,
-        design.patterns[layer.y.pattern].shapes,
-        layer.shapes,
-    )
-    for source in sources:
-        if source:
-            for key in ("* *", f"* {y}", f"{x} *", f"{x} {y}"):
-                given = source.get(key)
-                if given is not None:
-                    told.update((f, v) for f in _FIELDS if (v := getattr(given, f)) is not None)
-    return replace(DEFAULT_SHAPE, **told) if told else DEFAULT_SHAPE
 
 
 def merge(
@@ -67,8 +38,11 @@ def merge(
     fronts: list[_Front] = []
     for layer in design.stack:  # topmost first, so that what covers is known before what is covered
         own: list[PlacedShape] = []
-        looks: dict[tuple[str, str], Shape] = {}
-        columns, floors = list(_shown(design, layer, "x", x)), list(_shown(design, layer, "y", y))
+        looks = Looks(design, layer)
+        cells = (list(_shown(design, layer, "x", x)), list(_shown(design, layer, "y", y)))
+        columns, floors = ([letter for letter, _ in line] for line in cells)
+        numbers, levels = ([own[1] for _, own in line] for line in cells)
+        sorts, rises = ([looks.sort(own) for _, own in line] for line in cells)
         front = _Front(columns, floors)
         before = [(f, f.across(columns), f.up(floors)) for f in fronts]
         opaque = {a.symbol for a in (*columns, *floors) if design.symbol(a.symbol).opaque}
@@ -79,17 +53,14 @@ def merge(
                 raise _too_many(layer, columns, floors)
             behind = [(f.solid, across, up[j]) for f, across, up in before if up[j] is not None]
             for i, h in enumerate(columns):
-                key = (h.symbol, v.symbol)
-                look = looks.get(key)
-                if look is None:
-                    look = looks[key] = shape_of(design, layer, *key)
+                look = looks.of(sorts[i], rises[j])
                 if not look.visible:
                     continue
                 for solid, across, k in behind:
                     if (across[i], k) in solid:
                         break
                 else:
-                    own.append(_placed(layer, h, v, (h.start, v.start, h.end, v.end), look))
+                    own.append(_placed(layer, h, v, look, (numbers[i], levels[j])))
                     if h.symbol in opaque and v.symbol in opaque:
                         front.solid.add((i, j))
         fronts.append(front)
@@ -143,32 +114,32 @@ class _Row:
         return found
 
 
-def _placed(layer: Layer, h: PlacedLetter, v: PlacedLetter, rect: Rect, look: Shape) -> PlacedShape:
+def _placed(
+    layer: Layer, h: PlacedLetter, v: PlacedLetter, look: Shape, number: tuple[int, int]
+) -> PlacedShape:
     return PlacedShape(
         layer.name,
         h.symbol,
         v.symbol,
-        rect,
+        (h.start, v.start, h.end, v.end),
         (h.mirrored, v.mirrored),
         look.kind or "wall",
         look.geometry or "box",
         look.material or "card",
         look.offset or 0.0,
         0.0 if look.thickness is None else look.thickness,
+        number,
     )
 
 
-def _shown(design: Design, layer: Layer, axis: Axis, solved: AxisLayout) -> Iterator[PlacedLetter]:
+def _shown(
+    design: Design, layer: Layer, axis: Axis, solved: AxisLayout
+) -> Iterator[tuple[PlacedLetter, Instance]]:
     own = layer.along(axis)
     hidden = design.patterns[own.pattern].hidden
-    for letter in solved.row(layer.name).letters:
-        if (
-            letter.transparent
-            or letter.symbol in hidden
-            or (own.mask is not None and letter.symbol not in own.mask)
-        ):
-            continue
-        yield letter
+    for letter, instance in instances(solved, layer):
+        if letter.symbol not in hidden and (own.mask is None or letter.symbol in own.mask):
+            yield letter, instance
 
 
 def find_holes(canvas: Canvas, shapes: Sequence[PlacedShape]) -> tuple[Rect, ...]:
@@ -245,9 +216,10 @@ def hole_warnings(
 def _pushers(design: Design, axes: Mapping[Axis, AxisLayout], hole: Rect) -> Iterator[str]:
     """The solid letters that stand in a hole, from the top, each with what hides it there."""
     for layer in design.stack:
-        across = _standing(axes["x"], layer.name, hole[0], hole[2])
-        up = _standing(axes["y"], layer.name, hole[1], hole[3])
-        for h, v in product(across, up):
+        looks = Looks(design, layer)
+        across = _standing(axes["x"], layer, hole[0], hole[2])
+        up = _standing(axes["y"], layer, hole[1], hole[3])
+        for (h, column), (v, floor) in product(across, up):
             stands = f"{h.symbol} {v.symbol} of layer {layer.name!r} stands there and pushed the others aside, but "
             for axis, letter in zip(AXES, (h, v), strict=True):
                 own = layer.along(axis)
@@ -255,12 +227,13 @@ def _pushers(design: Design, axes: Mapping[Axis, AxisLayout], hole: Rect) -> Ite
                     yield f"{stands}its {axis} mask hides {letter.symbol}"
                 elif letter.symbol in design.patterns[own.pattern].hidden:
                     yield f"{stands}pattern {own.pattern!r} hides {letter.symbol}"
-            if not shape_of(design, layer, h.symbol, v.symbol).visible:
+            if not looks.of(looks.sort(column), looks.sort(floor)).visible:
                 yield f"{stands}it is not visible"
 
 
-def _standing(solved: AxisLayout, layer: str, low: float, high: float) -> list[PlacedLetter]:
+def _standing(
+    solved: AxisLayout, layer: Layer, low: float, high: float
+) -> list[tuple[PlacedLetter, Instance]]:
     """Solid letters of a layer that reach into an interval, those with most of it first."""
-    letters = [a for a in solved.row(layer).letters if not a.transparent]
-    reach = {id(a): min(a.end, high) - max(a.start, low) for a in letters}
-    return sorted((a for a in letters if reach[id(a)] > _NEAR), key=lambda a: -reach[id(a)])
+    found = [(min(a.end, high) - max(a.start, low), a, own) for a, own in instances(solved, layer)]
+    return [(a, own) for reach, a, own in sorted(found, key=lambda one: -one[0]) if reach > _NEAR]

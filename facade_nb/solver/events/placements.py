@@ -173,6 +173,7 @@ class ShapeMerged(Event):
     material: str
     offset: float
     thickness: float
+    number: tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)

@@ -95,7 +95,11 @@ class AxisLayout:
 
 @dataclass(frozen=True, slots=True)
 class PlacedShape:
-    """A visible cell of a layer: the symbols it comes from, its rectangle and its looks, all resolved."""
+    """A visible cell of a layer: the symbols it comes from, its rectangle and its looks, all resolved.
+
+    `number` tells which instances of the two symbols they are in the layer's words, each from 1, from the left and from
+    below: in keys of shapes ``"B[2] Q[1]"``.
+    """
 
     layer: str
     x: str
@@ -107,6 +111,7 @@ class PlacedShape:
     material: str = "card"
     offset: float = 0.0
     thickness: float = 0.2
+    number: tuple[int, int] = (1, 1)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -236,6 +241,7 @@ def _shape_dict(shape: PlacedShape) -> dict[str, Any]:
         "material": shape.material,
         "offset": shape.offset,
         "thickness": shape.thickness,
+        "number": list(shape.number),
     }
 
 
@@ -270,6 +276,8 @@ def _read_shape(document: Mapping[str, Any]) -> PlacedShape:
     fields = dict(document)
     fields["rect"] = _rect(fields["rect"])
     fields["mirrored"] = (bool(fields["mirrored"][0]), bool(fields["mirrored"][1]))
+    if "number" in fields:
+        fields["number"] = (int(fields["number"][0]), int(fields["number"][1]))
     return PlacedShape(**fields)
 
 

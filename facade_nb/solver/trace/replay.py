@@ -7,6 +7,7 @@ the merged shapes come as they were told. A trace without one of these is not co
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import fields
 from typing import TypeVar
 
 from ...design.errors import DesignError, Fault
@@ -127,6 +128,4 @@ def _group(g: int, group: GroupNote, path: PathChosen, at: Mapping[_Place, float
 
 
 def _shape(e: ShapeMerged) -> PlacedShape:
-    return PlacedShape(
-        e.layer, e.x, e.y, e.rect, e.mirrored, e.kind, e.geometry, e.material, e.offset, e.thickness
-    )
+    return PlacedShape(**{own.name: getattr(e, own.name) for own in fields(PlacedShape)})

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ...design.model import AXES, Design, Layer
-from ..assembly.shapes import shape_of
+from ..assembly.looks import Instance, Looks, instances
 from ..events import ShapeHidden
 from ..model.layout import AxisLayout, PlacedLetter, PlacedShape
 
@@ -31,10 +31,14 @@ def hidden(
     covers: list[PlacedShape] = []
     for layer in design.stack:
         low, high = _rects(covers)
+        looks = Looks(design, layer)
+        across, up = ({id(a): own for a, own in instances(axis, layer)} for axis in (x, y))
         for v in y.row(layer.name).letters:
             for h in x.row(layer.name).letters:
                 rect = (h.start, v.start, h.end, v.end)
                 reason = _unseen(design, layer, h, v)
+                if reason is None and not _is_visible(looks, across[id(h)], up[id(v)]):
+                    reason = ("not visible", layer.name)
                 if reason is None:
                     over = (low <= np.array(rect[:2]) + _NEAR) & (high >= np.array(rect[2:]) - _NEAR)
                     front = np.flatnonzero(over.all(axis=1))
@@ -65,4 +69,8 @@ def _unseen(design: Design, layer: Layer, h: PlacedLetter, v: PlacedLetter) -> t
     for axis, letter in letters:
         if letter.symbol in design.patterns[layer.along(axis).pattern].hidden:
             return "hidden", axis
-    return None if shape_of(design, layer, h.symbol, v.symbol).visible else ("not visible", layer.name)
+    return None
+
+
+def _is_visible(looks: Looks, x: Instance, y: Instance) -> bool:
+    return bool(looks.of(looks.sort(x), looks.sort(y)).visible)

@@ -1,0 +1,111 @@
+"""What each cell of a layer looks like: the more exact key wins; instances and variants (docs/documents.md)."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import fields, replace
+from hashlib import blake2b
+from itertools import accumulate
+from typing import Any
+
+from ...design.instances import spell_instance, split_instance
+from ...design.model import Design, Layer, Shape, Variant
+from ..model.layout import AxisLayout, PlacedLetter
+
+__all__ = ["DEFAULT_SHAPE", "Instance", "Looks", "instances"]
+
+DEFAULT_SHAPE = Shape("wall", "box", "card", 0.0, 0.2, True)
+"""What a shape is where nothing is said: a plain box, as in the paper."""
+
+_FIELDS = tuple(f.name for f in fields(Shape) if f.name != "variants")
+
+Instance = tuple[str, int, int]
+"""A symbol, a solid letter's number from 1 among those of it in the layer's word, and how many they are."""
+
+
+def instances(solved: AxisLayout, layer: Layer) -> Iterator[tuple[PlacedLetter, Instance]]:
+    """The solid letters of a layer's word in order, each with which instance of its symbol it is."""
+    solid = [letter for letter in solved.row(layer.name).letters if not letter.transparent]
+    many: dict[str, int] = {}
+    for letter in solid:
+        many[letter.symbol] = many.get(letter.symbol, 0) + 1
+    seen: dict[str, int] = {}
+    for letter in solid:
+        number = seen[letter.symbol] = seen.get(letter.symbol, 0) + 1
+        yield letter, (letter.symbol, number, many[letter.symbol])
+
+
+class Looks:
+    """The looks of a layer's cells, every field filled in.
+
+    A layer's shapes override its patterns', which override the design's. Within each, keys take effect from the least
+    exact to the most exact: ``*``, then the symbol, then an instance of it, x before y. Each key sets its fields, and
+    then those of the variant that this instance takes.
+    """
+
+    def __init__(self, design: Design, layer: Layer) -> None:
+        own = (design.patterns[layer.along(axis).pattern].shapes for axis in ("x", "y"))
+        self._sources = [source for source in (design.shapes, *own, layer.shapes) if source]
+        self._choice = (design.seed, layer.name)
+        known = {*design.symbols, *(s for p in design.patterns.values() for s in p.parsed.symbols)}
+        # Numbers by which a symbol's instances are named, from the left or from below and from the other end.
+        self._named: dict[str, set[int]] = {}
+        varied = False
+        for key, shape in ((key, shape) for source in self._sources for key, shape in source.items()):
+            varied = varied or shape.variants is not None
+            for name in _halves(key):
+                symbol, number = split_instance(name, known)
+                if number is not None:
+                    self._named.setdefault(symbol, set()).add(number)
+        self._varied = varied
+        self._sorts: dict[tuple[tuple[str, ...], Instance | None], int] = {}
+        self._members: list[tuple[tuple[str, ...], Instance]] = []
+        self._cells: dict[tuple[int, int], Shape] = {}
+
+    def sort(self, own: Instance) -> int:
+        """A number for all instances of a symbol that no key tells apart."""
+        symbol, number, count = own
+        named: Collection[int] = self._named.get(symbol, ())
+        numbers = [n for n in (number - count - 1, number) if n in named]
+        names = ("*", symbol, *(spell_instance(symbol, n) for n in numbers))
+        found = self._sorts.setdefault((names, own if self._varied else None), len(self._members))
+        if found == len(self._members):
+            self._members.append((names, own))
+        return found
+
+    def of(self, x: int, y: int) -> Shape:
+        """The looks of a cell, given by what `sort` says of its two letters."""
+        look = self._cells.get((x, y))
+        if look is None:
+            look = self._cells[x, y] = self._made(*self._members[x], *self._members[y])
+        return look
+
+    def _made(self, across: Sequence[str], x: Instance, up: Sequence[str], y: Instance) -> Shape:
+        keys = [f"{a} {b}" for a in across for b in up]  # the least exact first
+        told: dict[str, Any] = {}
+        for source in self._sources:
+            for key in keys:
+                given = source.get(key)
+                if given is not None:
+                    told |= _set(given)
+                    if given.variants is not None:
+                        told |= _set(self._variant(given.variants, x, y).shape)
+        return replace(DEFAULT_SHAPE, **told) if told else DEFAULT_SHAPE
+
+    def _variant(self, variants: Sequence[Variant], x: Instance, y: Instance) -> Variant:
+        """The variant of an instance: by the design's seed, the layer, the symbols and their numbers alone."""
+        seed, layer = self._choice
+        text = "\0".join(map(str, (seed, layer, *x[:2], *y[:2])))
+        share = int.from_bytes(blake2b(text.encode(), digest_size=6).digest()) / 2**48
+        sums = list(accumulate(variant.weight for variant in variants))
+        return next(v for v, reached in zip(variants, sums, strict=True) if share * sums[-1] < reached)
+
+
+def _halves(key: str) -> set[str]:
+    """Every name that a key may be made of: names may have blanks themselves."""
+    words = key.split(" ")
+    return {" ".join(part) for cut in range(1, len(words)) for part in (words[:cut], words[cut:])}
+
+
+def _set(shape: Shape) -> Mapping[str, Any]:
+    return {name: value for name in _FIELDS if (value := getattr(shape, name)) is not None}
