@@ -69,7 +69,7 @@ def compare_if_small(case: Case, search: str) -> None:
 
 @pytest.mark.parametrize("search", ["best", "ida"])
 class TestAgainstExhaustiveSearch:
-    @settings(max_examples=150)
+    @settings(max_examples=75)
     @given(case=cases())
     def test_sized_letters(self, search: str, case: Case) -> None:
         compare_if_small(case, search)

@@ -102,7 +102,7 @@ class TestSearch:
         """With an `accept`, which may look at anything, and in turns of a few paths."""
         both(lambda: [case_group(random_case(2000 + seed))], lambda priced: priced.columns % 2 == 0, 5)
 
-    @pytest.mark.parametrize("seed", range(30))
+    @pytest.mark.parametrize("seed", [*range(19), 20])  # 19 takes as long as all others
     def test_groups_that_share_a_symbol(self, seed: int) -> None:
         def make() -> Sequence[Group]:
             free = frozenset[str]()

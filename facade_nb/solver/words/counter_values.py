@@ -100,9 +100,10 @@ class Sums:
             if check is not None:
                 check()
             table = tables[k]
-            if k == last:  # no need to look at those that are too small
-                table = table[bisect_left(table, low - size - _NEAR, key=_metres) :]
-            for value, own in table:
+            # no need to look at those that are too small
+            first = bisect_left(table, low - size - _NEAR, key=_metres) if k == last else 0
+            for index in range(first, len(table)):
+                value, own = table[index]
                 total = size + own
                 if total > high + _NEAR:
                     break
@@ -181,15 +182,17 @@ class Sums:
                 self._check()
             made = 0
             table = tables[k]
+            first, entries = 0, len(table)
             if k == last:
                 first = bisect_left(table, low - size - _NEAR, key=_metres)
-                table = table[first : bisect_left(table, high - size + 2 * _NEAR, key=_metres)]
-            turn = 7919 * len(found) % max(1, len(table))  # each time begins elsewhere
-            for n, (value, own) in enumerate((*table[turn:], *table[:turn])):
+                entries = bisect_left(table, high - size + 2 * _NEAR, key=_metres) - first
+            turn = 7919 * len(found) % max(1, entries)  # each time begins elsewhere
+            for n in range(entries):  # in place: a copy of a long table, once for each sum, takes minutes
+                value, own = table[first + (turn + n) % entries]
                 total = size + own
                 if total <= high + _NEAR and self._about(k + 1, low - total - _NEAR, high - total + _NEAR):
                     chosen[k] = value
-                    made += descend(k + 1, total, -((made - quota) // (len(table) - n)))
+                    made += descend(k + 1, total, -((made - quota) // (entries - n)))
                     if made >= quota:
                         break
             return made
