@@ -206,7 +206,7 @@ class Grammar:
             Seed.of(place),
             self.atlas(tiles, relief),
             self._recurs,
-            self._stacks,
+            self.stacks,
             relief,
         )
 
@@ -228,7 +228,8 @@ class Grammar:
         return read_records(self.texture())
 
     @cached_property
-    def _stacks(self) -> tuple[int, int]:
+    def stacks(self) -> tuple[int, int]:
+        """How many layers and corners wait at once at most: what a shader has to hold."""
         return stack_heights(self.rules)
 
     @cached_property

@@ -13,7 +13,16 @@ from .evaluating import Question
 from .noise import noise_texture
 from .view import Sight
 
-__all__ = ["Upload", "grammar_upload", "sight_uniforms", "tile_uploads", "uniforms", "uploads"]
+__all__ = [
+    "Upload",
+    "grammar_upload",
+    "noise_upload",
+    "sight_uniforms",
+    "texture_upload",
+    "tile_uploads",
+    "uniforms",
+    "uploads",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +57,17 @@ def uploads(question: Question) -> tuple[Upload, ...]:
 
 def grammar_upload(question: Question, wide: bool = False) -> Upload:
     """The grammar; `wide`: the same values in 32 bits, which software renderers read faster."""
-    texture = question.texture.astype(np.float32) if wide else question.texture
+    return texture_upload(question.texture.astype(np.float32) if wide else question.texture)
+
+
+def texture_upload(texture: NDArray[Any]) -> Upload:
+    """A grammar's texture."""
     return _upload("grammar", texture, 4, "f2" if texture.dtype == np.float16 else "f4")
+
+
+def noise_upload() -> Upload:
+    """The noise texture: the same for all grammars."""
+    return _upload("noise", noise_texture(), 1, "f4")
 
 
 def tile_uploads(atlas: Atlas) -> tuple[Upload, ...]:
@@ -59,7 +77,7 @@ def tile_uploads(atlas: Atlas) -> tuple[Upload, ...]:
     table[:, 0, 0] = atlas.grey
     table[:, 0, 1:] = atlas.relief
     return (
-        _upload("noise", noise_texture(), 1, "f4"),
+        noise_upload(),
         _upload("atlas", atlas.pixels, 4, "f1"),
         _upload("tile_table", table, 4, "f4"),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import traceback
+import zlib
 from typing import Any
 
 from traitlets import Bool, Bytes, Dict, Float, Int, List, TraitError, Unicode
@@ -15,6 +16,7 @@ from ..studio.wire import describe_faults
 from .model import TownModel
 from .packet import BLOCK, Blob, blobs_of, head_piece, row
 from .still import still
+from .tiles import tiles_of, tiles_piece
 
 __all__ = ["TownChannel"]
 
@@ -55,8 +57,6 @@ class TownChannel(ModelWire):
 
     def __init__(self, model: TownModel) -> None:
         self._blobs: dict[str, Blob] = {}
-        self._tiles: tuple[str, ...] = ()
-        self._version = 0
         self._stills = False
         super().__init__(model, **_state(model))
         self._refill()
@@ -74,12 +74,8 @@ class TownChannel(ModelWire):
         return self.still
 
     def _refill(self) -> None:
-        tiles = self.model.grammar.encoding.tiles
-        if tiles != self._tiles:
-            self._tiles = tiles
-            self._version += 1
         try:
-            self._blobs = blobs_of(self.model, self._version)
+            self._blobs = blobs_of(self.model)
             self.head = head_piece(self.model, self._blobs)
         except Exception:  # the edge to the browser: it is shown there, not lost in a log
             self.trouble = traceback.format_exc()
@@ -91,7 +87,7 @@ class TownChannel(ModelWire):
 
     def _on_model(self, change: Any) -> None:
         with self.hold_sync():
-            if change["name"] == "grammar" and not self._asleep:
+            if change["name"] in ("grammar", "tile_megabytes") and not self._asleep:
                 self._refill()
             for name, value in _state(self.model).items():
                 setattr(self, name, value)
@@ -115,6 +111,9 @@ class TownChannel(ModelWire):
             op = message.get("op")
             if op == "blocks":
                 self._send_blocks(message)
+                return
+            if op == "tiles":
+                self._send_tiles(message)
                 return
             with self.hold_sync():
                 if op == "still":
@@ -147,6 +146,19 @@ class TownChannel(ModelWire):
                 "client": message["client"],
             },
             buffers=[blob.deflated(number) for number in numbers],
+        )
+
+    def _send_tiles(self, message: Message) -> None:
+        known = set(self.model.grammar.encoding.tiles)
+        asked = [pair for pair in zip(message["names"], message["above"], strict=True) if pair[0] in known]
+        told, content = tiles_piece(
+            tiles_of(self.model.grammar),
+            [name for name, _ in asked],
+            [least for _, least in asked],
+            int(message["upto"]),
+        )
+        self.send(
+            {"kind": "tiles", "tiles": told, "client": message["client"]}, buffers=[zlib.compress(content, 1)]
         )
 
     def _edit(self, op: str, message: Message) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import lru_cache
 from typing import Any
@@ -18,7 +17,7 @@ from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
 from ...render.texture.daytime import Daytime
 from ...render.texture.shaders import room, shader
-from ...render.texture.uploads import Upload, grammar_upload, tile_uploads
+from ...render.texture.uploads import noise_upload, texture_upload
 from ...render.town.plan import KINDS, ROOFS
 from ..solver.packing import pack
 from ..texture.packet import HOURS
@@ -32,9 +31,6 @@ _LOOKS = Looks()
 BLOCK = 4096
 """Vertices of a block, which a message carries; and three times as many indices."""
 
-_ROWS = 64
-"""Rows of the tiles' image in a block."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Blob:
@@ -47,7 +43,7 @@ class Blob:
     block
         Bytes of a block; 0: it goes in one.
     version
-        Grows when there is another one in its place.
+        Another one in its place has another.
     """
 
     content: memoryview
@@ -65,15 +61,12 @@ def _bytes(array: NDArray[Any]) -> memoryview:
     return memoryview(flat)
 
 
-def blobs_of(model: TownModel, version: int) -> dict[str, Blob]:
-    """All that is large, by name; `version` counts the sets of tiles."""
-    noise, atlas, table = tile_uploads(model.grammar.atlas())
+def blobs_of(model: TownModel) -> dict[str, Blob]:
+    """All that is large, by name, but for tiles."""
     found = {
         "vertices": Blob(_bytes(model.vertices), BLOCK * VERTEX.itemsize),
         "indices": Blob(_bytes(model.source.indices), BLOCK * 12),
-        "noise": Blob(memoryview(noise.content)),
-        "atlas": Blob(memoryview(atlas.content), atlas.size[0] * 4 * _ROWS, version),
-        "tile_table": Blob(memoryview(table.content), 0, version),
+        "noise": Blob(memoryview(noise_upload().content)),
     }
     if model.town is not None:
         found["edges"] = Blob(_bytes(edges_of(model.town.plan)))
@@ -99,7 +92,6 @@ def row(place: Viewpoint) -> list[float]:
 
 def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
     """What is small, and comes first: passes, shaders, light, grammar, chunks, buildings."""
-    question = model.grammar.question((1.0, 1.0))
     chunks, scene = model.source.chunks, model.scene
     offsets, numbers = needs_of(model)
     head: dict[str, Any] = {
@@ -117,7 +109,9 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
             for name, own in blobs.items()
         },
         "textures": _textures(model),
-        "grammar": np.frombuffer(grammar_upload(question).content, np.uint8),
+        "tiles": list(model.grammar.encoding.tiles),
+        "tile_bytes": int(model.tile_megabytes * 1e6),
+        "grammar": np.frombuffer(texture_upload(model.grammar.texture()).content, np.uint8),
         "chunks": {
             "first": chunks["first"].astype(np.int32),
             "count": chunks["count"].astype(np.int32),
@@ -152,8 +146,7 @@ def _hours() -> list[dict[str, Any]]:
 
 def _shaders(model: TownModel) -> dict[str, str]:
     """The source of each shader of each pass, by the pass and which it is."""
-    question = model.grammar.question((1.0, 1.0))
-    frames, seeds = map(room, question.stacks)
+    frames, seeds = map(room, model.grammar.stacks)
     bits = model.grammar.encoding.bits
     found = {}
     for own in PASSES:
@@ -165,8 +158,7 @@ def _shaders(model: TownModel) -> dict[str, str]:
 
 
 def _textures(model: TownModel) -> dict[str, Any]:
-    question = model.grammar.question((1.0, 1.0))
-    every: Sequence[Upload] = (grammar_upload(question), *tile_uploads(question.atlas))
+    every = (texture_upload(model.grammar.texture()), noise_upload())
     return {own.name: {"size": list(own.size), "channels": own.channels, "kind": own.kind} for own in every}
 
 

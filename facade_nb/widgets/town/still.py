@@ -32,8 +32,10 @@ def still(model: TownModel, pixels: tuple[int, int] = SIZE) -> bytes:
     by = painter()
     if by is None:
         return b""
-    frame = Frame(model.scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, Looks())
-    with renderer_of(frame.scene, by) as renderer:
+    frame = Frame(
+        model.scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, Looks(relief=False)
+    )
+    with renderer_of(frame.scene, by, tile_bytes=int(model.tile_megabytes * 1e6)) as renderer:
         drawn = renderer.draw(frame)["picture"]
     out = BytesIO()
     Image.fromarray(drawn[..., :3]).save(out, "JPEG", quality=_QUALITY, optimize=True)

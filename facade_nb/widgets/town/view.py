@@ -33,6 +33,8 @@ class _TownWidget(AnyWidget):
         Of the day, 0 to 24.
     path
         A way through the town.
+    tile_megabytes
+        What tiles may take of the graphics card, from 1 MB; by default 64.
     """
 
     _esm = bundle("loader.js")
@@ -49,11 +51,14 @@ class _TownWidget(AnyWidget):
         *,
         hour: float | None = None,
         path: CameraPath | Sequence[dict[str, object]] | None = None,
+        tile_megabytes: float | None = None,
         **options: Any,
     ) -> None:
         self.model = source if isinstance(source, TownModel) else TownModel(source)
         if hour is not None:
             self.model.hour = hour
+        if tile_megabytes is not None:
+            self.model.tile_megabytes = tile_megabytes
         super().__init__(channel=TownChannel.of(self.model), part=self._shows, **options)
         if viewpoint is not None:
             self.viewpoint = viewpoint

@@ -89,6 +89,7 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
     if (canvas.width === width && canvas.height === height) return;
     canvas.width = width;
     canvas.height = height;
+    session.wide = Math.max(session.wide, width);
     drawn = "";
   };
   const update = () => {
@@ -100,7 +101,7 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
         "the building in the middle, Home goes to the first view.",
     );
     const { head, loading } = session;
-    const small = head ? Math.max(...Object.values(head.textures).flatMap(({ size }) => size)) : 0;
+    const small = head ? Math.max(head.sunlight.side, ...Object.values(head.textures).flatMap(({ size }) => size)) : 0;
     const why = small ? context().tooSmall(small) : "";
     if (why) failure = why;
     const now = JSON.stringify([
