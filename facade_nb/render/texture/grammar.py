@@ -206,7 +206,7 @@ class Grammar:
             Seed.of(place),
             self.atlas(tiles, relief),
             self._recurs,
-            self.stacks,
+            self._stacks,
             relief,
         )
 
@@ -228,8 +228,7 @@ class Grammar:
         return read_records(self.texture())
 
     @cached_property
-    def stacks(self) -> tuple[int, int]:
-        """How many layers and corners wait at once at most: what a shader has to hold."""
+    def _stacks(self) -> tuple[int, int]:
         return stack_heights(self.rules)
 
     @cached_property

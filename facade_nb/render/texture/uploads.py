@@ -18,7 +18,6 @@ __all__ = [
     "grammar_upload",
     "noise_upload",
     "sight_uniforms",
-    "texture_upload",
     "tile_uploads",
     "uniforms",
     "uploads",
@@ -57,11 +56,7 @@ def uploads(question: Question) -> tuple[Upload, ...]:
 
 def grammar_upload(question: Question, wide: bool = False) -> Upload:
     """The grammar; `wide`: the same values in 32 bits, which software renderers read faster."""
-    return texture_upload(question.texture.astype(np.float32) if wide else question.texture)
-
-
-def texture_upload(texture: NDArray[Any]) -> Upload:
-    """A grammar's texture."""
+    texture = question.texture.astype(np.float32) if wide else question.texture
     return _upload("grammar", texture, 4, "f2" if texture.dtype == np.float16 else "f4")
 
 

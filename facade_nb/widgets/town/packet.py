@@ -12,17 +12,18 @@ from numpy.typing import NDArray
 
 from ...render.pipeline.frame import Looks
 from ...render.pipeline.passes import BUFFERS, PASSES, SHADOW
-from ...render.pipeline.sunlight import _FAR, _MOST, _NEAR, _RISE
+from ...render.pipeline.sunlight import MAPS
 from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
 from ...render.texture.daytime import Daytime
 from ...render.texture.shaders import room, shader
-from ...render.texture.uploads import noise_upload, texture_upload
+from ...render.texture.uploads import grammar_upload, noise_upload
 from ...render.town.plan import KINDS, ROOFS
 from ..solver.packing import pack
 from ..texture.packet import HOURS
 from .model import TownModel
 from .places import EYE, edges_of
+from .tiles import question_of
 
 __all__ = ["BLOCK", "Blob", "blobs_of", "described", "head_piece", "needs_of", "row"]
 
@@ -92,6 +93,7 @@ def row(place: Viewpoint) -> list[float]:
 
 def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
     """What is small, and comes first: passes, shaders, light, grammar, chunks, buildings."""
+    question = question_of(model.grammar)
     chunks, scene = model.source.chunks, model.scene
     offsets, numbers = needs_of(model)
     head: dict[str, Any] = {
@@ -99,7 +101,7 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
         "buffers": [asdict(own) for own in BUFFERS],
         "shaders": _shaders(model),
         "hours": _hours(),
-        "sunlight": {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR, "side": SHADOW},
+        "sunlight": {**MAPS, "side": SHADOW},
         "looks": {"haze": _LOOKS.haze, "reach": _LOOKS.reach},
         "stride": VERTEX.itemsize,
         "attributes": {name: [int(np.prod(VERTEX[name].shape, dtype=int)), at] for name, at in _offsets()},
@@ -111,7 +113,7 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
         "textures": _textures(model),
         "tiles": list(model.grammar.encoding.tiles),
         "tile_bytes": int(model.tile_megabytes * 1e6),
-        "grammar": np.frombuffer(texture_upload(model.grammar.texture()).content, np.uint8),
+        "grammar": np.frombuffer(grammar_upload(question).content, np.uint8),
         "chunks": {
             "first": chunks["first"].astype(np.int32),
             "count": chunks["count"].astype(np.int32),
@@ -146,7 +148,8 @@ def _hours() -> list[dict[str, Any]]:
 
 def _shaders(model: TownModel) -> dict[str, str]:
     """The source of each shader of each pass, by the pass and which it is."""
-    frames, seeds = map(room, model.grammar.stacks)
+    question = question_of(model.grammar)
+    frames, seeds = map(room, question.stacks)
     bits = model.grammar.encoding.bits
     found = {}
     for own in PASSES:
@@ -158,7 +161,7 @@ def _shaders(model: TownModel) -> dict[str, str]:
 
 
 def _textures(model: TownModel) -> dict[str, Any]:
-    every = (texture_upload(model.grammar.texture()), noise_upload())
+    every = (grammar_upload(question_of(model.grammar)), noise_upload())
     return {own.name: {"size": list(own.size), "channels": own.channels, "kind": own.kind} for own in every}
 
 

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from ...render import Grammar
 from ...render.texture.atlas import Tiles
+from ...render.texture.evaluating import Question
 from ...render.tiles import TileSet
 
-__all__ = ["COARSE", "tiles_of", "tiles_piece"]
+__all__ = ["COARSE", "question_of", "tiles_of", "tiles_piece"]
 
 COARSE = 32
 """The side of what comes first: a tile that has not been drawn yet is drawn in that size, which takes little time."""
@@ -23,6 +24,22 @@ Images = Sequence[NDArray[np.uint8]]
 def tiles_of(grammar: Grammar) -> Tiles:
     """The tiles that a grammar was read with."""
     return grammar.tiles if grammar.tiles is not None else TileSet.builtin()
+
+
+class _Unseen:
+    """Tiles of one pixel, for who asks of a grammar all but its tiles: to read and pack those takes a while."""
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self.names = names
+
+    def mips(self, name: str) -> Sequence[NDArray[Any]]:
+        """Nothing to see."""
+        return (np.zeros((1, 1, 4), np.uint8),)
+
+
+def question_of(grammar: Grammar) -> Question:
+    """What an evaluator needs, but for tiles, which come one by one."""
+    return grammar.question((1.0, 1.0), tiles=_Unseen(grammar.encoding.tiles))
 
 
 def tiles_piece(

@@ -45,8 +45,12 @@ export class Session extends Entering<Entered> {
   /** Side and version of the tiles that are shown. */
   private shown = { side: 0, version: -1 };
   private images: Record<"atlas" | "tile_table", Texture> | null = null;
+  /** The head that was read last. */
+  private taken: Bytes | null = null;
   /** A head that waits for tiles that it names. */
   private waiting: Head | null = null;
+  /** How many messages are being read. */
+  private taking = 0;
   private line: Promise<void> = Promise.resolve();
   private telling = 0;
   private readonly movers = new Set<() => void>();
@@ -118,6 +122,12 @@ export class Session extends Entering<Entered> {
   /** Whether there is something to draw. */
   get drawable(): boolean {
     return !!this.pipeline && this.loading.meshed && this.loading.whole("noise") && !!this.images;
+  }
+
+  /** Whether all has come that there is to draw, as far as is known here. */
+  get settled(): boolean {
+    const { tiles, part } = this.loading;
+    return part >= 1 && this.taking === 0 && !this.waiting && this.shown.version === tiles.version;
   }
 
   /** The passes that run: not those that are switched off, nor those for which there is no cause now. */
@@ -231,7 +241,11 @@ export class Session extends Entering<Entered> {
     this.channel.on("msg:custom", heard);
     this.present.signal.addEventListener("abort", () => this.channel.off("msg:custom", heard));
     this.follow(true);
-    this.inTurn(() => this.take());
+    this.inTurn(async () => {
+      await this.take();
+      if (this.head) this.loading.ask(this.place);
+      this.tell();
+    });
   }
 
   protected override end(): void {
@@ -259,12 +273,26 @@ export class Session extends Entering<Entered> {
 
   /** Heads and blocks are taken in the order in which they were sent. */
   private inTurn(act: () => Promise<void>): void {
-    this.line = this.line.then(act).catch((error) => console.error(error));
+    this.taking += 1;
+    this.tell();
+    this.line = this.line
+      .then(act)
+      .catch((error) => console.error(error))
+      .then(() => {
+        this.taking -= 1;
+        this.tell();
+      });
+  }
+
+  /** Read the head and compile shaders before there is a view. */
+  prepare(): void {
+    if (!this.head) this.inTurn(() => this.take());
   }
 
   private async take(): Promise<void> {
     const bytes = this.channel.get<Bytes>("head");
-    if (!byteLength(bytes)) return;
+    if (!byteLength(bytes) || bytes === this.taken) return;
+    this.taken = bytes;
     const head = await unpack<Head>(bytes);
     const lacks = this.loading.tiles.lacking(head.tiles);
     if (this.head && lacks.length && this.live) {
@@ -286,7 +314,7 @@ export class Session extends Entering<Entered> {
     else this.pipeline = new Pipeline(source);
     this.arrange();
     if (!context().whyNot) this.pipeline.ready(); // shaders are compiled while the mesh is on its way
-    this.loading.ask(this.place);
+    if (this.views.size > 0) this.loading.ask(this.place);
     this.touched += 1;
     this.tell();
   }

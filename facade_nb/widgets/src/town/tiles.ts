@@ -44,7 +44,7 @@ function shelved(sizes: Pixels[]): { places: Pixels[]; size: Pixels } {
   );
   const area = sizes.reduce((sum, [w, h]) => sum + w * h, 0);
   const widest = Math.max(1, ...sizes.map(([w]) => w));
-  const wide = widest * Math.ceil(Math.sqrt(area) / widest);
+  const wide = widest * Math.max(1, Math.ceil(Math.sqrt(area) / widest));
   const places: Pixels[] = sizes.map(() => [0, 0]);
   let [x, y, shelf] = [0, 0, 0];
   for (const k of order) {
