@@ -164,6 +164,7 @@ def test_tiles_come_coarse_first_and_each_size_once(town: Shown) -> None:
 def test_an_edit_that_names_a_new_tile_has_that_one_sent(town: Shown) -> None:
     town.show()
     before = town.picture()
+    town.tell("view.model.edit('shared')")
     town.tell(
         "asked.clear(); used = view.model.grammar.encoding.tiles; "
         "names = [name for name in TileSet.builtin().names if name not in used and '.' not in name]"

@@ -44,7 +44,7 @@ class PartView(AnyWidget):
 
 
 class EditedWire(ModelWire):
-    """A wire to views in which things are entered: each is answered, and faults of who enters them told in a sentence."""
+    """A wire to views in which things are entered: each is answered, and faults are told in a sentence."""
 
     ack = Dict(help="Client and number of the last value that was taken.").tag(sync=True)
     still = Bytes(help="A picture, for a page that cannot draw.").tag(sync=True)

@@ -33,6 +33,8 @@ export class Loading {
     private readonly send: (message: Record<string, unknown>) => void,
     /** Bytes from here to there have come. */
     private readonly come: (name: string, at: number, end: number) => void,
+    /** All that a chunk draws is here. */
+    private readonly ripe: (chunk: number) => void = () => {},
   ) {}
 
   /** Take a head: what it has in another version is forgotten. */
@@ -73,6 +75,7 @@ export class Loading {
     for (const block of vertexBlocks(chunks, chunk)) if (!vertices.have.has(block)) return false;
     for (const block of indexBlocks(chunks, chunk, indices.info)) if (!indices.have.has(block)) return false;
     this.ready.add(chunk);
+    this.ripe(chunk);
     return true;
   }
 

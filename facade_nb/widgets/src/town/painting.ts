@@ -113,6 +113,11 @@ export function painting(
     last = pixels;
     return true;
   };
+  /** What a pass draws of the mesh in motion; the maps of shadows, which are kept, are drawn as a whole. */
+  const drawn = (pass: Pass, values: Values, pixels: Pixels): Pixels[] => {
+    const map = pass.writes.some((name) => session.pipeline?.buffer(name).side);
+    return session.runs(values[pass.through] as Float64Array, map ? undefined : pixels);
+  };
   /** The whole picture at once. */
   const rough = () => {
     const { pipeline } = session;
@@ -128,8 +133,7 @@ export function painting(
     const passes = session.passes(left());
     for (const pass of passes) {
       if (pass.draws === "screen") pipeline.run(pass, values, pixels);
-      else if (!pipeline.fresh(pass, values))
-        pipeline.run(pass, values, pixels, { runs: session.runs(values[pass.through] as Float64Array) });
+      else if (!pipeline.fresh(pass, values)) pipeline.run(pass, values, pixels, { runs: drawn(pass, values, pixels) });
     }
     if (!show(passes, pixels)) return;
     const milliseconds = performance.now() - began;

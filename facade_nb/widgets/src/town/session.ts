@@ -6,6 +6,7 @@ import type { Fault } from "../shared/types.ts";
 import { type Bytes, byteLength, bytesOf, unpack } from "../solver/packing.ts";
 import { CHOSEN, MARKED, SHADER } from "./chosen.ts";
 import { context } from "./context.ts";
+import { Detail } from "./detail.ts";
 import { cropped, daylight, frustumOf, isDay, type Sunlight, uniformsOf, visible } from "./frame.ts";
 import { Loading, type Reply } from "./loading.ts";
 import { Pipeline, type Source } from "./pipeline.ts";
@@ -37,7 +38,9 @@ export class Session extends Entering<Entered> {
   readonly loading = new Loading(
     (message) => this.kernel.tell({ ...message, client: this.client }),
     (name, at, end) => this.come(name, at, end),
+    (chunk) => this.sort(chunk),
   );
+  private readonly detail = new Detail();
   /** Counts what has changed in what is drawn, beside the place and the hour. */
   touched = 0;
   /** Pixels of the widest view of it, which tell how fine tiles have to be. */
@@ -154,9 +157,29 @@ export class Session extends Entering<Entered> {
     return { ...uniformsOf(head, frustum, this.light, part ? [1, 1] : pixels, looks, sun), chosen_seed: seed };
   }
 
-  /** Runs of indices that may be seen through a matrix, of what has come. */
-  runs(through: Float64Array): Pixels[] {
-    return this.head ? visible(this.head.chunks, through, (chunk) => this.loading.has(chunk)) : [];
+  /** Runs of indices that may be seen through a matrix, of what has come; `pixels`: without what is too small in those. */
+  runs(through: Float64Array, pixels?: Pixels): Pixels[] {
+    const { head, detail, place } = this;
+    if (!head) return [];
+    const { chunks } = head;
+    const some = pixels ? (chunk: number) => detail.count(chunk, chunks, place, pixels) : undefined;
+    return visible(chunks, through, (chunk) => this.loading.has(chunk), some);
+  }
+
+  /** Order what a chunk draws, so that the smallest can be left out. */
+  private sort(chunk: number): void {
+    const { head, loading } = this;
+    if (!head) return;
+    const [first, count] = [head.chunks.first[chunk] as number, head.chunks.count[chunk] as number];
+    const [indices, vertices] = [loading.content("indices"), loading.content("vertices")];
+    this.detail.sort(
+      chunk,
+      new Uint32Array(indices.buffer as ArrayBuffer, 4 * first, count),
+      new Float32Array(vertices.buffer as ArrayBuffer, 0, vertices.length / 4),
+      head.stride / 4,
+      (head.attributes.position?.[1] ?? 0) / 4,
+    );
+    this.pipeline?.changed("indices", 4 * first, 4 * (first + count));
   }
 
   /** What stands at a place of the picture (0 to 1 from its lower left): drawn anew, for that one pixel. */
