@@ -27,7 +27,7 @@ from .studio.parts import (
 )
 from .studio.studio import MassingView, Studio
 from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
-from .town import PipelineView, TownModel, TownView
+from .town import PipelineView, TownModel, TownProgress, TownView
 
 __all__ = [
     "AlignmentView",
@@ -60,6 +60,7 @@ __all__ = [
     "TextureView",
     "Toolbar",
     "TownModel",
+    "TownProgress",
     "TownView",
     "TraceModel",
     "TraceView",

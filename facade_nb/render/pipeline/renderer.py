@@ -18,7 +18,10 @@ from .passes import BUFFERS, PASSES, Buffer, Pass, arranged
 from .scene import Scene
 from .vertices import VERTEX
 
-__all__ = ["Renderer", "renderer_of"]
+__all__ = ["TILE_BYTES", "Renderer", "renderer_of"]
+
+TILE_BYTES = 64 << 20
+"""What tiles may take of the card, in one image."""
 
 _FORMAT = "3f 2f 2f 2f 2f 3f 3f"
 _KINDS = {"f1": np.uint8, "f2": np.float16, "f4": np.float32, "i4": np.int32, "depth": np.float32}
@@ -35,6 +38,8 @@ class Renderer:
         Whose context draws.
     passes, buffers
         The pipeline.
+    tile_bytes
+        What tiles may take of the card: where they take more, the largest sizes are left out.
     """
 
     def __init__(
@@ -43,7 +48,9 @@ class Renderer:
         painter: GlPainter,
         passes: Sequence[Pass] = PASSES,
         buffers: Sequence[Buffer] = BUFFERS,
+        tile_bytes: int = TILE_BYTES,
     ) -> None:
+        self._tile_bytes = tile_bytes
         self.scene, self.painter = scene, painter
         self.passes, self.buffers = arranged(passes, buffers), {own.name: own for own in buffers}
         self._kept = ExitStack()
@@ -86,7 +93,8 @@ class Renderer:
         """The tiles, once they are needed; their heights too, once those are: all that is drawn stays as it was."""
         if self._tiles is None or (relief and not self._tiles):
             question = self.scene.relief_question if relief else self.scene.question
-            for upload in tile_uploads(question.atlas):
+            most = self._context.info["GL_MAX_TEXTURE_SIZE"]
+            for upload in tile_uploads(question.atlas.within(self._tile_bytes, most)):
                 self._hold(upload)
             self._tiles = relief
 

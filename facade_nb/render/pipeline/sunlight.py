@@ -11,13 +11,16 @@ from numpy.typing import NDArray
 from .passes import SHADOW
 from .viewpoint import Frustum
 
-__all__ = ["Sunlight", "sunlight"]
+__all__ = ["MAPS", "Sunlight", "sunlight"]
 
 _NEAR, _RISE, _MOST = 55.0, 2.4, 700.0
 """Half the side of the fine map, metres: for an eye on the ground, more for each metre of height, at most."""
 
 _FAR = 3000.0
 """Half the side of the coarse map, metres, at most."""
+
+MAPS = {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR}
+"""The same, for who draws the maps elsewhere."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -94,6 +94,27 @@ class Atlas:
     grey: NDArray[np.bool_]
     relief: NDArray[np.float32] = field(default_factory=lambda: np.zeros((1, 3), np.float32))
 
+    def within(self, limit: int, side: int = 1 << 16) -> Atlas:
+        """The same tiles in at most `limit` bytes and `side` pixels a side: the largest sizes are left out.
+
+        What is left out is seen as its next smaller size. Where even the smallest do not fit, all are given.
+        """
+        atlas = self
+        while atlas.pixels.nbytes > limit or max(atlas.pixels.shape[:2]) > side:
+            largest = int(atlas.table[..., 2:].max())
+            if largest == 1:
+                break
+            images = []
+            for levels in atlas.table:
+                own = [tuple(box) for box in dict.fromkeys(map(tuple, levels.tolist()))]
+                own = own[1:] if len(own) > 1 and max(own[0][2:]) == largest else own
+                images.append([atlas.pixels[y : y + h, x : x + w] for x, y, w, h in own])
+            smaller = _arranged(images, atlas.grey, atlas.relief)
+            if smaller.pixels.nbytes >= atlas.pixels.nbytes:
+                break
+            atlas = smaller
+        return atlas
+
     def sample(
         self, tile: int, u: Floats, v: Floats, wrap: bool, level: int | NDArray[np.int32] = 0
     ) -> Floats:
@@ -188,38 +209,37 @@ def pack(tiles: Tiles | None, names: Sequence[str], relief: bool = False) -> Atl
             raise DesignError(Fault("tiles", message))
     if not images:
         return Atlas(np.zeros((1, 1, 4), np.uint8), np.array([[[0, 0, 1, 1]]], np.int32), np.ones(1, bool))
-    sizes = [
-        (max(image.shape[0] for image in levels), sum(image.shape[1] for image in levels))
-        for levels in images
-    ]
-    area = sum(height * width for height, width in sizes)
-    wide = max(ceil(sqrt(area)), *(width for _, width in sizes))
+    grey = np.array([bool((levels[0][..., 3] == 255).all()) for levels in images])
+    return _arranged(images, grey, reliefs.table(len(images)))
+
+
+def _arranged(images: list[list[NDArray[np.uint8]]], grey: NDArray[np.bool_], relief: Floats) -> Atlas:
+    """The atlas of tiles, each with its sizes: they stand on shelves, the largest of all first."""
+    every = [(k, level) for k, levels in enumerate(images) for level in range(len(levels))]
+    every.sort(key=lambda own: (-images[own[0]][own[1]].shape[0], own))
+    widest = max(image.shape[1] for levels in images for image in levels)
+    area = sum(image.shape[0] * image.shape[1] for levels in images for image in levels)
+    wide = widest * ceil(sqrt(area) / widest)
     count = max(len(levels) for levels in images)
     table = np.zeros((len(images), count, 4), np.int32)
     x = y = shelf = 0
-    for k in sorted(range(len(images)), key=lambda k: -sizes[k][0]):
-        height, width = sizes[k]
+    for k, level in every:
+        height, width = images[k][level].shape[:2]
         if x + width > wide:
             x, y, shelf = 0, y + shelf, 0
         shelf = max(shelf, height)
-        for level in range(count):
-            if level < len(images[k]):
-                image = images[k][level]
-                table[k, level] = x, y, image.shape[1], image.shape[0]
-                x += image.shape[1]
-            else:
-                table[k, level] = table[k, level - 1]
+        table[k, level:] = x, y, width, height  # a tile with fewer levels repeats its last
+        x += width
     pixels = np.zeros((y + shelf, wide, 4), np.uint8)
-    for k, levels in enumerate(images):
-        for level, image in enumerate(levels):
-            left, bottom, width, height = table[k, level]
-            pixels[bottom : bottom + height, left : left + width] = image
-    grey = np.array([bool((levels[0][..., 3] == 255).all()) for levels in images])
-    return Atlas(pixels, table, grey, reliefs.table(len(images)))
+    for k, level in every:
+        left, bottom, width, height = table[k, level]
+        pixels[bottom : bottom + height, left : left + width] = images[k][level]
+    return Atlas(pixels, table, grey, relief)
 
 
 def _read(tiles: Tiles, name: str) -> list[NDArray[np.uint8]]:
-    return [_stored(level) for level in tiles.mips(name)]
+    ready: Callable[[str], Sequence[NDArray[Any]]] = getattr(tiles, "stored", tiles.mips)
+    return [_stored(level) for level in ready(name)]
 
 
 class _Reliefs:

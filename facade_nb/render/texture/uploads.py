@@ -13,7 +13,15 @@ from .evaluating import Question
 from .noise import noise_texture
 from .view import Sight
 
-__all__ = ["Upload", "grammar_upload", "sight_uniforms", "tile_uploads", "uniforms", "uploads"]
+__all__ = [
+    "Upload",
+    "grammar_upload",
+    "noise_upload",
+    "sight_uniforms",
+    "tile_uploads",
+    "uniforms",
+    "uploads",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +60,11 @@ def grammar_upload(question: Question, wide: bool = False) -> Upload:
     return _upload("grammar", texture, 4, "f2" if texture.dtype == np.float16 else "f4")
 
 
+def noise_upload() -> Upload:
+    """The noise texture: the same for all grammars."""
+    return _upload("noise", noise_texture(), 1, "f4")
+
+
 def tile_uploads(atlas: Atlas) -> tuple[Upload, ...]:
     """The noise texture, the tiles, and the table of where each tile is in their atlas: large, and seldom new."""
     table = np.zeros((len(atlas.table), atlas.table.shape[1] + 1, 4), np.float32)
@@ -59,7 +72,7 @@ def tile_uploads(atlas: Atlas) -> tuple[Upload, ...]:
     table[:, 0, 0] = atlas.grey
     table[:, 0, 1:] = atlas.relief
     return (
-        _upload("noise", noise_texture(), 1, "f4"),
+        noise_upload(),
         _upload("atlas", atlas.pixels, 4, "f1"),
         _upload("tile_table", table, 4, "f4"),
     )

@@ -14,6 +14,7 @@ from ...design.names import nfc
 from .canvas import Floats
 from .catalogue import CATALOGUE, MAPS
 from .drawing import draw, relief
+from .drawn import Drawn, Levels
 from .folder import Folder, TileError, read_folder
 from .images import bled, mipmaps, rounded
 from .relief import Relief
@@ -29,6 +30,8 @@ PICTURE_DEPTH = 0.05
 _MAX_SIZE = 2048
 _KEPT = 1 << 27
 """Bytes of tiles that a set keeps at least for a while; beyond, those that were asked for first are made anew."""
+
+_DRAWN = Drawn()
 
 
 class TileSet:
@@ -162,12 +165,8 @@ class TileSet:
         ready = self._ready.get(name)
         if ready is None:
             self._known(name)
-            if name in self._pictures:
-                picture = self._pictures[name]
-            else:
-                base, _, companion = name.partition(".")
-                picture = draw(base, self._size)[companion or "color"]
-            ready = rounded(bled(picture))
+            own = name in self._pictures
+            ready = rounded(bled(self._pictures[name])) if own else _floats(self.stored(name)[0])
             ready.setflags(write=False)
             self._ready[name] = ready
             self._forget()
@@ -182,12 +181,46 @@ class TileSet:
         name = nfc(name)
         levels = self._levels.get(name)
         if levels is None:
-            companion = name.rpartition(".")[2] if "." in name else ""
-            kind = "mask" if self.is_mask(name) else "normal" if companion == MAPS[0] else "color"
-            levels = mipmaps(self.color(name), kind)
+            self._known(name)
+            if name in self._pictures:
+                levels = mipmaps(self.color(name), self._kind(name))
+            else:
+                levels = tuple(map(_floats, self.stored(name)))
             self._levels[name] = levels
             self._forget()
         return levels
+
+    def stored(self, name: str) -> Levels:
+        """What `mips` gives, in 8 bits: 0 to 255. A tile that ships is drawn once, and kept for the next process.
+
+        Raises
+        ------
+        TileError
+            For an unknown name, with the nearest valid one.
+        """
+        name = nfc(name)
+        self._known(name)
+        if name in self._pictures:
+            return tuple(np.floor(level * 255 + 0.5).astype(np.uint8) for level in self.mips(name))
+        return _DRAWN.levels(name, self._size, lambda: self._paint(name))
+
+    def is_drawn(self, name: str) -> bool:
+        """Whether a tile is at hand: to draw one that ships takes a while."""
+        name = nfc(name)
+        self._known(name)
+        return name in self._pictures or _DRAWN.has(name, self._size)
+
+    def of(self, size: int) -> TileSet:
+        """The tiles that ship of these, in another size."""
+        return TileSet({}, _checked(size), tuple(name for name in self._names if name not in self._pictures))
+
+    def _paint(self, name: str) -> tuple[Floats, ...]:
+        base, _, companion = name.partition(".")
+        return mipmaps(rounded(bled(draw(base, self._size)[companion or "color"])), self._kind(name))
+
+    def _kind(self, name: str) -> str:
+        companion = name.rpartition(".")[2] if "." in name else ""
+        return "mask" if self.is_mask(name) else "normal" if companion == MAPS[0] else "color"
 
     def relief(self, name: str) -> Relief | None:
         """The heights of a tile; None if it is flat. Its companions have those of the tile.
@@ -209,7 +242,9 @@ class TileSet:
             grey = self._pictures[heights][..., :3].mean(axis=-1).astype(np.float32)
             stands = bool(self._pictures[base][..., 3].min() >= 1) if base in self._pictures else True
             return Relief(grey, PICTURE_DEPTH, 0.0, stands=stands) if float(np.ptp(grey)) > 0 else None
-        return relief(base, self._size) if base in self._names and base not in self._pictures else None
+        if base not in self._names or base in self._pictures:
+            return None
+        return _DRAWN.relief(base, self._size, lambda: relief(base, self._size))
 
     def sample(self, name: str, u: Floats, v: Floats, *, clamp: bool = False) -> Floats:
         """Colours (n, 4) of a tile at `u`, `v` (n,); (0, 0) is its lower left corner, (1, 1) the upper right one.
@@ -280,6 +315,11 @@ class TileSet:
             else:
                 message = f"there is no tile {quoted(name)}{nearest(name, self._names)}"
             raise TileError(Fault("tiles", message)) from None
+
+
+def _floats(image: NDArray[np.uint8]) -> Floats:
+    """From 0 to 1, to the bit what was rounded to 8 bits."""
+    return (image / np.float32(255)).astype(np.float32)
 
 
 def _checked(size: int) -> int:

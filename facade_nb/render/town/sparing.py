@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from ..tiles import CATALOGUE, TileSet
@@ -42,6 +43,19 @@ class SparingTiles:
         """The tile in ever smaller sizes; companions (normals, highlights) begin with a half, as small things do."""
         levels = self._tiles.mips(name)
         return levels if _whole(name) or len(levels) < 2 else levels[1:]
+
+    def stored(self, name: str) -> Sequence[NDArray[np.uint8]]:
+        """What `mips` gives, in 8 bits."""
+        levels = self._tiles.stored(name)
+        return levels if _whole(name) or len(levels) < 2 else levels[1:]
+
+    def is_drawn(self, name: str) -> bool:
+        """Whether a tile is at hand."""
+        return self._tiles.is_drawn(name)
+
+    def of(self, size: int) -> SparingTiles:
+        """The same tiles in another size."""
+        return SparingTiles(self._tiles.of(size))
 
     def relief(self, name: str) -> Relief | None:
         """The heights of a tile, in half its size; None if it is flat."""

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import traceback
 from typing import Any
 
-from traitlets import Bool, Bytes, Dict, Float, List, TraitError, Unicode
+from traitlets import Bool, Bytes, Dict, Float, List, Unicode
 
-from ..shared.bundled import Message, ModelWire
+from ..shared.bundled import Message
+from ..shared.pictured import EditedWire
 from ..studio.wire import describe_faults
 from .model import TextureModel
 from .packet import derivation, light_piece, scene_piece, tiles_piece
@@ -35,18 +35,16 @@ def _same_all(model: TextureModel) -> dict[str, Any]:
     }
 
 
-class TextureChannel(ModelWire):
+class TextureChannel(EditedWire):
     """One texture model's line to the browser. Get it by `TextureChannel.of`: there is one for each."""
 
     front = "texture"
 
     text = Unicode().tag(sync=True)
     faults = List(Dict()).tag(sync=True)
-    ack = Dict(help="Client and number of the last value that was taken.").tag(sync=True)
     scene = Bytes().tag(sync=True)
     tiles = Bytes().tag(sync=True)
     light = Bytes().tag(sync=True)
-    still = Bytes(help="A picture in PNG, for a page that cannot draw.").tag(sync=True)
     size = List(Float()).tag(sync=True)
     seed = List(Float()).tag(sync=True)
     hour = Float().tag(sync=True)
@@ -59,34 +57,23 @@ class TextureChannel(ModelWire):
 
     def __init__(self, model: TextureModel) -> None:
         self._tiles: tuple[str, ...] | None = None
-        self._stills = False  # whether a page needs the still picture to follow
         super().__init__(model, **_same_all(model))
         self._refill()
         model.observe(self._on_model)
 
-    def close(self) -> None:
-        """Close the wire; the model lives on."""
-        if self.comm is not None:
-            self.model.unobserve(self._on_model)
-        super().close()
-
-    def draw_still(self) -> bytes:
-        """The still picture, drawn now: see `still`."""
-        self.still = still(self.model)
-        return self.still
+    def _drawn(self) -> bytes:
+        return still(self.model)
 
     def _refill(self) -> None:
         grammar = self.model.grammar
         self.light = light_piece()
         if grammar is None:
             return
-        try:
+        with self._telling():
             if self._tiles != grammar.encoding.tiles:
                 self.tiles = tiles_piece(grammar)
                 self._tiles = grammar.encoding.tiles
             self.scene = scene_piece(grammar)
-        except Exception:  # the edge to the browser: it is shown there, not lost in a log
-            self.trouble = traceback.format_exc()
 
     def _empty(self) -> None:
         self._tiles = None
@@ -103,24 +90,15 @@ class TextureChannel(ModelWire):
                 self.draw_still()
 
     def _answer(self, message: Message) -> None:
-        try:
-            with self.hold_sync():
-                op = message.get("op")
-                if op in ("set", "undo", "redo"):
-                    self.trouble = ""
-                    try:
-                        self._edit(op, message)
-                    finally:  # what was refused is answered, too: the page shows what the model has
-                        self.ack = {"client": message["client"], "seq": message["seq"]}
-                elif op == "pick":
-                    self.model.pick(message["point"], message.get("ray"))
-                elif op == "still":
-                    self._stills = True
-                    self.draw_still()
-        except TraitError as error:
-            self.trouble = str(error)
-        except Exception:  # as above
-            self.trouble = traceback.format_exc()
+        op = message.get("op")
+        with self._telling(), self.hold_sync():
+            if op in ("set", "undo", "redo"):
+                with self._taking(message):
+                    self._edit(op, message)
+            elif op == "pick":
+                self.model.pick(message["point"], message.get("ray"))
+            elif op == "still":
+                self._follow_with_stills()
 
     def _edit(self, op: str, message: Message) -> None:
         if op == "undo":

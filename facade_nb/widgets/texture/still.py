@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
-from html import escape
-
 from ...render.texture.picture import png, texture_pixels
+from ..shared.pictured import picture_html
 from .model import TextureModel
 
 __all__ = ["LARGEST", "SIDE", "described", "image", "still"]
@@ -35,7 +33,4 @@ def described(model: TextureModel) -> str:
 
 def image(model: TextureModel, data: bytes) -> str:
     """A picture as HTML; empty if there is none, or if it is too large for a notebook."""
-    if not data or len(data) > LARGEST:
-        return ""
-    source = b64encode(data).decode("ascii")
-    return f'<img alt="{escape(described(model))}" src="data:image/png;base64,{source}">'
+    return picture_html(described(model), data if len(data) <= LARGEST else b"", "png")

@@ -7,13 +7,11 @@ from html import escape
 from math import cos, radians, sin, tan
 from typing import Any, ClassVar
 
-from anywidget import AnyWidget
-from ipywidgets import Widget, widget_serialization
-from traitlets import Bool, Enum, Float, Instance, List, Unicode
+from traitlets import Bool, Enum, Float, List
 
 from ...render import Grammar
 from ...render.texture.view import Sight
-from ..shared.bundled import as_run, bundle
+from ..shared.pictured import PartView
 from .channel import TextureChannel
 from .model import TextureModel
 from .packet import grammar_table, step_text
@@ -34,7 +32,7 @@ def _table(rows: Iterable[Iterable[str]]) -> str:
     return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
 
 
-class _TextureWidget(AnyWidget):
+class _TextureWidget(PartView):
     """A view of a texture model; which one, says the class.
 
     Parameters
@@ -45,12 +43,7 @@ class _TextureWidget(AnyWidget):
         As of `TextureModel`, for a grammar or a text.
     """
 
-    _esm = bundle("loader.js")
-    _shows: ClassVar[str] = ""
     _pictured: ClassVar[bool] = False
-
-    channel = Instance(Widget).tag(sync=True, **widget_serialization)
-    part = Unicode().tag(sync=True)
 
     def __init__(self, source: TextureModel | Grammar | str = "", **options: Any) -> None:
         own = {
@@ -68,16 +61,6 @@ class _TextureWidget(AnyWidget):
     def to_html(self) -> str:
         """The static form: a picture for pages where no widget can run; empty where there is none."""
         return image(self.model, self.channel.draw_still()) if self._pictured else ""
-
-    def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
-        """The live view and, for pages where none can run, the static form, marked as of the cell's run."""
-        self.channel.wake()
-        made = super()._repr_mimebundle_(**options)
-        if made is not None:
-            static = self.to_html()
-            if static:
-                made[0]["text/html"] = as_run(static)
-        return made
 
 
 class TextureView(_TextureWidget):

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import traceback
+import zlib
 from typing import Any
 
-from traitlets import Bool, Bytes, Dict, Float, Int, List, TraitError, Unicode
+from traitlets import Bool, Bytes, Dict, Float, Int, List, Unicode
 
-from ...design.errors import DesignError
 from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
-from ..shared.bundled import Message, ModelWire
+from ..shared.bundled import Message
+from ..shared.pictured import EditedWire
 from ..studio.wire import describe_faults
 from .model import TownModel
 from .packet import BLOCK, Blob, blobs_of, head_piece, row
 from .still import still
+from .tiles import tiles_of, tiles_piece
 
 __all__ = ["TownChannel"]
 
@@ -34,13 +35,12 @@ def _state(model: TownModel) -> dict[str, Any]:
     }
 
 
-class TownChannel(ModelWire):
+class TownChannel(EditedWire):
     """One town model's line to the browser. Get it by `TownChannel.of`: there is one for each."""
 
     front = "town"
 
     head = Bytes(help="All that is small; see `packet.head_piece`.").tag(sync=True)
-    still = Bytes(help="A picture in JPEG, for a page that cannot draw.").tag(sync=True)
     hour = Float().tag(sync=True)
     viewpoint = List(Float()).tag(sync=True)
     path = List(Dict()).tag(sync=True)
@@ -49,40 +49,22 @@ class TownChannel(ModelWire):
     text = Unicode().tag(sync=True)
     faults = List(Dict()).tag(sync=True)
     restyled = List(List(Int())).tag(sync=True)
-    ack = Dict(help="Client and number of the last value that was taken.").tag(sync=True)
     can_undo = Bool().tag(sync=True)
     can_redo = Bool().tag(sync=True)
 
     def __init__(self, model: TownModel) -> None:
         self._blobs: dict[str, Blob] = {}
-        self._tiles: tuple[str, ...] = ()
-        self._version = 0
-        self._stills = False
         super().__init__(model, **_state(model))
         self._refill()
         model.observe(self._on_model)
 
-    def close(self) -> None:
-        """Close the wire; the model lives on."""
-        if self.comm is not None:
-            self.model.unobserve(self._on_model)
-        super().close()
-
-    def draw_still(self) -> bytes:
-        """The still picture, drawn now."""
-        self.still = still(self.model)
-        return self.still
+    def _drawn(self) -> bytes:
+        return still(self.model)
 
     def _refill(self) -> None:
-        tiles = self.model.grammar.encoding.tiles
-        if tiles != self._tiles:
-            self._tiles = tiles
-            self._version += 1
-        try:
-            self._blobs = blobs_of(self.model, self._version)
+        with self._telling():
+            self._blobs = blobs_of(self.model)
             self.head = head_piece(self.model, self._blobs)
-        except Exception:  # the edge to the browser: it is shown there, not lost in a log
-            self.trouble = traceback.format_exc()
 
     def _empty(self) -> None:
         self._stills = False
@@ -91,7 +73,7 @@ class TownChannel(ModelWire):
 
     def _on_model(self, change: Any) -> None:
         with self.hold_sync():
-            if change["name"] == "grammar" and not self._asleep:
+            if change["name"] in ("grammar", "tile_megabytes") and not self._asleep:
                 self._refill()
             for name, value in _state(self.model).items():
                 setattr(self, name, value)
@@ -111,27 +93,19 @@ class TownChannel(ModelWire):
             self.send({"kind": "patch", "name": "vertices", "at": first}, buffers=[bytes(content[first:end])])
 
     def _answer(self, message: Message) -> None:
-        try:
-            op = message.get("op")
+        op = message.get("op")
+        with self._telling():
             if op == "blocks":
                 self._send_blocks(message)
-                return
-            with self.hold_sync():
-                if op == "still":
-                    self._stills = True
-                    self.draw_still()
-                    return
-                if "seq" not in message:
-                    return
-                self.trouble = ""
-                try:
-                    self._edit(str(op), message)
-                finally:  # what was refused is answered, too: the page shows what the model has
-                    self.ack = {"client": message["client"], "seq": message["seq"]}
-        except (TraitError, DesignError, ValueError, IndexError) as error:
-            self.trouble = str(error)
-        except Exception:  # as above
-            self.trouble = traceback.format_exc()
+            elif op == "tiles":
+                self._send_tiles(message)
+            else:
+                with self.hold_sync():
+                    if op == "still":
+                        self._follow_with_stills()
+                    elif "seq" in message:
+                        with self._taking(message):
+                            self._edit(str(op), message)
 
     def _send_blocks(self, message: Message) -> None:
         name, version, numbers = message["name"], message["version"], message["blocks"]
@@ -147,6 +121,19 @@ class TownChannel(ModelWire):
                 "client": message["client"],
             },
             buffers=[blob.deflated(number) for number in numbers],
+        )
+
+    def _send_tiles(self, message: Message) -> None:
+        known = set(self.model.grammar.encoding.tiles)
+        asked = [pair for pair in zip(message["names"], message["above"], strict=True) if pair[0] in known]
+        told, content = tiles_piece(
+            tiles_of(self.model.grammar),
+            [name for name, _ in asked],
+            [least for _, least in asked],
+            int(message["upto"]),
+        )
+        self.send(
+            {"kind": "tiles", "tiles": told, "client": message["client"]}, buffers=[zlib.compress(content, 1)]
         )
 
     def _edit(self, op: str, message: Message) -> None:

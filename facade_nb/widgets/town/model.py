@@ -61,6 +61,8 @@ class TownModel(Undoable[_Snapshot], HasTraits):
         Of that text; empty if `grammar` is what it says.
     grammar
         Of the last text without faults.
+    tile_megabytes
+        What tiles may take of the graphics card: those that are finer than that allows are left out.
     restyled
         Buildings with another style than the plan's: pairs of building and number of the style.
 
@@ -73,6 +75,7 @@ class TownModel(Undoable[_Snapshot], HasTraits):
     viewpoint = Instance(Viewpoint)
     path = Instance(CameraPath, allow_none=True)
     chosen = Int(-1)
+    tile_megabytes = Float(64.0)
     section = Unicode()
     text = Unicode()
     faults = Tuple()
@@ -218,9 +221,7 @@ class TownModel(Undoable[_Snapshot], HasTraits):
             self._parts = {**self._parts, section: text}
             self.section, self.text = section, text
             try:
-                grammar = _sharing(
-                    Grammar.parse(joined(self._parts), self.source.grammar.tiles), self.grammar
-                )
+                grammar = Grammar.parse(joined(self._parts), self.source.grammar.tiles)
                 if self.starts is not None:
                     places = self.starts.places(grammar)
                     self._original  # noqa: B018 (kept before the rules change)
@@ -264,6 +265,12 @@ class TownModel(Undoable[_Snapshot], HasTraits):
             raise TraitError(f"hour: expected 0 to 24; found {proposal['value']}")
         return proposal["value"]
 
+    @validate("tile_megabytes")
+    def _check_megabytes(self, proposal: Any) -> Any:
+        if not 1 <= proposal["value"] <= 4096:
+            raise TraitError(f"tile_megabytes: expected 1 to 4096; found {proposal['value']:g}")
+        return proposal["value"]
+
     @validate("chosen")
     def _check_chosen(self, proposal: Any) -> Any:
         count = 0 if self.town is None else len(self.town.plan)
@@ -288,10 +295,3 @@ class TownModel(Undoable[_Snapshot], HasTraits):
 def _unknown(name: object, known: Iterable[str]) -> str:
     names = list(known)
     return f"expected one of {', '.join(names)}; found {name!r}{nearest(str(name), names)}"
-
-
-def _sharing(grammar: Grammar, old: Grammar) -> Grammar:
-    """The grammar, with the tiles of one that names the same: to draw and pack them takes seconds."""
-    if grammar.encoding.tiles == old.encoding.tiles:
-        grammar.__dict__["_atlas"] = old.atlas()
-    return grammar

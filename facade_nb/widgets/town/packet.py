@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import lru_cache
 from typing import Any
@@ -13,17 +12,18 @@ from numpy.typing import NDArray
 
 from ...render.pipeline.frame import Looks
 from ...render.pipeline.passes import BUFFERS, PASSES, SHADOW
-from ...render.pipeline.sunlight import _FAR, _MOST, _NEAR, _RISE
+from ...render.pipeline.sunlight import MAPS
 from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
 from ...render.texture.daytime import Daytime
 from ...render.texture.shaders import room, shader
-from ...render.texture.uploads import Upload, grammar_upload, tile_uploads
+from ...render.texture.uploads import grammar_upload, noise_upload
 from ...render.town.plan import KINDS, ROOFS
 from ..solver.packing import pack
 from ..texture.packet import HOURS
 from .model import TownModel
 from .places import EYE, edges_of
+from .tiles import question_of
 
 __all__ = ["BLOCK", "Blob", "blobs_of", "described", "head_piece", "needs_of", "row"]
 
@@ -31,9 +31,6 @@ _LOOKS = Looks()
 
 BLOCK = 4096
 """Vertices of a block, which a message carries; and three times as many indices."""
-
-_ROWS = 64
-"""Rows of the tiles' image in a block."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,7 +44,7 @@ class Blob:
     block
         Bytes of a block; 0: it goes in one.
     version
-        Grows when there is another one in its place.
+        Another one in its place has another.
     """
 
     content: memoryview
@@ -65,15 +62,12 @@ def _bytes(array: NDArray[Any]) -> memoryview:
     return memoryview(flat)
 
 
-def blobs_of(model: TownModel, version: int) -> dict[str, Blob]:
-    """All that is large, by name; `version` counts the sets of tiles."""
-    noise, atlas, table = tile_uploads(model.grammar.atlas())
+def blobs_of(model: TownModel) -> dict[str, Blob]:
+    """All that is large, by name, but for tiles."""
     found = {
         "vertices": Blob(_bytes(model.vertices), BLOCK * VERTEX.itemsize),
         "indices": Blob(_bytes(model.source.indices), BLOCK * 12),
-        "noise": Blob(memoryview(noise.content)),
-        "atlas": Blob(memoryview(atlas.content), atlas.size[0] * 4 * _ROWS, version),
-        "tile_table": Blob(memoryview(table.content), 0, version),
+        "noise": Blob(memoryview(noise_upload().content)),
     }
     if model.town is not None:
         found["edges"] = Blob(_bytes(edges_of(model.town.plan)))
@@ -99,7 +93,7 @@ def row(place: Viewpoint) -> list[float]:
 
 def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
     """What is small, and comes first: passes, shaders, light, grammar, chunks, buildings."""
-    question = model.grammar.question((1.0, 1.0))
+    question = question_of(model.grammar)
     chunks, scene = model.source.chunks, model.scene
     offsets, numbers = needs_of(model)
     head: dict[str, Any] = {
@@ -107,7 +101,7 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
         "buffers": [asdict(own) for own in BUFFERS],
         "shaders": _shaders(model),
         "hours": _hours(),
-        "sunlight": {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR, "side": SHADOW},
+        "sunlight": {**MAPS, "side": SHADOW},
         "looks": {"haze": _LOOKS.haze, "reach": _LOOKS.reach},
         "stride": VERTEX.itemsize,
         "attributes": {name: [int(np.prod(VERTEX[name].shape, dtype=int)), at] for name, at in _offsets()},
@@ -117,6 +111,8 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
             for name, own in blobs.items()
         },
         "textures": _textures(model),
+        "tiles": list(model.grammar.encoding.tiles),
+        "tile_bytes": int(model.tile_megabytes * 1e6),
         "grammar": np.frombuffer(grammar_upload(question).content, np.uint8),
         "chunks": {
             "first": chunks["first"].astype(np.int32),
@@ -152,7 +148,7 @@ def _hours() -> list[dict[str, Any]]:
 
 def _shaders(model: TownModel) -> dict[str, str]:
     """The source of each shader of each pass, by the pass and which it is."""
-    question = model.grammar.question((1.0, 1.0))
+    question = question_of(model.grammar)
     frames, seeds = map(room, question.stacks)
     bits = model.grammar.encoding.bits
     found = {}
@@ -165,8 +161,7 @@ def _shaders(model: TownModel) -> dict[str, str]:
 
 
 def _textures(model: TownModel) -> dict[str, Any]:
-    question = model.grammar.question((1.0, 1.0))
-    every: Sequence[Upload] = (grammar_upload(question), *tile_uploads(question.atlas))
+    every = (grammar_upload(question_of(model.grammar)), noise_upload())
     return {own.name: {"size": list(own.size), "channels": own.channels, "kind": own.kind} for own in every}
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
-from html import escape
 from io import BytesIO
 
 from ...render.pipeline.frame import Frame, Looks
 from ...render.pipeline.renderer import renderer_of
 from ...render.texture.daytime import Daytime
 from ...render.texture.gl import EGL, OSMESA, GlPainter
+from ..shared.pictured import picture_html
 from .model import TownModel
 
 __all__ = ["SIZE", "painter", "still", "told"]
@@ -32,8 +31,10 @@ def still(model: TownModel, pixels: tuple[int, int] = SIZE) -> bytes:
     by = painter()
     if by is None:
         return b""
-    frame = Frame(model.scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, Looks())
-    with renderer_of(frame.scene, by) as renderer:
+    frame = Frame(
+        model.scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, Looks(relief=False)
+    )
+    with renderer_of(frame.scene, by, tile_bytes=int(model.tile_megabytes * 1e6)) as renderer:
         drawn = renderer.draw(frame)["picture"]
     out = BytesIO()
     Image.fromarray(drawn[..., :3]).save(out, "JPEG", quality=_QUALITY, optimize=True)
@@ -50,7 +51,4 @@ def told(model: TownModel) -> str:
 
 def image(model: TownModel, data: bytes) -> str:
     """A picture as HTML; empty if there is none."""
-    if not data:
-        return ""
-    source = b64encode(data).decode("ascii")
-    return f'<img alt="{escape(told(model))}" src="data:image/jpeg;base64,{source}">'
+    return picture_html(told(model), data, "jpeg")

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, ClassVar
+from typing import Any
 
-from anywidget import AnyWidget
-from ipywidgets import Widget, widget_serialization
-from traitlets import Bool, Instance, Int, List, Unicode
+from traitlets import Bool, Int, List, Unicode
 
 from ...render.pipeline.scene import Scene
 from ...render.pipeline.viewpoint import CameraPath, Viewpoint
 from ...render.town import Town
-from ..shared.bundled import as_run, bundle
+from ..shared.pictured import PartView
 from .channel import TownChannel
 from .model import TownModel
 from .still import image
@@ -20,7 +18,7 @@ from .still import image
 __all__ = ["PipelineView", "TownView"]
 
 
-class _TownWidget(AnyWidget):
+class _TownWidget(PartView):
     """A view of a town or of a scene; which one, says the class.
 
     Parameters
@@ -33,13 +31,10 @@ class _TownWidget(AnyWidget):
         Of the day, 0 to 24.
     path
         A way through the town.
+    tile_megabytes
+        What tiles may take of the graphics card, from 1 MB; by default 64.
     """
 
-    _esm = bundle("loader.js")
-    _shows: ClassVar[str] = ""
-
-    channel = Instance(Widget).tag(sync=True, **widget_serialization)
-    part = Unicode().tag(sync=True)
     height = Int(0, help="Pixels of the picture; 0: as it suits its width.").tag(sync=True)
 
     def __init__(
@@ -49,11 +44,14 @@ class _TownWidget(AnyWidget):
         *,
         hour: float | None = None,
         path: CameraPath | Sequence[dict[str, object]] | None = None,
+        tile_megabytes: float | None = None,
         **options: Any,
     ) -> None:
         self.model = source if isinstance(source, TownModel) else TownModel(source)
         if hour is not None:
             self.model.hour = hour
+        if tile_megabytes is not None:
+            self.model.tile_megabytes = tile_megabytes
         super().__init__(channel=TownChannel.of(self.model), part=self._shows, **options)
         if viewpoint is not None:
             self.viewpoint = viewpoint
@@ -101,16 +99,6 @@ class _TownWidget(AnyWidget):
     def to_html(self) -> str:
         """The static form: a picture for pages where no widget can run; empty where there is none."""
         return image(self.model, self.channel.draw_still())
-
-    def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
-        """The live view and, for pages where none can run, the static form, marked as of the cell's run."""
-        self.channel.wake()
-        made = super()._repr_mimebundle_(**options)
-        if made is not None:
-            static = self.to_html()
-            if static:
-                made[0]["text/html"] = as_run(static)
-        return made
 
 
 class TownView(_TownWidget):

@@ -14,7 +14,7 @@ import numpy as np
 from facade_nb.render.pipeline.frame import Frame, Looks, visible
 from facade_nb.render.pipeline.passes import SHADOW
 from facade_nb.render.pipeline.scene import Scene
-from facade_nb.render.pipeline.sunlight import _FAR, _MOST, _NEAR, _RISE
+from facade_nb.render.pipeline.sunlight import MAPS
 from facade_nb.render.pipeline.viewpoint import CameraPath, Viewpoint
 from facade_nb.render.texture.daytime import Daytime
 from facade_nb.render.town import Town
@@ -60,7 +60,7 @@ def made() -> dict[str, Any]:
     return {
         "head": {
             "box": scene.box.reshape(-1).tolist(),
-            "sunlight": {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR, "side": SHADOW},
+            "sunlight": {**MAPS, "side": SHADOW},
             "looks": {"haze": Looks().haze, "reach": Looks().reach},
         },
         "hours": [

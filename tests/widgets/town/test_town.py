@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import zlib
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,10 +16,13 @@ from facade_nb.render import Grammar
 from facade_nb.render.pipeline.scene import Scene
 from facade_nb.render.pipeline.viewpoint import CameraPath, Viewpoint
 from facade_nb.render.texture.facades import Facade
+from facade_nb.render.tiles import tileset
+from facade_nb.render.tiles.drawn import Drawn
 from facade_nb.render.town import Town
 from facade_nb.widgets import PipelineView, TownModel, TownView
 from facade_nb.widgets.town.channel import TownChannel
 from facade_nb.widgets.town.packet import blobs_of, needs_of
+from facade_nb.widgets.town.tiles import tiles_piece
 
 from .frames import PATH, made
 
@@ -59,7 +63,7 @@ def test_views_stand_outside_and_see_something(model: TownModel) -> None:
 
 
 def test_blocks_are_the_bytes(model: TownModel) -> None:
-    blobs = blobs_of(model, 1)
+    blobs = blobs_of(model)
     for blob in blobs.values():
         size = blob.block or len(blob.content)
         parts = [zlib.decompress(blob.deflated(k)) for k in range(-(-len(blob.content) // size))]
@@ -201,6 +205,61 @@ def test_the_wire(town: Town) -> None:
     wire._receive(wire, {"op": "view", "client": "me", "here": True}, [])
     wire._receive(wire, {"op": "view", "client": "me", "here": False}, [])
     assert wire.head == b""
+
+
+def test_tiles_are_sent_in_the_sizes_that_are_asked_for(town: Town) -> None:
+    view = TownView(town)
+    sent: list[Any] = []
+    view.channel.send = lambda content, buffers=None: sent.append((content, buffers))
+    tiles = town.grammar.tiles
+    assert tiles is not None
+    for above, upto in ((0, 32), (32, 256)):
+        ask = {
+            "op": "tiles",
+            "names": ["brick", "no tile", "brick.normal"],
+            "above": [above] * 3,
+            "upto": upto,
+        }
+        view.channel._receive(view.channel, {**ask, "client": "me"}, [])
+        told, data = sent[-1][0]["tiles"], zlib.decompress(sent[-1][1][0])
+        assert [own["name"] for own in told] == [
+            "brick",
+            "brick.normal",
+        ]  # what it does not name is passed over
+        wanted = [
+            (np.asarray(level)[::-1] * 255 + 0.5).astype(np.uint8).tobytes()
+            for name in ("brick", "brick.normal")
+            for level in tiles.mips(name)
+            if above < len(level) <= upto
+        ]
+        assert data == b"".join(wanted)
+
+
+def test_what_was_not_drawn_yet_comes_small_at_first(
+    town: Town, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tileset, "_DRAWN", Drawn(tmp_path))
+    tiles = town.grammar.tiles
+    assert tiles is not None
+    (told,), data = tiles_piece(tiles, ["brick"], [0], 32)
+    assert told["draft"]
+    assert told["sizes"][0] == [32, 32]
+    assert len(data) == 4 * (1024 + 256 + 64 + 16 + 4 + 1)
+    (told,), _ = tiles_piece(tiles, ["brick"], [0], 64)
+    assert not told["draft"]
+    assert told["sizes"][told["first"]] == [64, 64]
+    (told,), _ = tiles_piece(tiles, ["brick"], [0], 32)
+    assert not told["draft"]
+
+
+def test_tiles_have_a_bound(town: Town) -> None:
+    view = TownView(town, tile_megabytes=3)
+    assert view.model.tile_megabytes == 3
+    head = view.channel.head
+    view.model.tile_megabytes = 5
+    assert view.channel.head != head
+    with pytest.raises(TraitError, match="tile_megabytes: expected 1 to 4096; found 0"):
+        TownView(town, tile_megabytes=0)
 
 
 def test_a_scene_of_facades_is_shown_too() -> None:

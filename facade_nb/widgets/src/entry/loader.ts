@@ -3,7 +3,11 @@
 
 import type { Mount, WidgetModel } from "../shared/types.ts";
 
-type Bundle = { mount(mount: Mount): () => void };
+type Bundle = {
+  mount(mount: Mount): () => void;
+  /** Do what takes long before a view is shown, where that can be done without the kernel. */
+  prepare?(channel: WidgetModel): void;
+};
 type Shared = { [bundles]?: Map<string, Promise<Bundle>> };
 
 const bundles = Symbol.for("facade_nb.bundles");
@@ -34,7 +38,18 @@ async function resolve(manager: WidgetModel["widget_manager"], reference: string
   }
 }
 
+/** While the kernel is still at work on the cell, the page makes ready for its view. */
+async function prepare(model: WidgetModel): Promise<void> {
+  const channel = await resolve(model.widget_manager, model.get<string>("channel"));
+  const code = await resolve(model.widget_manager, channel.get<string>("front_end"));
+  const source = code.get<string>("module");
+  if (source) (await load(source)).prepare?.(channel);
+}
+
 export default {
+  initialize({ model }: { model: WidgetModel }) {
+    prepare(model).catch(() => {}); // what is wrong is said where the view is shown
+  },
   async render({ model, el }: { model: WidgetModel; el: HTMLElement }) {
     const channel = await resolve(model.widget_manager, model.get<string>("channel"));
     const code = await resolve(model.widget_manager, channel.get<string>("front_end"));

@@ -8,13 +8,19 @@ import { absence } from "../shared/absence.ts";
 import { h } from "../shared/dom.ts";
 import { keepKeys } from "../shared/keys.ts";
 import { adoptStyle, watchTheme } from "../shared/theme.ts";
-import type { Mount } from "../shared/types.ts";
+import type { Mount, WidgetModel } from "../shared/types.ts";
 import { pipelineView } from "../town/buffers.ts";
 import { Session } from "../town/session.ts";
 import { townView } from "../town/view.ts";
 
 /** What changes the model: to look around asks nothing of Python. */
 const EDITS = ".fnb-tex-text, .fnb-tex-tools button, .fnb-town-edit";
+const GOES_ON = "One can fly, walk, choose buildings and change the hour all the same.";
+
+/** Shaders are compiled while the kernel draws the still picture. */
+export function prepare(channel: WidgetModel): void {
+  Session.of(channel).prepare();
+}
 
 export function mount({ el, model, channel, css }: Mount): () => void {
   const end = new AbortController();
@@ -29,7 +35,12 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   el.append(root);
   const trouble = h("pre", { class: "fnb-tex-trouble", role: "alert", hidden: true });
   root.append(make(session, model, end.signal), trouble);
-  absence(root, session.kernel, end.signal, { what: "town", needs: EDITS, unsent: () => session.waits });
+  absence(root, session.kernel, end.signal, {
+    what: "town",
+    goesOn: GOES_ON,
+    needs: EDITS,
+    unsent: () => session.waits,
+  });
   session.hold(() => {
     trouble.textContent = session.trouble;
     trouble.hidden = !session.trouble;

@@ -21,6 +21,8 @@ interface Options {
   unsent?: () => boolean;
   /** What is seen here, such as "façade". */
   what: string;
+  /** What can be done meanwhile, in a sentence. */
+  goesOn?: string;
 }
 
 /** Say above a view what has become of its kernel, and hold its controls meanwhile. */
@@ -88,15 +90,16 @@ function release(control: HTMLElement): void {
   delete control.dataset.changed;
 }
 
-function sentences(kernel: Kernel, { unsent, what }: Options): [title: string, more: string] {
+function sentences(kernel: Kernel, { unsent, what, goesOn }: Options): [title: string, more: string] {
   const typed = unsent?.() ? " What was typed last has not reached it, and still stands in its field." : "";
+  const on = goesOn ? ` ${goesOn}` : "";
   if (kernel.presence === "away")
     return [
       "No connection to the kernel.",
-      `The ${what} stays as it is, read only, until the connection is back.${typed}`,
+      `The ${what} stays as it is, read only, until the connection is back.${on}${typed}`,
     ];
   return [
     `The kernel ${kernel.fate}.`,
-    `This is the ${what} as it was last, read only.${typed} Run the cell again to go on.`,
+    `This is the ${what} as it was last, read only.${on}${typed} Run the cell again to go on.`,
   ];
 }

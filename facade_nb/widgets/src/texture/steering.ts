@@ -1,6 +1,7 @@
 // Moving about in front of the façade, with pointer, wheel and keys; a click looks into a pixel.
 
-import { focused, setTraits } from "../shared/dom.ts";
+import { setTraits } from "../shared/dom.ts";
+import { pointing } from "../shared/pointing.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import type { Session } from "./session.ts";
 import { distanceOf, type Look, meet, sightOf, targetOf } from "./sight.ts";
@@ -8,7 +9,6 @@ import type { Pair } from "./types.ts";
 
 const NEAREST = 0.15; // metres
 const SETTLED = 200; // milliseconds after which Python is told where one stands
-const STILL = 4; // pixels up to which a press is a click
 
 /** How the façade is looked at. */
 export function lookOf(model: WidgetModel): Look {
@@ -74,38 +74,11 @@ export function steering(
   };
   const home = () => change({ turn: 0, rise: 0, distance: 0, target: [] });
 
-  let held: { x: number; y: number; moved: number } | null = null;
-  canvas.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    held = { x: event.clientX, y: event.clientY, moved: 0 };
-    canvas.setPointerCapture(event.pointerId);
+  pointing(canvas, {
+    clicked: (across, up) => inspect(across, 1 - up),
+    dragged: (dx, dy, event) => move(-dx / canvas.clientWidth, dy / canvas.clientWidth, event.shiftKey),
+    wheeled: (by) => dolly(Math.exp(0.0015 * by)),
   });
-  canvas.addEventListener("pointermove", (event) => {
-    if (!held) return;
-    const [dx, dy] = [event.clientX - held.x, event.clientY - held.y];
-    held = { x: event.clientX, y: event.clientY, moved: held.moved + Math.abs(dx) + Math.abs(dy) };
-    if (held.moved > STILL) move(-dx / canvas.clientWidth, dy / canvas.clientWidth, event.shiftKey);
-  });
-  canvas.addEventListener("pointerup", (event) => {
-    if (held && held.moved <= STILL) {
-      const box = canvas.getBoundingClientRect();
-      inspect((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
-    }
-    held = null;
-  });
-  canvas.addEventListener("pointercancel", () => {
-    held = null;
-  });
-  canvas.addEventListener(
-    "wheel",
-    (event) => {
-      if (focused(canvas) !== canvas) return; // the page scrolls until the picture is chosen
-      event.preventDefault();
-      event.stopPropagation();
-      dolly(Math.exp(limit(event.deltaY, -400, 400) * (event.deltaMode ? 0.05 : 0.0015)));
-    },
-    { passive: false },
-  );
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const arrows: Record<string, Pair> = {

@@ -54,12 +54,17 @@ export class Context {
     }
   }
 
+  /** Pixels a side of the largest image that can be had. */
+  get largest(): number {
+    if (this.lost || this.whyNot) return 1 << 14;
+    return (this.get().getParameter(WebGL2RenderingContext.MAX_TEXTURE_SIZE) as number) || 1 << 11;
+  }
+
   /** Why images of a size cannot be had; empty if they can. */
   tooSmall(side: number): string {
-    const most = this.lost ? Infinity : (this.get().getParameter(WebGL2RenderingContext.MAX_TEXTURE_SIZE) as number);
-    return side <= most
+    return side <= this.largest
       ? ""
-      : `This browser draws from images of at most ${most} pixels a side; the town's tiles take ${side}.`;
+      : `This browser draws from images of at most ${this.largest} pixels a side; this town takes ${side}.`;
   }
 
   /** Whether it draws without a graphics card: then pictures are copied into canvases in main memory. */

@@ -1,6 +1,6 @@
 // Flying and walking, with keys, pointer and wheel; paths that are played.
 
-import { focused } from "../shared/dom.ts";
+import { pointing } from "../shared/pointing.ts";
 import { along, secondsOf } from "./path.ts";
 import type { Session } from "./session.ts";
 import type { Place, Stop } from "./types.ts";
@@ -8,7 +8,6 @@ import type { Place, Stop } from "./types.ts";
 const LEAST = 60; // milliseconds that a key moves one for, however shortly it is pressed
 const LONGEST = 250; // and that a frame moves one for, however long it took
 const STRIDE = 2.6; // metres a second on foot
-const STILL = 4; // pixels up to which a press is a click
 
 const KEYS: Record<string, keyof Held> = {
   KeyW: "ahead",
@@ -211,40 +210,14 @@ export function flying(canvas: HTMLCanvasElement, session: Session, options: Opt
     if (own.walking && session.walls) [nx, nz] = session.walls.walk([x, z], [nx, nz]);
     go([nx, limit(y + far * Math.sin(steep), 0.6, 8000), nz, yaw, pitch, angle]);
   };
-  let drag: { x: number; y: number; moved: number } | null = null;
-  canvas.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    drag = { x: event.clientX, y: event.clientY, moved: 0 };
-    canvas.setPointerCapture(event.pointerId);
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    if (!drag) return;
-    const [dx, dy] = [event.clientX - drag.x, event.clientY - drag.y];
-    drag = { x: event.clientX, y: event.clientY, moved: drag.moved + Math.abs(dx) + Math.abs(dy) };
-    if (drag.moved <= STILL) return;
-    play(false);
-    go(turned(session.place, dx, dy, canvas.clientWidth));
-  });
-  canvas.addEventListener("pointerup", (event) => {
-    if (drag && drag.moved <= STILL) {
-      const box = canvas.getBoundingClientRect();
-      options.clicked((event.clientX - box.left) / box.width, 1 - (event.clientY - box.top) / box.height);
-    }
-    drag = null;
-  });
-  canvas.addEventListener("pointercancel", () => {
-    drag = null;
-  });
-  canvas.addEventListener(
-    "wheel",
-    (event) => {
-      if (focused(canvas) !== canvas) return; // the page scrolls until the picture is chosen
-      event.preventDefault();
-      event.stopPropagation();
-      dolly(-limit(event.deltaY, -400, 400) * (event.deltaMode ? 0.25 : 0.008));
+  pointing(canvas, {
+    clicked: options.clicked,
+    dragged(dx, dy) {
+      play(false);
+      go(turned(session.place, dx, dy, canvas.clientWidth));
     },
-    { passive: false },
-  );
+    wheeled: (by) => dolly(-0.008 * by),
+  });
   signal.addEventListener("abort", () => cancelAnimationFrame(frame));
   return own;
 }

@@ -174,15 +174,23 @@ export function isDay(light: Light): boolean {
   return (light.sun as number[]).some((value) => value !== 0);
 }
 
-/** Runs (first index, count) of the chunks that may be seen through a matrix, and are there; next to one another, one. */
-export function visible(chunks: Chunks, through: Matrix, there: (chunk: number) => boolean = () => true): Pixels[] {
+/**
+ * Runs (first index, count) of the chunks that may be seen through a matrix, and are there; next to one another, one. `some`:
+ * how many indices of a chunk are drawn.
+ */
+export function visible(
+  chunks: Chunks,
+  through: Matrix,
+  there: (chunk: number) => boolean = () => true,
+  some: (chunk: number) => number = (chunk) => chunks.count[chunk] as number,
+): Pixels[] {
   const planes: number[][] = [];
   for (const sign of [1, -1])
     for (let axis = 0; axis < 3; axis += 1)
       planes.push([0, 1, 2, 3].map((k) => (through[12 + k] as number) + sign * (through[4 * axis + k] as number)));
   planes.length = 5; // nothing is too far
   const runs: Pixels[] = [];
-  const { first, count, low, high } = chunks;
+  const { first, low, high } = chunks;
   for (let c = 0; c < first.length; c += 1) {
     const inside = planes.every(([a, b, d, offset]) => {
       const x = ((a as number) > 0 ? high : low)[3 * c] as number;
@@ -192,8 +200,9 @@ export function visible(chunks: Chunks, through: Matrix, there: (chunk: number) 
     });
     if (!inside || !there(c)) continue;
     const last = runs.at(-1);
-    if (last && last[0] + last[1] === first[c]) last[1] += count[c] as number;
-    else runs.push([first[c] as number, count[c] as number]);
+    const own = some(c);
+    if (last && last[0] + last[1] === first[c]) last[1] += own;
+    else if (own) runs.push([first[c] as number, own]);
   }
   return runs;
 }

@@ -2,10 +2,12 @@
 // context is lost or the kernel is gone.
 
 import { type Bytes, inflated } from "../solver/packing.ts";
+import { COARSE, type TileReply, Tiles } from "./tiles.ts";
 import type { BlobInfo, Chunks, Head, Place } from "./types.ts";
 
 const AT_ONCE = 4_000_000; // bytes that one message asks for, about, before they are deflated
 const UNDER_WAY = 2; // messages
+const NEAR = 260; // metres within which the mesh comes before all that is not needed at once
 
 export interface Reply {
   kind: "blocks";
@@ -23,16 +25,22 @@ export class Loading {
   private flying = 0;
   private chunks: Chunks | null = null;
   private readonly ready = new Set<number>();
+  readonly tiles = new Tiles();
+  /** The side of tiles that the view needs now. */
+  needed = COARSE;
 
   constructor(
     private readonly send: (message: Record<string, unknown>) => void,
     /** Bytes from here to there have come. */
     private readonly come: (name: string, at: number, end: number) => void,
+    /** All that a chunk draws is here. */
+    private readonly ripe: (chunk: number) => void = () => {},
   ) {}
 
   /** Take a head: what it has in another version is forgotten. */
   take(head: Head): void {
     this.chunks = head.chunks;
+    this.tiles.take(head.tiles);
     for (const [name, info] of Object.entries(head.blobs)) {
       const old = this.blobs.get(name);
       if (old && old.info.version === info.version && old.info.bytes === info.bytes) continue;
@@ -51,7 +59,7 @@ export class Loading {
 
   /** The part of all bytes that is here. */
   get part(): number {
-    let [all, here] = [0, 0];
+    let [here, all] = this.tiles.bytes;
     for (const { info, have } of this.blobs.values()) {
       all += info.bytes;
       here += Math.min(info.bytes, have.size * info.block);
@@ -67,6 +75,7 @@ export class Loading {
     for (const block of vertexBlocks(chunks, chunk)) if (!vertices.have.has(block)) return false;
     for (const block of indexBlocks(chunks, chunk, indices.info)) if (!indices.have.has(block)) return false;
     this.ready.add(chunk);
+    this.ripe(chunk);
     return true;
   }
 
@@ -79,6 +88,10 @@ export class Loading {
     while (this.flying < UNDER_WAY) {
       const next = this.next(place);
       if (!next) return;
+      if ("upto" in next) {
+        this.demand(next.names, next.upto);
+        continue;
+      }
       const own = this.blobs.get(next.name);
       if (!own) return;
       for (const block of next.blocks) own.asked.add(block);
@@ -87,12 +100,19 @@ export class Loading {
     }
   }
 
+  /** Ask for tiles. */
+  demand(names: string[], upto: number): void {
+    this.flying += 1;
+    this.send({ op: "tiles", names, above: names.map((name) => this.tiles.above(name)), upto });
+  }
+
   /** After a gap in the connection: what was on its way may be lost. */
   again(place: Place): void {
     for (const { asked, have } of this.blobs.values()) {
       asked.clear();
       for (const block of have) asked.add(block);
     }
+    this.tiles.again();
     this.flying = 0;
     this.ask(place);
   }
@@ -113,13 +133,22 @@ export class Loading {
     if (name === "vertices" || name === "indices") for (const c of this.chunks?.first.keys() ?? []) this.has(c);
   }
 
-  private next(place: Place): { name: string; blocks: number[] } | null {
-    for (const name of ["noise", "tile_table"]) {
-      const found = this.of(name);
-      if (found) return found;
-    }
-    const near = this.near(place, this.meshed ? 260 : 0);
-    return near ?? this.of("atlas") ?? this.of("edges") ?? this.near(place, Infinity);
+  /** Take the tiles of a message. */
+  async receiveTiles({ tiles }: TileReply, buffer: Bytes): Promise<void> {
+    this.flying = Math.max(0, this.flying - 1);
+    this.tiles.receive(tiles, new Uint8Array(await inflated(buffer)));
+  }
+
+  private next(place: Place): { name: string; blocks: number[] } | { names: string[]; upto: number } | null {
+    return (
+      this.of("noise") ??
+      (this.tiles.complete ? null : this.tiles.next(COARSE, AT_ONCE)) ??
+      this.near(place, this.meshed ? NEAR : 0) ??
+      this.tiles.next(this.needed, AT_ONCE) ??
+      this.of("edges") ??
+      this.near(place, Infinity) ??
+      this.tiles.next(Infinity, AT_ONCE)
+    );
   }
 
   /** The next blocks of something. */

@@ -12,6 +12,7 @@ import type { Pass, Pixels, Values, Vector } from "./types.ts";
 const BUDGET = 48; // milliseconds of a frame in motion, and of a piece of the picture at rest
 const RESTED = 140; // milliseconds after which it becomes finer
 export const FACTORS = [1, 1.5, 2, 3, 4, 6, 8] as const;
+const HELD = 0.075; // of a map's width that one may be away from where it was taken
 const INDICES = 60_000; // of the mesh that a first piece draws
 
 /** How coarse the next frame should be, after one that was so coarse and took so long. */
@@ -21,6 +22,14 @@ export function coarser(factor: number, milliseconds: number): number {
   return FACTORS.findLast((own) => own >= wanted * 1.1 && own <= factor) === undefined
     ? factor
     : (FACTORS.find((own) => own >= wanted * 1.1) ?? factor);
+}
+
+/** Views of the sun, and where one stood then. */
+interface Held {
+  sun: Sunlight;
+  eye: Vector;
+  yaw: number;
+  hour: number;
 }
 
 export const pixelsOf = ({ width, height }: HTMLCanvasElement, factor: number): Pixels => [
@@ -42,6 +51,8 @@ export interface Painting {
   stop(): void;
   /** The last picture that was drawn as a whole; null: none. */
   readonly last: Pixels | null;
+  /** Whether the picture is as fine as it will be, of what there was to draw when it was begun. */
+  readonly done: boolean;
 }
 
 interface Options {
@@ -51,16 +62,24 @@ interface Options {
   /** Called after each picture. */
   told: (told: Told) => void;
   failed: (message: string) => void;
+  /** Called when `done` has changed. */
+  stated: () => void;
 }
 
-export function painting(canvas: HTMLCanvasElement, session: Session, { off, shown, told, failed }: Options): Painting {
+export function painting(
+  canvas: HTMLCanvasElement,
+  session: Session,
+  { off, shown, told, failed, stated }: Options,
+): Painting {
   const paper = canvas.getContext("2d", { alpha: false, willReadFrequently: context().software });
   const left = off ?? (() => []);
   let [timer, frame] = [0, 0];
   let factor: number = context().software ? 4 : 1;
   let last: Pixels | null = null;
-  let held: { sun: Sunlight; eye: Vector; yaw: number; hour: number } | null = null;
+  let held: { near: Held; far: Held } | null = null;
   const rates = new Map<string, number>();
+  let done = false;
+  let turn = 0; // counts what was begun: what belongs to an earlier one is over
 
   const attempt = (act: () => void) => {
     try {
@@ -70,19 +89,23 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, sho
     }
   };
   const able = () => !!paper && canvas.width > 1 && session.drawable && !context().lost;
-  /** The sun's views: those of a while ago do as long as one is near to where they were taken. */
+  /** The sun's views: each of a while ago does as long as one is near to where it was taken. */
   const sunHeld = (pixels: Pixels): Sunlight | undefined => {
     const { head, place, hour, light } = session;
     if (!head) return undefined;
     const [x, y, z, yaw] = place;
-    const near = held ? (held.sun.texels[0] * head.sunlight.side) / 2 : 0;
-    const moved = held ? Math.hypot(x - held.eye[0], y - held.eye[1], z - held.eye[2]) : Infinity;
-    const turned = held ? Math.abs(((yaw - held.yaw + 540) % 360) - 180) : 0;
-    if (!held || moved > 0.15 * near || turned > 25 || held.hour !== hour) {
+    const fits = (own: Held | undefined, k: 0 | 1, turns: boolean) =>
+      own?.hour === hour &&
+      Math.hypot(x - own.eye[0], y - own.eye[1], z - own.eye[2]) <= HELD * own.sun.texels[k] * head.sunlight.side &&
+      !(turns && Math.abs(((yaw - own.yaw + 540) % 360) - 180) > 25);
+    const [near, far] = [fits(held?.near, 0, true), fits(held?.far, 1, false)];
+    if (!held || !near || !far) {
       const sun = sunlightOf(light.towards as Vector, frustumOf(place, pixels), head.box, head.sunlight);
-      held = { sun, eye: [x, y, z], yaw, hour };
+      const now: Held = { sun, eye: [x, y, z], yaw, hour };
+      held = { near: held && near ? held.near : now, far: held && far ? held.far : now };
     }
-    return held.sun;
+    const [a, b] = [held.near.sun, held.far.sun];
+    return { near: a.near, far: b.far, texels: [a.texels[0], b.texels[1]] };
   };
   const show = (passes: Pass[], pixels: Pixels): boolean => {
     const [name, how] = shown?.() ?? [passes.at(-1)?.writes[0], undefined];
@@ -90,11 +113,17 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, sho
     last = pixels;
     return true;
   };
+  /** What a pass draws of the mesh in motion; the maps of shadows, which are kept, are drawn as a whole. */
+  const drawn = (pass: Pass, values: Values, pixels: Pixels): Pixels[] => {
+    const map = pass.writes.some((name) => session.pipeline?.buffer(name).side);
+    return session.runs(values[pass.through] as Float64Array, map ? undefined : pixels);
+  };
   /** The whole picture at once. */
   const rough = () => {
     const { pipeline } = session;
     if (!pipeline || !able()) return;
     if (!pipeline.ready()) {
+      clearTimeout(timer);
       timer = window.setTimeout(redraw, 60);
       return;
     }
@@ -104,8 +133,7 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, sho
     const passes = session.passes(left());
     for (const pass of passes) {
       if (pass.draws === "screen") pipeline.run(pass, values, pixels);
-      else if (!pipeline.fresh(pass, values))
-        pipeline.run(pass, values, pixels, { runs: session.runs(values[pass.through] as Float64Array) });
+      else if (!pipeline.fresh(pass, values)) pipeline.run(pass, values, pixels, { runs: drawn(pass, values, pixels) });
     }
     if (!show(passes, pixels)) return;
     const milliseconds = performance.now() - began;
@@ -174,6 +202,7 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, sho
   }
   const refine = () =>
     attempt(() => {
+      const own = turn;
       if (!able() || !session.pipeline?.ready()) return;
       const steps = [...new Set([factor > 3 ? 3 : 1, 1])].filter((own) => own < factor || own === 1);
       const work = (function* () {
@@ -181,19 +210,24 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, sho
       })();
       const next = () =>
         attempt(() => {
-          if (context().lost) return;
+          if (context().lost || own !== turn) return;
           const start = performance.now();
-          let done = false;
-          while (!done && performance.now() - start < BUDGET / 3) done = !!work.next().done;
-          if (!done) timer = window.setTimeout(next, 0);
-          else mark(canvas, "data-state", "sharp");
+          let over = false;
+          while (!over && performance.now() - start < BUDGET / 3) over = !!work.next().done;
+          if (!over) timer = window.setTimeout(next, 0);
+          else if (last) state(true);
         });
       next();
     });
+  const state = (now: boolean) => {
+    done = now;
+    stated();
+  };
   const redraw = () => {
     clearTimeout(timer);
     timer = window.setTimeout(refine, RESTED);
-    mark(canvas, "data-state", "moving");
+    turn += 1;
+    state(false);
     if (frame) return;
     frame = requestAnimationFrame(() => {
       frame = 0;
@@ -208,6 +242,9 @@ export function painting(canvas: HTMLCanvasElement, session: Session, { off, sho
     },
     get last() {
       return last;
+    },
+    get done() {
+      return done;
     },
   };
 }

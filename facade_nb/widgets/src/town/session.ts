@@ -6,9 +6,11 @@ import type { Fault } from "../shared/types.ts";
 import { type Bytes, byteLength, bytesOf, unpack } from "../solver/packing.ts";
 import { CHOSEN, MARKED, SHADER } from "./chosen.ts";
 import { context } from "./context.ts";
+import { Detail } from "./detail.ts";
 import { cropped, daylight, frustumOf, isDay, type Sunlight, uniformsOf, visible } from "./frame.ts";
 import { Loading, type Reply } from "./loading.ts";
 import { Pipeline, type Source } from "./pipeline.ts";
+import { COARSE, sideNeeded, type Texture, type TileReply } from "./tiles.ts";
 import type { Head, Light, Pass, Pixels, Place, Stop, Values, Vector } from "./types.ts";
 import { Walls } from "./walls.ts";
 
@@ -17,7 +19,7 @@ const SETTLED = 300; // milliseconds after which Python is told where one stands
 
 type Entered = "text" | "section" | "hour" | "chosen" | "restyled" | "viewpoint" | "path";
 
-type Message = Reply | { kind: "patch"; name: string; at: number };
+type Message = Reply | TileReply | { kind: "patch"; name: string; at: number };
 
 export interface Picked {
   building: number;
@@ -36,9 +38,22 @@ export class Session extends Entering<Entered> {
   readonly loading = new Loading(
     (message) => this.kernel.tell({ ...message, client: this.client }),
     (name, at, end) => this.come(name, at, end),
+    (chunk) => this.sort(chunk),
   );
+  private readonly detail = new Detail();
   /** Counts what has changed in what is drawn, beside the place and the hour. */
   touched = 0;
+  /** Pixels of the widest view of it, which tell how fine tiles have to be. */
+  wide = 720;
+  /** Side and version of the tiles that are shown. */
+  private shown = { side: 0, version: -1 };
+  private images: Record<"atlas" | "tile_table", Texture> | null = null;
+  /** The head that was read last. */
+  private taken: Bytes | null = null;
+  /** A head that waits for tiles that it names. */
+  private waiting: Head | null = null;
+  /** How many messages are being read. */
+  private taking = 0;
   private line: Promise<void> = Promise.resolve();
   private telling = 0;
   private readonly movers = new Set<() => void>();
@@ -95,6 +110,7 @@ export class Session extends Entering<Entered> {
   move(place: Place): void {
     if (place.every((value, k) => value === this.place[k])) return;
     this.place = place;
+    this.arrange();
     this.loading.ask(place);
     for (const moved of [...this.movers]) moved();
     clearTimeout(this.telling);
@@ -108,7 +124,13 @@ export class Session extends Entering<Entered> {
 
   /** Whether there is something to draw. */
   get drawable(): boolean {
-    return !!this.pipeline && this.loading.meshed && this.loading.whole("noise") && this.loading.whole("tile_table");
+    return !!this.pipeline && this.loading.meshed && this.loading.whole("noise") && !!this.images;
+  }
+
+  /** Whether all has come that there is to draw, as far as is known here. */
+  get settled(): boolean {
+    const { tiles, part } = this.loading;
+    return part >= 1 && this.taking === 0 && !this.waiting && this.shown.version === tiles.version;
   }
 
   /** The passes that run: not those that are switched off, nor those for which there is no cause now. */
@@ -135,9 +157,29 @@ export class Session extends Entering<Entered> {
     return { ...uniformsOf(head, frustum, this.light, part ? [1, 1] : pixels, looks, sun), chosen_seed: seed };
   }
 
-  /** Runs of indices that may be seen through a matrix, of what has come. */
-  runs(through: Float64Array): Pixels[] {
-    return this.head ? visible(this.head.chunks, through, (chunk) => this.loading.has(chunk)) : [];
+  /** Runs of indices that may be seen through a matrix, of what has come; `pixels`: without what is too small in those. */
+  runs(through: Float64Array, pixels?: Pixels): Pixels[] {
+    const { head, detail, place } = this;
+    if (!head) return [];
+    const { chunks } = head;
+    const some = pixels ? (chunk: number) => detail.count(chunk, chunks, place, pixels) : undefined;
+    return visible(chunks, through, (chunk) => this.loading.has(chunk), some);
+  }
+
+  /** Order what a chunk draws, so that the smallest can be left out. */
+  private sort(chunk: number): void {
+    const { head, loading } = this;
+    if (!head) return;
+    const [first, count] = [head.chunks.first[chunk] as number, head.chunks.count[chunk] as number];
+    const [indices, vertices] = [loading.content("indices"), loading.content("vertices")];
+    this.detail.sort(
+      chunk,
+      new Uint32Array(indices.buffer as ArrayBuffer, 4 * first, count),
+      new Float32Array(vertices.buffer as ArrayBuffer, 0, vertices.length / 4),
+      head.stride / 4,
+      (head.attributes.position?.[1] ?? 0) / 4,
+    );
+    this.pipeline?.changed("indices", 4 * first, 4 * (first + count));
   }
 
   /** What stands at a place of the picture (0 to 1 from its lower left): drawn anew, for that one pixel. */
@@ -164,7 +206,7 @@ export class Session extends Entering<Entered> {
   }
 
   private source(head: Head): Source {
-    const textures = Object.fromEntries(
+    const textures: Source["textures"] = Object.fromEntries(
       Object.entries(head.textures).map(([name, image]) => [
         name,
         { image, content: name === "grammar" ? head.grammar : this.loading.content(name) },
@@ -178,8 +220,29 @@ export class Session extends Entering<Entered> {
       attributes: head.attributes,
       vertices: this.loading.content("vertices"),
       indices: this.loading.content("indices"),
-      textures,
+      textures: { ...textures, ...this.images },
     };
+  }
+
+  /**
+   * Give the card other tiles where the view needs finer ones and they have come, or where it may have fewer: one size up
+   * at a time, and no fewer until it has four times as many as it needs.
+   */
+  arrange(): void {
+    const { head, pipeline, loading } = this;
+    if (!head || !pipeline || !loading.tiles.complete) return;
+    const needed = sideNeeded(this.place, this.wide, head.chunks.low, head.chunks.high);
+    loading.needed = needed;
+    const own = this.shown;
+    const wanted = own.side > needed && own.side <= 2 * needed ? own.side : needed;
+    const { version } = loading.tiles;
+    const step = own.version === version && own.side ? Math.min(wanted, 2 * own.side) : wanted;
+    const side = loading.tiles.sideFor(step, head.tile_bytes, context().largest);
+    if (side === own.side && version === own.version) return;
+    this.shown = { side, version };
+    this.images = loading.tiles.arranged(side);
+    pipeline.replace(this.source(head));
+    this.touched += 1;
   }
 
   /** A block of something large has come. */
@@ -201,7 +264,11 @@ export class Session extends Entering<Entered> {
     this.channel.on("msg:custom", heard);
     this.present.signal.addEventListener("abort", () => this.channel.off("msg:custom", heard));
     this.follow(true);
-    this.inTurn(() => this.take());
+    this.inTurn(async () => {
+      await this.take();
+      if (this.head) this.loading.ask(this.place);
+      this.tell();
+    });
   }
 
   protected override end(): void {
@@ -222,19 +289,45 @@ export class Session extends Entering<Entered> {
     if (!first && told.every((value, k) => Math.abs(value - (this.place[k] as number)) < 1e-9)) return;
     clearTimeout(this.telling);
     this.place = told as Place;
+    this.arrange();
     this.loading.ask(this.place);
     for (const moved of [...this.movers]) moved();
   }
 
   /** Heads and blocks are taken in the order in which they were sent. */
   private inTurn(act: () => Promise<void>): void {
-    this.line = this.line.then(act).catch((error) => console.error(error));
+    this.taking += 1;
+    this.tell();
+    this.line = this.line
+      .then(act)
+      .catch((error) => console.error(error))
+      .then(() => {
+        this.taking -= 1;
+        this.tell();
+      });
+  }
+
+  /** Read the head and compile shaders before there is a view. */
+  prepare(): void {
+    if (!this.head) this.inTurn(() => this.take());
   }
 
   private async take(): Promise<void> {
     const bytes = this.channel.get<Bytes>("head");
-    if (!byteLength(bytes)) return;
+    if (!byteLength(bytes) || bytes === this.taken) return;
+    this.taken = bytes;
     const head = await unpack<Head>(bytes);
+    const lacks = this.loading.tiles.lacking(head.tiles);
+    if (this.head && lacks.length && this.live) {
+      this.waiting = head; // what is shown stays until it can be replaced as a whole
+      this.loading.demand(lacks, COARSE);
+      return;
+    }
+    this.enter(head);
+  }
+
+  private enter(head: Head): void {
+    this.waiting = null;
     const old = this.head;
     this.loading.take(head);
     if (old && head.starts.length === old.starts.length) this.renumber(old.starts, head.starts);
@@ -242,8 +335,9 @@ export class Session extends Entering<Entered> {
     const source = this.source(head);
     if (this.pipeline) this.pipeline.replace(source);
     else this.pipeline = new Pipeline(source);
+    this.arrange();
     if (!context().whyNot) this.pipeline.ready(); // shaders are compiled while the mesh is on its way
-    this.loading.ask(this.place);
+    if (this.views.size > 0) this.loading.ask(this.place);
     this.touched += 1;
     this.tell();
   }
@@ -252,6 +346,13 @@ export class Session extends Entering<Entered> {
     if (message.kind === "blocks") {
       if (message.client !== this.client) return;
       await this.loading.receive(message, buffers);
+      this.loading.ask(this.place);
+    } else if (message.kind === "tiles" && buffers[0]) {
+      if (message.client !== this.client) return;
+      await this.loading.receiveTiles(message, buffers[0]);
+      const next = this.waiting;
+      if (next && !this.loading.tiles.lacking(next.tiles).length) this.enter(next);
+      else this.arrange();
       this.loading.ask(this.place);
     } else if (message.kind === "patch" && buffers[0]) {
       const bytes = bytesOf(buffers[0]);

@@ -76,9 +76,14 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
     failure = message;
     say();
   };
-  const paint = painting(canvas, session, { ...options, told: tell, failed });
+  const paint = painting(canvas, session, { ...options, told: tell, failed, stated: () => state() });
   const fly = flying(canvas, session, options, signal);
 
+  /** `moving`: it is being drawn; `loading`: what it shows has not come as a whole; `sharp`: it will stay as it is. */
+  const state = () => {
+    const now = !paint.done ? "moving" : session.settled ? "sharp" : "loading";
+    mark(canvas, "data-state", paint.last ? now : "empty");
+  };
   const resize = () => {
     const wide = el.clientWidth;
     if (!wide) return;
@@ -89,6 +94,7 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
     if (canvas.width === width && canvas.height === height) return;
     canvas.width = width;
     canvas.height = height;
+    session.wide = Math.max(session.wide, width);
     drawn = "";
   };
   const update = () => {
@@ -100,7 +106,7 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
         "the building in the middle, Home goes to the first view.",
     );
     const { head, loading } = session;
-    const small = head ? Math.max(...Object.values(head.textures).flatMap(({ size }) => size)) : 0;
+    const small = head ? Math.max(head.sunlight.side, ...Object.values(head.textures).flatMap(({ size }) => size)) : 0;
     const why = small ? context().tooSmall(small) : "";
     if (why) failure = why;
     const now = JSON.stringify([
@@ -116,6 +122,7 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
       if (head && session.drawable) paint.redraw();
       drawn = now;
     }
+    state();
     say();
   };
   const watching = new ResizeObserver(update);

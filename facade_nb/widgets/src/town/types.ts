@@ -84,6 +84,10 @@ export interface Head {
   block: number;
   blobs: Record<string, BlobInfo>;
   textures: Record<string, Image>;
+  /** Names, in the order of their numbers. */
+  tiles: string[];
+  /** What their image may take of the card. */
+  tile_bytes: number;
   grammar: Uint8Array;
   chunks: Chunks;
   box: number[];

@@ -93,9 +93,8 @@ describe("what is loaded", () => {
       vertices: { bytes: 30, block: 10, version: 0 },
       indices: { bytes: 36, block: 36, version: 0 },
       noise: { bytes: 4, block: 4, version: 0 },
-      tile_table: { bytes: 4, block: 4, version: 1 },
-      atlas: { bytes: 8, block: 8, version: 1 },
     },
+    tiles: [],
   } as unknown as Head;
 
   it("is asked for once, what is near first; a chunk is there when all its blocks are", async () => {
@@ -107,7 +106,7 @@ describe("what is loaded", () => {
     );
     loading.take(head);
     loading.ask(HERE);
-    expect(asked.map(({ name }) => name)).toEqual(["noise", "tile_table"]);
+    expect(asked.map(({ name }) => name)).toEqual(["noise", "indices"]);
     for (let k = 0; k < asked.length; k += 1) {
       const { name, version, blocks } = asked[k] as (typeof asked)[number];
       const info = head.blobs[name] as { bytes: number; block: number };
@@ -124,8 +123,8 @@ describe("what is loaded", () => {
     expect(loading.part).toBe(1);
     expect([0, 1, 2].every((chunk) => loading.has(chunk))).toBe(true);
     expect(come).toContain("vertices 20 30");
-    loading.take({ ...head, blobs: { ...head.blobs, atlas: { bytes: 8, block: 8, version: 2 } } } as Head);
-    expect(loading.whole("atlas")).toBe(false); // other tiles: they are asked for anew
+    loading.take({ ...head, blobs: { ...head.blobs, noise: { bytes: 4, block: 4, version: 2 } } } as Head);
+    expect(loading.whole("noise")).toBe(false); // it is asked for anew
     expect(loading.whole("vertices")).toBe(true);
   });
 

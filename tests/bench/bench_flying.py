@@ -1,0 +1,111 @@
+"""TownView in a real JupyterLab, 20,000 buildings, WebGL2 in software: its first frames, and frames while one flies.
+
+*First*: from running the cell to a first frame, which may be coarse; *kernel*: of that, until the kernel has answered.
+*Sharp*: until all is as it will stay. *Frame*: milliseconds between two frames of the page while keys are held;
+*coarse*: how many pixels of the canvas one that is drawn then stands for, along each side.
+"""
+
+from __future__ import annotations
+
+import statistics
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from tests.browser.jupyter import Notebook, browse, serve
+
+__all__ = ["main"]
+
+MADE = """
+from facade_nb.render.town import Town
+town = Town.generate({buildings}, seed=1)
+"""
+SHOWN = """
+from facade_nb.widgets import TownView
+view = TownView(town, {view!r}, layout={{"width": "900px"}})
+view
+"""
+ANEW = """
+import sys
+for name in [name for name in sys.modules if name.startswith("facade_nb")]:
+    del sys.modules[name]
+from facade_nb.render.town import Town
+town = Town.generate({buildings}, seed=1)
+"""
+
+RUN = """async code => {
+    const {content, sessionContext} = window.jupyterapp.shell.currentWidget;
+    content.model.sharedModel.cells[0].setSource(code);
+    const began = performance.now();
+    let kernel = 0;
+    window.jupyterapp.commands.execute("notebook:run-all-cells").then(() => { kernel = performance.now() - began; });
+    const canvas = () => document.querySelector(".fnb-town-canvas");
+    const until = async (done) => {
+        while (!done()) await new Promise(requestAnimationFrame);
+        return performance.now() - began;
+    };
+    await until(() => !canvas());
+    const shown = await until(() => canvas());
+    const first = await until(() => canvas()?.dataset.coarse);
+    const finest = [];
+    const sharp = await until(() => canvas().dataset.state === "sharp" && Number(canvas().dataset.loaded) === 1);
+    return {kernel, shown, first, sharp};
+}"""
+
+FLY = """async ([keys, frames]) => {
+    const canvas = document.querySelector(".fnb-town-canvas");
+    const press = (type) => {
+        for (const code of keys) canvas.dispatchEvent(new KeyboardEvent(type, {code, key: code, bubbles: true}));
+    };
+    const frame = () => new Promise(requestAnimationFrame);
+    canvas.focus();
+    press("keydown");
+    const took = [];
+    const coarse = [];
+    let last = await frame();
+    for (let k = 0; k < frames; k++) {
+        const now = await frame();
+        took.push(now - last);
+        coarse.push(Number(canvas.dataset.coarse));
+        last = now;
+    }
+    press("keyup");
+    return {took: took.slice(frames >> 1), coarse: coarse.slice(frames >> 1)};
+}"""
+
+
+def fly(page: Any, keys: list[str], frames: int = 60) -> tuple[float, float, float]:
+    """Median and 95th percentile of the milliseconds of a frame, and how coarse they were."""
+    found = page.evaluate(FLY, [keys, frames])
+    took = sorted(found["took"])
+    return statistics.median(took), took[int(0.95 * len(took))], statistics.median(found["coarse"])
+
+
+def main(buildings: int = 20_000) -> None:
+    """Print the tables."""
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        serve(Path(folder), "lab") as (address, token),
+        browse() as chromium,
+        chromium.new_page(viewport={"width": 1400, "height": 1200}) as page,
+    ):
+        lab = Notebook(page, address, token, Path(folder), "lab")
+        lab.open("0")
+        print(f"{'cell':24} {'kernel':>7} {'first':>7} {'sharp':>7}")
+        for name, before in (("fresh kernel", MADE), ("imported anew", ANEW), ("once more", "0")):
+            lab.run(before.format(buildings=buildings))
+            took = page.evaluate(RUN, SHOWN.format(view="distance"))
+            print(
+                f"{name:24} {took['kernel']:7.0f} {took['first']:7.0f} {took['sharp']:7.0f}", flush=True
+            )
+        print(f"{'in motion':24} {'frame':>7} {'p95':>7} {'coarse':>7}")
+        for view in ("distance", "street", "close-up"):
+            for keys in (["KeyW"], ["ArrowRight"]):
+                page.evaluate(RUN, SHOWN.format(view=view))
+                frame, late, coarse = fly(page, keys)
+                print(f"{view + ', ' + keys[0]:24} {frame:7.0f} {late:7.0f} {coarse:7.1f}", flush=True)
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
