@@ -30,6 +30,8 @@ class Looks:
         How far occlusion looks, metres.
     relief
         Whether tiles that have heights are seen with them (docs/texture.md, "Relief").
+    near
+        Half the side of the fine map of shadows, metres; 0: as the height of the camera asks for.
     """
 
     shadow: bool = True
@@ -38,6 +40,7 @@ class Looks:
     haze: float = 2600.0
     reach: float = 2.2
     relief: bool = True
+    near: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +63,10 @@ class Frame:
         """Values of all shaders; matrices (4, 4) among them, one for each way to look at the mesh."""
         frustum, looks = self.frustum, self.looks
         left, bottom, right, top = frustum.window
-        sun = sunlight(self.daytime.towards, frustum, self.scene.box)
+        scene = self.scene
+        sun = sunlight(
+            self.daytime.towards, frustum, scene.box if scene.sunny is None else scene.sunny, looks.near
+        )
         shades = (float(self.runs("shadow")), float(self.runs("occlusion")))
         return {
             **self.daytime.uniforms(),

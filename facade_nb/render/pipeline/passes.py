@@ -7,12 +7,12 @@ browser, knows no pass by name. `arranged` checks that each reads only what an e
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Any, Literal
 
 from ...design.errors import nearest
 
-__all__ = ["BUFFERS", "PASSES", "Buffer", "Pass", "arranged", "without"]
+__all__ = ["BUFFERS", "PASSES", "THROUGH", "Buffer", "Pass", "arranged", "seen_through", "without"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +69,10 @@ class Pass:
         Whether a triangle is drawn from behind, too: shadows of a mesh that is open are whole all the same.
     defines
         Given to the shader.
+    under
+        Whether it adds its outputs under what there is, where that is transparent, in place of overwriting it.
+    after
+        It runs only if this pass, which draws the mesh, has drawn something; empty: always.
     when
         It runs only where this is true of the frame: ``sun``, ``shadow``, ``occlusion``, ``smooth``; empty: always.
     options
@@ -86,6 +90,8 @@ class Pass:
     draws: Literal["mesh", "screen"] = "screen"
     through: str = ""
     both: bool = False
+    under: bool = False
+    after: str = ""
     defines: tuple[str, ...] = ()
     when: str = ""
     options: tuple[str, ...] = ()
@@ -168,3 +174,51 @@ def without(names: Iterable[str], passes: Sequence[Pass] = PASSES) -> tuple[Pass
     for name in left - set(known):
         raise ValueError(f"there is no pass {name!r}{nearest(name, known)}")
     return arranged([own for own in passes if own.name not in left])
+
+
+def seen_through(
+    times: int, passes: Sequence[Pass] = PASSES, buffers: Sequence[Buffer] = BUFFERS
+) -> tuple[tuple[Pass, ...], tuple[Buffer, ...]]:
+    """Passes, and their buffers, that show what stands behind what is transparent, so many times in a row.
+
+    G-buffer, grammar and light run again for what lies further back. They write images of their own, and light goes
+    under what there is.
+    """
+    named = {own.name: own for own in passes}
+    again = [named[name] for name in ("G-buffer", "grammar")]
+    moved = {name: f"behind_{name}" for own in again for name in own.writes}
+
+    def behind(own: Pass, number: int, **changes: Any) -> Pass:
+        names = {*own.reads, *own.writes} & set(moved)
+        defines = (*own.defines, "BEHIND", *(f"{name} {moved[name]}" for name in sorted(names)))
+        reads, writes = (tuple(moved.get(name, name) for name in held) for held in (own.reads, own.writes))
+        return replace(
+            own, name=f"{own.name} behind {number}", defines=defines, reads=reads, writes=writes, **changes
+        )
+
+    more: list[Pass] = []
+    before = ""
+    for number in range(1, times + 1):
+        facing, renamed = ("facing", ()) if number == 1 else (moved["facing"], (f"facing {moved['facing']}",))
+        more.append(
+            Pass(f"see through {number}", "passed.frag", ("light", facing), ("passed",),
+                 "Notes up to where a pixel is seen through.", defines=renamed, after=before)
+        )  # fmt: skip
+        mesh = behind(again[0], number, after=before)
+        more.append(replace(mesh, reads=(*mesh.reads, "passed")))
+        more.append(behind(again[1], number, after=mesh.name))
+        more.append(behind(named["light"], number, after=mesh.name, under=True))
+        before = mesh.name
+    found: list[Pass] = []
+    for own in passes:
+        clear = own.name == "air"
+        found.append(replace(own, defines=(*own.defines, "THROUGH")) if clear else own)
+        if own.name == "light":
+            found += more
+    extra = [replace(own, name=moved[own.name]) for own in buffers if own.name in moved]
+    through = Buffer("passed", 1, "f4", "Up to where a pixel is seen through, metres.")
+    return arranged(found, (*buffers, through, *extra)), (*buffers, through, *extra)
+
+
+THROUGH = 3
+"""How many façades, one behind the other, are looked through where they are transparent."""

@@ -63,6 +63,7 @@ class Renderer:
         self._tiles: bool | None = None  # none yet, or whether heights are among them
         self._held: dict[str, Any] = {}
         self._maps: dict[str, bytes] = {}
+        self._empty: set[str] = set()  # passes that others come after, and that have drawn nothing
         with painter.entered() as context:
             self._context = context
             self._load()
@@ -76,6 +77,9 @@ class Renderer:
         self._vertices = self._keep(context.buffer(self.scene.vertices.tobytes() or bytes(VERTEX.itemsize)))
         self._indices = self._keep(context.buffer(self.scene.indices.tobytes() or bytes(12)))
         self._hold(grammar_upload(question, wide="llvmpipe" in self.painter.renderer))
+        for upload in self.scene.uploads:
+            self._hold(upload)
+        self._asked = {own.after for own in self.passes if own.after}
         for own in self.passes:
             if not own.options:
                 self._make((own.name,), own)
@@ -103,13 +107,9 @@ class Renderer:
         context, question = self._context, self.scene.question
         frames, seeds = map(room, question.stacks)
         bits = question.texture.dtype.itemsize * 8
-        defines = (*own.defines, *(name.upper() for name in key[1:]))
-        program = self._keep(
-            context.program(
-                vertex_shader=shader(own.vertex),
-                fragment_shader=shader(own.fragment, frames=frames, seeds=seeds, bits=bits, defines=defines),
-            )
-        )
+        defines = (*own.defines, *self.scene.defines, *(name.upper() for name in key[1:]))
+        fragment = shader(own.fragment, frames=frames, seeds=seeds, bits=bits, defines=defines)
+        program = self.painter.program(shader(own.vertex), fragment)
         self._programs[key] = program
         if own.draws == "mesh":
             content = _content(program)
@@ -154,8 +154,10 @@ class Renderer:
             self._hold_tiles(frame.looks.relief)
             uniforms = frame.uniforms()
             written: set[str] = set()
+            self._empty.clear()
             for own in self.passes:
-                if not frame.runs(own.when):
+                if not frame.runs(own.when) or own.after in self._empty:
+                    self._empty.add(own.name)
                     continue
                 begin = time.perf_counter()
                 if not self._unchanged(own, uniforms):
@@ -202,9 +204,21 @@ class Renderer:
             context.front_face, context.cull_face = "ccw", "back"
             for first, count in visible(self.scene, uniforms[own.through]):
                 mesh.render(context.TRIANGLES, vertices=count, first=first)
+            if own.name in self._asked and not self._drew(own):
+                self._empty.add(own.name)
             context.disable(context.DEPTH_TEST | context.CULL_FACE)
         else:
+            if own.under:
+                context.enable(context.BLEND)
+                context.blend_func = context.ONE_MINUS_DST_ALPHA, context.ONE
             mesh.render(context.TRIANGLES, vertices=3)
+            context.disable(context.BLEND)
+
+    def _drew(self, own: Pass) -> bool:
+        """Whether a pass that draws the mesh has drawn something: its depths tell."""
+        return any(
+            bool((self._read(name) < 1).any()) for name in own.writes if self.buffers[name].kind == "depth"
+        )
 
     def _make_room(self, pixels: tuple[int, int]) -> None:
         """Images of the picture's size, kept until another is asked for."""
@@ -219,7 +233,10 @@ class Renderer:
             self._sized.callback(made.release)
             return made
 
+        used = {name for own_pass in self.passes for name in (*own_pass.reads, *own_pass.writes)}
         for name, own in self.buffers.items():
+            if name not in used:
+                continue
             size = own.size(pixels)
             if own.kind == "depth":
                 image = context.depth_texture(size)

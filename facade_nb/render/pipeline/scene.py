@@ -9,9 +9,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..texture import Grammar
 from ..texture.evaluating import Question
 from ..texture.facades import Facade
+from ..texture.grammar import Grammar
+from ..texture.joining import joined
+from ..texture.noise import Seed
+from ..texture.uploads import Upload, seeds_upload
 from .vertices import VERTEX
 
 __all__ = ["CHUNK", "Scene"]
@@ -36,12 +39,18 @@ class Scene:
         Whose rules `start` names.
     chunks
         (c,) `CHUNK`: parts that are drawn, or passed over, as a whole. None: all is one.
+    seeds
+        Where seeds are any numbers: each once. `seed` of a vertex is then the place of its own, and 0.
+    sunny
+        Least and greatest coordinates (2, 3) of what is in the maps of shadows. None: all of it.
     """
 
     vertices: np.ndarray
     indices: NDArray[np.uint32]
     grammar: Grammar
     given_chunks: np.ndarray | None = field(default=None)
+    seeds: tuple[Seed, ...] = ()
+    sunny: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         if self.vertices.dtype != VERTEX:
@@ -71,6 +80,16 @@ class Scene:
             return np.zeros((2, 3))
         return np.stack([self.chunks["low"].min(axis=0), self.chunks["high"].max(axis=0)]).astype(np.float64)
 
+    @property
+    def defines(self) -> tuple[str, ...]:
+        """What shaders are told of it."""
+        return ("SEEDS",) if self.seeds else ()
+
+    @property
+    def uploads(self) -> tuple[Upload, ...]:
+        """The textures of its own, beside the grammar and its tiles."""
+        return (seeds_upload(self.seeds),) if self.seeds else ()
+
     @cached_property
     def question(self) -> Question:
         """What the evaluator is given of the grammar."""
@@ -97,18 +116,14 @@ class Scene:
 
     @classmethod
     def of_facades(cls, facades: Sequence[Facade]) -> Scene:
-        """Rectangles in space that share a grammar.
-
-        Raises
-        ------
-        ValueError
-            For none, for grammars that differ, and for a seed that a vertex cannot hold (see `VERTEX`).
-        """
+        """Rectangles in space, each with its grammar. Raises `ValueError` for none."""
         if not facades:
             raise ValueError("expected at least one façade")
-        grammar = facades[0].grammar
-        if any(own.grammar is not grammar for own in facades):
-            raise ValueError("facades: expected one grammar for all of them")
+        grammars = tuple(dict.fromkeys(own.grammar for own in facades))
+        grammar, firsts = joined(*grammars)
+        first_of = dict(zip(grammars, firsts, strict=True))
+        held = all(_held(own.seed) for own in facades)
+        seeds = () if held else tuple(dict.fromkeys(Seed.of(own.seed) for own in facades))
         vertices = np.zeros((len(facades), 4), VERTEX)
         for k, own in enumerate(facades):
             (right, up, out), (width, height) = own.axes, own.size
@@ -118,18 +133,16 @@ class Scene:
                 np.array(own.origin, np.float32) + spots[:, :1] * right + spots[:, 1:] * up
             )
             vertices[k]["size"] = own.size
-            vertices[k]["start"] = (
-                grammar.question(own.size, own.seed, own.start).records[grammar.index(own.start)].place
-            )
-            vertices[k]["seed"] = _seed(own.seed)
+            start = first_of[own.grammar] + own.grammar.index(own.start)
+            vertices[k]["start"] = grammar.encoding.positions[start]
+            vertices[k]["seed"] = (seeds.index(Seed.of(own.seed)), 0) if seeds else own.seed
             vertices[k]["normal"], vertices[k]["tangent"] = out, right
         corners = (
             np.array([0, 1, 2, 0, 2, 3], np.uint32) + 4 * np.arange(len(facades), dtype=np.uint32)[:, None]
         )
-        return cls(vertices.reshape(-1), corners.reshape(-1), grammar)
+        return cls(vertices.reshape(-1), corners.reshape(-1), grammar, seeds=seeds)
 
 
-def _seed(seed: tuple[float, float]) -> tuple[float, float]:
-    if any(not 0 <= value < 16384 or value * 64 % 1 for value in seed):
-        raise ValueError(f"seed: expected whole multiples of 1/64 from 0 to below 16384; found {seed}")
-    return seed
+def _held(seed: tuple[float, float]) -> bool:
+    """Whether a vertex holds a seed as it is (see `VERTEX`)."""
+    return all(0 <= value < 16384 and value * 64 % 1 == 0 for value in seed)

@@ -40,8 +40,13 @@ class Sunlight:
     texels: tuple[float, float]
 
 
-def sunlight(towards: tuple[float, float, float], frustum: Frustum, box: NDArray[np.float64]) -> Sunlight:
-    """The views for a direction towards the sun, a camera, and a scene's box (2, 3)."""
+def sunlight(
+    towards: tuple[float, float, float], frustum: Frustum, box: NDArray[np.float64], near: float = 0.0
+) -> Sunlight:
+    """The views for a direction towards the sun, a camera, and a scene's box (2, 3).
+
+    `near`: half the side of the fine one, metres; 0: as the height of the camera asks for.
+    """
     ahead = -np.array(towards, np.float64)
     right = np.array([-ahead[2], 0.0, ahead[0]]) / max(hypot(ahead[0], ahead[2]), 1e-9)
     up = np.cross(right, ahead)
@@ -49,7 +54,7 @@ def sunlight(towards: tuple[float, float, float], frustum: Frustum, box: NDArray
     low, high = box
     middle = (low + high) / 2
     whole = float(np.sqrt(((high - low) ** 2).sum())) / 2 + 1.0
-    half = min(_NEAR + _RISE * max(float(frustum.eye[1]), 0.0), _MOST, whole)
+    half = min(near or _NEAR + _RISE * max(float(frustum.eye[1]), 0.0), _MOST, whole)
     level = frustum.ahead * (1.0, 0.0, 1.0)
     spot = frustum.eye + level * (0.7 * half)
     spot[1] = 0.0

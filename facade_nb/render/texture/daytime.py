@@ -25,13 +25,12 @@ from numpy.typing import NDArray
 from ..daylight import floats
 from ..surfaces import linear
 
-__all__ = ["STREET_LAMP", "Daytime", "light"]
+__all__ = ["Daytime", "light"]
 
 Floats = NDArray[np.float32]
 Colour = tuple[float, float, float]
 
-STREET_LAMP: Colour = (1.0, 0.77, 0.52)
-"""The colour of street lamps, linear."""
+_LANTERN: Colour = (1.0, 0.77, 0.52)  # the colour of street lamps, linear
 
 _DAWN, _DUSK = 5.5, 20.5
 _STEEPEST = 54.0
@@ -199,7 +198,7 @@ def _light(
         + sky[:, None] * floats(daytime.sky)
         + ((0.5 - 0.5 * up) + 0.35 * low)[:, None] * floats(daytime.ground)
         + (daytime.lamps * _STREET * np.exp(-np.maximum(heights - 2.5, 0) / 4.5))[:, None]
-        * floats(STREET_LAMP)
+        * floats(_LANTERN)
     )
     lamp = np.clip(specular[:, :3] - outside[:, None], 0, 1) * np.float32(daytime.lamps * _LAMP)
     albedo = linear(np.clip(color[:, :3], 0, 1))

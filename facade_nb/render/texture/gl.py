@@ -51,7 +51,7 @@ class GlPainter:
         self.name, self._missing, self._make, self._install = name, missing, make, install
         self._lock = threading.RLock()
         self._atlases: dict[int, tuple[Atlas, dict[str, Any]]] = {}
-        self._programs: dict[tuple[str, int, int, int, tuple[str, ...]], Any] = {}
+        self._programs: dict[tuple[str, str], Any] = {}
 
     @property
     def available(self) -> bool:
@@ -185,12 +185,15 @@ class GlPainter:
     def _program(self, name: str, question: Question, defines: tuple[str, ...]) -> Any:
         frames, seeds = map(room, question.stacks)
         bits = question.texture.dtype.itemsize * 8
-        key = (name, frames, seeds, bits, defines)
+        return self.program(
+            shader("whole.vert"), shader(name, frames=frames, seeds=seeds, bits=bits, defines=defines)
+        )
+
+    def program(self, vertex: str, fragment: str) -> Any:
+        """The program of two sources, kept as long as the process. To be asked for within `entered`."""
+        key = (vertex, fragment)
         if key not in self._programs:
-            fragment = shader(name, frames=frames, seeds=seeds, bits=bits, defines=defines)
-            self._programs[key] = self._context.program(
-                vertex_shader=shader("whole.vert"), fragment_shader=fragment
-            )
+            self._programs[key] = self._context.program(vertex_shader=vertex, fragment_shader=fragment)
         return self._programs[key]
 
     @cached_property

@@ -30,7 +30,7 @@ from .program import Rule
 if TYPE_CHECKING:
     from .steps import Step
 
-__all__ = ["Grammar"]
+__all__ = ["Grammar", "shipped"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,7 @@ class Grammar:
             (_offset(finding, compiled.places), finding.message) for finding in check_rules(compiled.rules)
         ]
         if compiled.tiles:
-            found += check_tiles(compiled.tiles, tiles if tiles is not None else _shipped())
+            found += check_tiles(compiled.tiles, tiles if tiles is not None else shipped())
         faults = {(offset, fault.message): fault for offset, fault in compiled.faults}
         lines = Lines(text)
         for offset, message in found:
@@ -245,10 +245,11 @@ class Grammar:
 
     def _packed(self, relief: bool) -> Atlas:
         names = self.encoding.tiles
-        return pack((self.tiles if self.tiles is not None else _shipped()) if names else None, names, relief)
+        return pack((self.tiles if self.tiles is not None else shipped()) if names else None, names, relief)
 
 
-def _shipped() -> Tiles:
+def shipped() -> Tiles:
+    """The tiles that ship."""
     from ..tiles import TileSet
 
     return TileSet.builtin()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,13 +11,14 @@ from numpy.typing import NDArray
 
 from .atlas import Atlas
 from .evaluating import Question
-from .noise import noise_texture
+from .noise import Seed, noise_texture
 from .view import Sight
 
 __all__ = [
     "Upload",
     "grammar_upload",
     "noise_upload",
+    "seeds_upload",
     "sight_uniforms",
     "tile_uploads",
     "uniforms",
@@ -76,6 +78,15 @@ def tile_uploads(atlas: Atlas) -> tuple[Upload, ...]:
         _upload("atlas", atlas.pixels, 4, "f1"),
         _upload("tile_table", table, 4, "f4"),
     )
+
+
+def seeds_upload(seeds: Sequence[Seed]) -> Upload:
+    """Seeds of façades, a row for each: upper and lower 16 bits of its whole steps for x and y; what is left."""
+    table = np.zeros((len(seeds), 2, 4), np.float32)
+    for k, own in enumerate(seeds):
+        (x, y) = (value % 2**32 for value in own.whole)
+        table[k] = (x >> 16, x & 0xFFFF, y >> 16, y & 0xFFFF), (*own.rest, 0, 0)
+    return _upload("seeds", table, 4, "f4")
 
 
 def _upload(name: str, array: NDArray[Any], channels: int, kind: str) -> Upload:

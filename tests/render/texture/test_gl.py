@@ -22,7 +22,7 @@ from facade_nb.render import Grammar
 from facade_nb.render.backends import BackendError
 from facade_nb.render.texture import OPERATORS, Surface
 from facade_nb.render.texture.evaluating import Question, evaluate
-from facade_nb.render.texture.facades import Facade, meet
+from facade_nb.render.texture.facades import Facade
 from facade_nb.render.texture.gl import EGL, OSMESA, GlPainter
 from facade_nb.render.texture.painters import PAINTERS, choose_painter
 from facade_nb.render.texture.picture import render_texture
@@ -31,6 +31,7 @@ from facade_nb.render.texture.steps import Chosen, Painted, Passed, Step
 from facade_nb.render.texture.view import Looks, Sight
 from facade_nb.render.tiles import TileSet
 
+from ..rays import meet
 from .brute import answer
 from .figure_12 import FIGURE_12
 from .grammars import grammar_texts, rays

@@ -22,6 +22,12 @@ void main() {
   }
   float clear = haze > 0.0 ? exp(-pow(depth * length(ray) / haze, 1.4)) : 1.0;
   vec3 mist = mix(clear_sky(level(ray)), mist_along(ray), clear);  // furthest out it is the horizon itself
+#ifdef THROUGH
+  float whole = clamp(seen.a, 0.0, 1.0);  // the rest is sky, after all that is seen through
+  vec3 beyond = whole < 1.0 ? (1.0 - whole) * sky_along(ray) : vec3(0.0);
+  out_air = vec4(mix(whole * mist, seen.rgb, clear) + beyond, 1.0);
+#else
   vec3 shown = seen.rgb + (1.0 - clamp(seen.a, 0.0, 1.0)) * mist;
   out_air = vec4(mix(mist, shown, clear), 1.0);
+#endif
 }

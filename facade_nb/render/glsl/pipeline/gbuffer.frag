@@ -10,12 +10,19 @@ flat in vec4 mesh_rule;
 flat in vec3 mesh_normal;
 flat in vec3 mesh_tangent;
 
+#ifdef BEHIND
+uniform highp sampler2D passed;  // up to where all is seen through, metres
+#endif
+
 layout(location = 0) out highp vec4 out_place;
 layout(location = 1) out highp vec4 out_rule;
 layout(location = 2) out highp vec4 out_facing;
 layout(location = 3) out highp vec4 out_along;
 
 void main() {
+#ifdef BEHIND
+  if (dot(from_eye, forward) <= texelFetch(passed, ivec2(gl_FragCoord.xy), 0).r * 1.00002 + 1e-4) discard;
+#endif
   out_place = vec4(mesh_place, mesh_size);
   out_rule = mesh_rule;
   out_facing = vec4(mesh_normal, dot(from_eye, forward));  // 0: there is nothing

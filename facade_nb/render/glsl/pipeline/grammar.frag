@@ -1,6 +1,7 @@
 // The grammar at every visible pixel: what the G-buffer says is asked of it. Normals leave it in the world's axes.
 #include "evaluate.glsl"
 #include "view.glsl"
+#include "seed.glsl"
 
 uniform highp sampler2D place;
 uniform highp sampler2D rule;
@@ -14,7 +15,7 @@ uniform vec3 sun;
 
 layout(location = 0) out highp vec4 out_color;     // alpha: 2 and how much of the sun the relief takes, where it takes any
 layout(location = 1) out highp vec4 out_normal;    // of length 1 out of doors, 0 in a room; how near a boundary is, in pixels
-layout(location = 2) out highp vec4 out_specular;  // and how deep the pixel lies, behind walls too
+layout(location = 2) out highp vec4 out_specular;  // and how deep the pixel lies, behind walls too; 0 where there is nothing
 #ifdef PICK
 layout(location = 3) out highp ivec4 out_terminal;
 #endif
@@ -39,9 +40,9 @@ void main() {
 #ifdef RELIEF
   sunward = vec3(dot(towards, tangent), dot(towards, up), sun.r + sun.g > 0.0 ? dot(towards, face.xyz) : 0.0);
 #endif
+  Seed seed = seed_of(of_rule.zw);
   Surface found = evaluate(Question(
-    ivec2(of_rule.xy), on.zw, clamp(on.xy, vec2(0.0), on.zw), own, uvec2(of_rule.zw * 64.0 + 0.5), vec2(0.0),
-    face.w * spread, spread
+    ivec2(of_rule.xy), on.zw, clamp(on.xy, vec2(0.0), on.zw), own, seed.whole, seed.rest, face.w * spread, spread
   ));
   out_color = found.color;
 #ifdef RELIEF
@@ -49,7 +50,7 @@ void main() {
 #endif
   vec3 turned = 2.0 * (found.normal.xyz + (1.0 - found.normal.a) * vec3(0.5, 0.5, 1.0)) - 1.0;
   out_normal = vec4(turned.x * tangent + turned.y * up + turned.z * face.xyz, min(margin, 9.0));
-  out_specular = vec4(found.specular.rgb, face.w + deep / spread);
+  out_specular = vec4(found.specular.rgb, found.color.a > 0.0 ? face.w + deep / spread : 0.0);
 #ifdef COUNT_FETCHES
   out_color = vec4(float(fetches));  // in place of what is seen, for a bench
 #endif

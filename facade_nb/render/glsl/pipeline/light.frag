@@ -40,7 +40,12 @@ void main() {
   vec4 own = texelFetch(normal, at, 0);
   float sees = shades.x > 0.0 && dot(face.xyz, towards) > 0.0 ? sunlit(point, face.xyz) : 1.0;
   vec4 shine = texelFetch(specular, at, 0);
+#ifdef BEHIND
+  float around = 1.0;  // occlusion is that of what stands in front
+#else
   float around = shades.y > 0.0 ? open_at(at, shine.a) : 1.0;
+  if (shine.a > 1.001 * face.w + 0.05) around = mix(1.0, around, 0.6);  // in a room: the pane before it mirrors the sky
+#endif
   vec4 tint = texelFetch(color, at, 0);
   if (tint.a > 1.5) {  // relief stands between
     sees *= 3.0 - tint.a;
@@ -49,5 +54,5 @@ void main() {
   vec3 lit = light(
     tint, vec4(0.5 * own.xyz + 0.5, 1.0), shine, ray, vec2(sees, around), point.y
   );
-  out_light = vec4(lit, tint.a);
+  out_light = vec4(lit, tint.a > 0.999 ? 1.0 : tint.a);
 }
