@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from .atlas import Atlas
 from .evaluating import Question, Surface
 from .osmesa import OSMesaContext, find_osmesa
-from .shaders import room, shader
+from .shaders import room, rooms_for, shader
 from .shot import Shot, spread
 from .uploads import Upload, grammar_upload, sight_uniforms, tile_uploads, uniforms
 from .view import Looks, Sight
@@ -51,7 +51,7 @@ class GlPainter:
         self.name, self._missing, self._make, self._install = name, missing, make, install
         self._lock = threading.RLock()
         self._atlases: dict[int, tuple[Atlas, dict[str, Any]]] = {}
-        self._programs: dict[tuple[str, int, int, int, tuple[str, ...]], Any] = {}
+        self._programs: dict[tuple[str, int, int, int, int, tuple[str, ...]], Any] = {}
 
     @property
     def available(self) -> bool:
@@ -184,10 +184,11 @@ class GlPainter:
 
     def _program(self, name: str, question: Question, defines: tuple[str, ...]) -> Any:
         frames, seeds = map(room, question.stacks)
+        rooms = rooms_for(question.rooms)
         bits = question.texture.dtype.itemsize * 8
-        key = (name, frames, seeds, bits, defines)
+        key = (name, frames, seeds, rooms, bits, defines)
         if key not in self._programs:
-            fragment = shader(name, frames=frames, seeds=seeds, bits=bits, defines=defines)
+            fragment = shader(name, frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=defines)
             self._programs[key] = self._context.program(
                 vertex_shader=shader("whole.vert"), fragment_shader=fragment
             )
@@ -201,6 +202,7 @@ class GlPainter:
 def _texture(context: Any, upload: Upload) -> Any:
     texture = context.texture(upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1)
     texture.filter = (context.NEAREST, context.NEAREST)
+    texture.repeat_x = texture.repeat_y = False
     return texture
 
 
