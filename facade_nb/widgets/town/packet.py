@@ -17,7 +17,7 @@ from ...render.pipeline.sunlight import _FAR, _MOST, _NEAR, _RISE
 from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
 from ...render.texture.daytime import Daytime
-from ...render.texture.shaders import room, shader
+from ...render.texture.shaders import room, rooms_for, shader
 from ...render.texture.uploads import Upload, grammar_upload, tile_uploads
 from ...render.town.plan import KINDS, ROOFS
 from ..solver.packing import pack
@@ -154,12 +154,13 @@ def _shaders(model: TownModel) -> dict[str, str]:
     """The source of each shader of each pass, by the pass and which it is."""
     question = model.grammar.question((1.0, 1.0))
     frames, seeds = map(room, question.stacks)
+    rooms = rooms_for(question.rooms)
     bits = model.grammar.encoding.bits
     found = {}
     for own in PASSES:
         found[f"{own.name}:vertex"] = shader(own.vertex, "es")
         found[f"{own.name}:fragment"] = shader(
-            own.fragment, "es", frames=frames, seeds=seeds, bits=bits, defines=own.defines
+            own.fragment, "es", frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=own.defines
         )
     return found
 

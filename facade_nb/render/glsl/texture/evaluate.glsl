@@ -3,7 +3,8 @@
 // Pixels that are drawn together (in warps, or in the vectors of a software renderer) pay for every branch that one of
 // them takes, and in a software renderer for every branch and every round of a loop, taken or not. So loops lie inside
 // each other, those that are met most or are cheapest innermost: layers and seeds; splits and repeats; choices; terminals
-// and skips; rooms. They end at their foot, where nothing more is left to be passed through.
+// and skips; rooms. They end at their foot, where nothing more is left to be passed through. Each code belongs to one of
+// them, also one that there is not: a position that is none of a rule must not hold up a page for ever.
 #include "globals.glsl"
 #include "enter.glsl"
 #include "divide.glsl"
@@ -20,8 +21,9 @@ const int UNKNOWN = 100;  // added to the code of a Split that waits for the sum
 bool divides(int code) { return code >= OP_REPEATX && code <= OP_SPLITY; }
 bool chooses(int code) { return code == OP_RAND || code == OP_RANDUNI; }
 bool descends(int code) { return code == OP_RANDSTACK || code == OP_LAYER; }
+bool waits(int code) { return code == UNKNOWN + OP_SPLITX || code == UNKNOWN + OP_SPLITY; }
 bool ends(int code) {
-  return code >= OP_SKIP && code <= OP_MATALPHA && code != OP_INTRUSION || code == OP_NOTHING;
+  return !descends(code) && !divides(code) && !chooses(code) && !waits(code) && code != OP_INTRUSION && code != OP_END;
 }
 
 Surface evaluate(Question question) {
@@ -88,13 +90,13 @@ Surface evaluate(Question question) {
       do {
         if (ends(code)) {
           int skipped = code == OP_SKIP ? int(head.Skip_l) : 0;
-          if (code != OP_SKIP && code != OP_NOTHING) skipped = terminal(now, head);
+          if (code > OP_SKIP && code <= OP_MATALPHA) skipped = terminal(now, head);
           head = next_layer(now, skipped) ? enter(now, taken) : END;
           code = int(head.r);
         }
       } while (ends(code));
     } while (descends(code) || divides(code) || chooses(code) || ends(code));
-    if (code > UNKNOWN) {
+    if (waits(code)) {
       code -= UNKNOWN;
       filling = absolutes(now.rule, int(head.SplitX_n));
     }
