@@ -96,9 +96,7 @@ def main(buildings: int = 20_000) -> None:
         for name, before in (("fresh kernel", MADE), ("imported anew", ANEW), ("once more", "0")):
             lab.run(before.format(buildings=buildings))
             took = page.evaluate(RUN, SHOWN.format(view="distance"))
-            print(
-                f"{name:24} {took['kernel']:7.0f} {took['first']:7.0f} {took['sharp']:7.0f}", flush=True
-            )
+            print(f"{name:24} {took['kernel']:7.0f} {took['first']:7.0f} {took['sharp']:7.0f}", flush=True)
         print(f"{'in motion':24} {'frame':>7} {'p95':>7} {'coarse':>7}")
         for view in ("distance", "street", "close-up"):
             for keys in (["KeyW"], ["ArrowRight"]):

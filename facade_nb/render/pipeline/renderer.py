@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..texture.gl import GlPainter
-from ..texture.shaders import room, shader
+from ..texture.shaders import room, rooms_for, shader
 from ..texture.uploads import Upload, grammar_upload, tile_uploads
 from .frame import Frame, visible
 from .passes import BUFFERS, PASSES, Buffer, Pass, arranged
@@ -91,6 +91,7 @@ class Renderer:
         context = self._context
         image = context.texture(upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1)
         image.filter = (context.NEAREST, context.NEAREST)
+        image.repeat_x = image.repeat_y = False
         self._held[upload.name] = self._keep(image)
 
     def _hold_tiles(self, relief: bool) -> None:
@@ -106,9 +107,10 @@ class Renderer:
         """The program of a pass, with what it draws; the key is its name and its options."""
         context, question = self._context, self.scene.question
         frames, seeds = map(room, question.stacks)
+        rooms = rooms_for(question.rooms)
         bits = question.texture.dtype.itemsize * 8
         defines = (*own.defines, *self.scene.defines, *(name.upper() for name in key[1:]))
-        fragment = shader(own.fragment, frames=frames, seeds=seeds, bits=bits, defines=defines)
+        fragment = shader(own.fragment, frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=defines)
         program = self.painter.program(shader(own.vertex), fragment)
         self._programs[key] = program
         if own.draws == "mesh":

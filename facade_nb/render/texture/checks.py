@@ -57,12 +57,14 @@ def recurs(rules: Sequence[Rule]) -> bool:
     return bool(_circles(children(rules)))
 
 
-def stack_heights(rules: Sequence[Rule]) -> tuple[int, int]:
-    """How high the stack of layers and that of seeds can become, from whichever rule one begins."""
+def stack_heights(rules: Sequence[Rule]) -> tuple[int, int, int]:
+    """How high the stacks of layers, seeds and rooms can become, from whichever rule one begins."""
     below = children(rules)
     groups = _components(below)
-    frames, seeds = (max(_heights(rules, below, groups, pushes), default=0) for _, _, pushes in _STACKS[:2])
-    return frames, seeds
+    frames, seeds, rooms = (
+        max(_heights(rules, below, groups, pushes), default=0) for _, _, pushes in _STACKS
+    )
+    return frames, seeds, rooms
 
 
 def _heights(

@@ -86,6 +86,8 @@ class Question(NamedTuple):
         Whether a rule can come back to itself: only then steps are counted, for otherwise there are few enough.
     stacks
         How many Layer operators, and how many RandStack ones, can stand inside each other: room that the shader needs.
+    rooms
+        How many Intrusion operators can.
     relief
         Whether tiles with heights in the atlas are seen with their relief.
     sun
@@ -101,6 +103,7 @@ class Question(NamedTuple):
     atlas: Atlas
     recurs: bool
     stacks: tuple[int, int]
+    rooms: int
     relief: bool = False
     sun: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
@@ -553,7 +556,7 @@ class _Run:
             long = np.broadcast_to(large > _LONG * np.maximum(small, 1), len(batch))
             self.margin[batch.index[long]] = 0
         texels = np.maximum(np.maximum(small, large * _SHARE), 1)
-        return np.floor(np.float32(0.5) * np.log2(texels)).astype(np.int32)
+        return (np.frexp(texels)[1] - 1) >> 1  # half the exponent: how often its root can be halved
 
     # Steps ------------------------------------------------------------------------------------------------
 

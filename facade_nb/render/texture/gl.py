@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from .atlas import Atlas
 from .evaluating import Question, Surface
 from .osmesa import OSMesaContext, find_osmesa
-from .shaders import room, shader
+from .shaders import room, rooms_for, shader
 from .shot import Shot, spread
 from .uploads import Upload, grammar_upload, sight_uniforms, tile_uploads, uniforms
 from .view import Looks, Sight
@@ -184,10 +184,10 @@ class GlPainter:
 
     def _program(self, name: str, question: Question, defines: tuple[str, ...]) -> Any:
         frames, seeds = map(room, question.stacks)
+        rooms = rooms_for(question.rooms)
         bits = question.texture.dtype.itemsize * 8
-        return self.program(
-            shader("whole.vert"), shader(name, frames=frames, seeds=seeds, bits=bits, defines=defines)
-        )
+        fragment = shader(name, frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=defines)
+        return self.program(shader("whole.vert"), fragment)
 
     def program(self, vertex: str, fragment: str) -> Any:
         """The program of two sources, kept as long as the process. To be asked for within `entered`."""
@@ -204,6 +204,7 @@ class GlPainter:
 def _texture(context: Any, upload: Upload) -> Any:
     texture = context.texture(upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1)
     texture.filter = (context.NEAREST, context.NEAREST)
+    texture.repeat_x = texture.repeat_y = False
     return texture
 
 

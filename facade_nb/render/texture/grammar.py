@@ -206,7 +206,8 @@ class Grammar:
             Seed.of(place),
             self.atlas(tiles, relief),
             self._recurs,
-            self._stacks,
+            self._stacks[:2],
+            self._stacks[2],
             relief,
         )
 
@@ -228,7 +229,7 @@ class Grammar:
         return read_records(self.texture())
 
     @cached_property
-    def _stacks(self) -> tuple[int, int]:
+    def _stacks(self) -> tuple[int, int, int]:
         return stack_heights(self.rules)
 
     @cached_property

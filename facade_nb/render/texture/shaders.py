@@ -15,7 +15,7 @@ from .evaluating import BELOW_ONE, OPAQUE
 from .limits import GRAIN, MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS, half_step_of
 from .operators import OPERATORS, USAGES, Operator
 
-__all__ = ["PROFILES", "constants", "room", "shader"]
+__all__ = ["PROFILES", "constants", "room", "rooms_for", "shader"]
 
 PROFILES = {
     "core": "#version 330 core\n",
@@ -38,6 +38,7 @@ def shader(
     *,
     frames: int = MAX_FRAMES,
     seeds: int = MAX_SEEDS,
+    rooms: int = MAX_FACES,
     bits: int = 16,
     defines: tuple[str, ...] = (),
 ) -> str:
@@ -47,7 +48,7 @@ def shader(
     ----------
     profile
         A key of `PROFILES`.
-    frames, seeds
+    frames, seeds, rooms
         Room on the stacks; less is faster (see `room`).
     bits
         Of the floats of the grammar's texture, 16 or 32: how far a size may be from what was written.
@@ -61,7 +62,8 @@ def shader(
     if name.endswith(".frag"):
         head += "".join(f"#define {define}\n" for define in defines)
         head += (
-            f"const int MAX_FRAMES = {frames};\nconst int MAX_SEEDS = {seeds};\n{_floats(bits)}{constants()}"
+            f"const int MAX_FRAMES = {frames};\nconst int MAX_SEEDS = {seeds};\nconst int MAX_ROOMS = {rooms};\n"
+            f"{_floats(bits)}{constants()}"
         )
     return head + "".join(_included(name, set()))
 
@@ -84,6 +86,11 @@ def _included(name: str, seen: set[str]) -> Iterator[str]:
 def room(height: int) -> int:
     """Room for a stack of that height: one of a few sizes, so that few shaders serve all grammars."""
     return next(size for size in _HEIGHTS if size >= height)
+
+
+def rooms_for(height: int) -> int:
+    """Room for intrusions inside each other: one of two sizes."""
+    return 1 if height <= 1 else MAX_FACES
 
 
 def _floats(bits: int) -> str:

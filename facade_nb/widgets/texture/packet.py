@@ -12,7 +12,7 @@ from ...render import Grammar
 from ...render.texture.daytime import Daytime
 from ...render.texture.noise import noise_texture
 from ...render.texture.operators import Operator
-from ...render.texture.shaders import room, shader
+from ...render.texture.shaders import room, rooms_for, shader
 from ...render.texture.steps import Chosen, Divided, Entered, Layered, Painted, Passed, Stacked, Step
 from ..solver.packing import pack
 from .places import Plane
@@ -28,7 +28,12 @@ def scene_piece(grammar: Grammar) -> bytes:
     question = grammar.question((1.0, 1.0))
     frames, seeds = map(room, question.stacks)
     texture = grammar.texture()
-    needs = {"frames": frames, "seeds": seeds, "bits": grammar.encoding.bits}
+    needs = {
+        "frames": frames,
+        "seeds": seeds,
+        "rooms": rooms_for(question.rooms),
+        "bits": grammar.encoding.bits,
+    }
     return pack(
         {
             "width": texture.shape[1],

@@ -16,7 +16,7 @@ from ...render.pipeline.sunlight import MAPS
 from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
 from ...render.texture.daytime import Daytime
-from ...render.texture.shaders import room, shader
+from ...render.texture.shaders import room, rooms_for, shader
 from ...render.texture.uploads import grammar_upload, noise_upload
 from ...render.town.plan import KINDS, ROOFS
 from ..solver.packing import pack
@@ -150,12 +150,13 @@ def _shaders(model: TownModel) -> dict[str, str]:
     """The source of each shader of each pass, by the pass and which it is."""
     question = question_of(model.grammar)
     frames, seeds = map(room, question.stacks)
+    rooms = rooms_for(question.rooms)
     bits = model.grammar.encoding.bits
     found = {}
     for own in PASSES:
         found[f"{own.name}:vertex"] = shader(own.vertex, "es")
         found[f"{own.name}:fragment"] = shader(
-            own.fragment, "es", frames=frames, seeds=seeds, bits=bits, defines=own.defines
+            own.fragment, "es", frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=own.defines
         )
     return found
 

@@ -1,4 +1,5 @@
 // The air between: what is far takes on the colour of the horizon; where there is nothing, the sky.
+#include "pixel.glsl"
 #include "view.glsl"
 
 uniform vec3 towards;
@@ -12,10 +13,10 @@ uniform float haze;  // metres after which a third is left of what is seen; 0: n
 layout(location = 0) out highp vec4 out_air;
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec2 share = share_of(facing);
   vec3 ray = ray_at(gl_FragCoord.xy);
-  float depth = texelFetch(facing, at, 0).w;
-  vec4 seen = texelFetch(light, at, 0);
+  float depth = drawn(facing, share).w;
+  vec4 seen = drawn(light, share);
   if (depth <= 0.0) {
     out_air = vec4(sky_along(ray), 0.0);
     return;

@@ -1,5 +1,6 @@
 // The grammar at every visible pixel: what the G-buffer says is asked of it. Normals leave it in the world's axes.
 #include "evaluate.glsl"
+#include "pixel.glsl"
 #include "view.glsl"
 #include "seed.glsl"
 
@@ -21,8 +22,8 @@ layout(location = 3) out highp ivec4 out_terminal;
 #endif
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  vec4 face = texelFetch(facing, at, 0);
+  vec2 share = share_of(facing);
+  vec4 face = drawn(facing, share);
   out_color = vec4(0.0);
   out_normal = vec4(0.0, 0.0, 0.0, 9.0);
   out_specular = vec4(0.0);
@@ -30,9 +31,9 @@ void main() {
   out_terminal = ivec4(-1);
 #endif
   if (face.w <= 0.0) return;
-  vec4 on = texelFetch(place, at, 0);
-  vec4 of_rule = texelFetch(rule, at, 0);
-  vec3 tangent = texelFetch(along, at, 0).xyz;
+  vec4 on = drawn(place, share);
+  vec4 of_rule = drawn(rule, share);
+  vec3 tangent = drawn(along, share).xyz;
   vec3 up = cross(face.xyz, tangent);
   vec3 ray = ray_at(gl_FragCoord.xy);
   vec3 own = vec3(dot(ray, tangent), dot(ray, up), dot(ray, face.xyz));

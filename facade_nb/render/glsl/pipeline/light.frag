@@ -1,6 +1,7 @@
 // Light that comes from each pixel, linear: sun, sky and what the ground throws back, lamps (NumPy: daytime.py).
 #include "light.glsl"
 #include "sunlit.glsl"
+#include "pixel.glsl"
 #include "view.glsl"
 
 uniform highp sampler2D color;
@@ -14,16 +15,16 @@ layout(location = 0) out highp vec4 out_light;
 
 // Occlusion at a pixel, from those of four that are about as deep.
 float open_at(ivec2 at, float depth) {
-  ivec2 most = textureSize(softened, 0) - 1;
+  vec2 share = share_of(softened);
   ivec2 low = at / 2;
   float sum = 0.0;
   float weight = 0.0;
   for (int k = 0; k < 4; ++k) {
     ivec2 off = ivec2(k & 1, k >> 1);
-    vec2 near = texelFetch(softened, min(low + off, most), 0).rg;
-    vec2 share = mix(vec2(1.0), vec2(0.5), vec2(at & 1));  // a pixel between two takes half of each
-    share = mix(share, 1.0 - share, vec2(off));
-    float own = (share.x * share.y + 1e-3) * (abs(near.g - depth) < 0.02 * depth + 0.1 ? 1.0 : 0.01);
+    vec2 near = pixel(softened, share, low + off).rg;
+    vec2 part = mix(vec2(1.0), vec2(0.5), vec2(at & 1));  // a pixel between two takes half of each
+    part = mix(part, 1.0 - part, vec2(off));
+    float own = (part.x * part.y + 1e-3) * (abs(near.g - depth) < 0.02 * depth + 0.1 ? 1.0 : 0.01);
     sum += own * near.r;
     weight += own;
   }
@@ -31,22 +32,22 @@ float open_at(ivec2 at, float depth) {
 }
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  vec4 face = texelFetch(facing, at, 0);
+  vec2 share = share_of(facing);
+  vec4 face = drawn(facing, share);
   out_light = vec4(0.0);
   if (face.w <= 0.0) return;
   vec3 ray = ray_at(gl_FragCoord.xy);
   vec3 point = eye + face.w * ray;
-  vec4 own = texelFetch(normal, at, 0);
+  vec4 own = drawn(normal, share);
   float sees = shades.x > 0.0 && dot(face.xyz, towards) > 0.0 ? sunlit(point, face.xyz) : 1.0;
-  vec4 shine = texelFetch(specular, at, 0);
+  vec4 shine = drawn(specular, share);
 #ifdef BEHIND
   float around = 1.0;  // occlusion is that of what stands in front
 #else
-  float around = shades.y > 0.0 ? open_at(at, shine.a) : 1.0;
+  float around = shades.y > 0.0 ? open_at(ivec2(gl_FragCoord.xy), shine.a) : 1.0;
   if (shine.a > 1.001 * face.w + 0.05) around = mix(1.0, around, 0.6);  // in a room: the pane before it mirrors the sky
 #endif
-  vec4 tint = texelFetch(color, at, 0);
+  vec4 tint = drawn(color, share);
   if (tint.a > 1.5) {  // relief stands between
     sees *= 3.0 - tint.a;
     tint.a = 1.0;

@@ -1,5 +1,6 @@
 // Antialiasing along edges: of meshes, and where the grammar splits. A pixel there is mixed with what lies across the edge,
 // by how far along the edge its nearer end is; what is drawn on a tile stays sharp.
+#include "pixel.glsl"
 
 uniform highp sampler2D toned;
 uniform highp sampler2D facing;
@@ -9,26 +10,26 @@ layout(location = 0) out highp vec4 out_picture;
 
 const int FAR = 6;
 
-bool apart(ivec2 a, ivec2 b, ivec2 most) {
-  vec4 one = texelFetch(facing, clamp(a, ivec2(0), most), 0);
-  vec4 other = texelFetch(facing, clamp(b, ivec2(0), most), 0);
+bool apart(ivec2 a, ivec2 b, vec2 share) {
+  vec4 one = pixel(facing, share, a);
+  vec4 other = pixel(facing, share, b);
   if (dot(one.xyz, other.xyz) < 0.98 && one.w + other.w > 0.0) return true;
   if (abs(one.w - other.w) > 0.03 * min(one.w, other.w) + 0.02) return true;
-  return texelFetch(normal, clamp(a, ivec2(0), most), 0).w < 0.75;
+  return pixel(normal, share, a).w < 0.75;
 }
 
-float bright(ivec2 at, ivec2 most) { return texelFetch(toned, clamp(at, ivec2(0), most), 0).a; }
+float bright(ivec2 at, vec2 share) { return pixel(toned, share, at).a; }
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  ivec2 most = textureSize(toned, 0) - 1;
-  vec4 own = texelFetch(toned, at, 0);
+  vec2 share = share_of(toned);
+  vec4 own = drawn(toned, share);
   out_picture = vec4(own.rgb, 1.0);
   float here = own.a;
-  float left = bright(at + ivec2(-1, 0), most);
-  float right = bright(at + ivec2(1, 0), most);
-  float below = bright(at + ivec2(0, -1), most);
-  float above = bright(at + ivec2(0, 1), most);
+  float left = bright(at + ivec2(-1, 0), share);
+  float right = bright(at + ivec2(1, 0), share);
+  float below = bright(at + ivec2(0, -1), share);
+  float above = bright(at + ivec2(0, 1), share);
   float high = max(here, max(max(left, right), max(below, above)));
   float low = min(here, min(min(left, right), min(below, above)));
   if (high - low < max(0.04, 0.12 * high)) return;
@@ -41,7 +42,7 @@ void main() {
     over = -over;
     after = before;
   }
-  if (!apart(at, at + over, most)) return;
+  if (!apart(at, at + over, share)) return;
   float middle = 0.5 * (here + after);
   float step_ = 0.25 * abs(after - here);
   int ahead = 1;
@@ -49,19 +50,19 @@ void main() {
   float end_ahead = 0.0;
   float end_back = 0.0;
   for (; ahead <= FAR; ++ahead) {
-    end_ahead = 0.5 * (bright(at + ahead * along, most) + bright(at + ahead * along + over, most)) - middle;
+    end_ahead = 0.5 * (bright(at + ahead * along, share) + bright(at + ahead * along + over, share)) - middle;
     if (abs(end_ahead) >= step_) break;
   }
   for (; back <= FAR; ++back) {
-    end_back = 0.5 * (bright(at - back * along, most) + bright(at - back * along + over, most)) - middle;
+    end_back = 0.5 * (bright(at - back * along, share) + bright(at - back * along + over, share)) - middle;
     if (abs(end_back) >= step_) break;
   }
   float nearer = float(min(ahead, back));
   float ending = ahead < back ? end_ahead : end_back;
-  float share = (ending < 0.0) == (here - middle < 0.0) ? 0.0 : 0.5 - nearer / float(ahead + back);
+  float part = (ending < 0.0) == (here - middle < 0.0) ? 0.0 : 0.5 - nearer / float(ahead + back);
   float around = 0.25 * (left + right + below + above);
   float contrast = clamp(abs(around - here) / (high - low), 0.0, 1.0);
-  share = max(share, 0.5 * contrast * contrast);
-  vec4 other = texelFetch(toned, clamp(at + over, ivec2(0), most), 0);
-  out_picture = vec4(mix(own.rgb, other.rgb, share), 1.0);
+  part = max(part, 0.5 * contrast * contrast);
+  vec4 other = pixel(toned, share, at + over);
+  out_picture = vec4(mix(own.rgb, other.rgb, part), 1.0);
 }

@@ -1,4 +1,5 @@
 // How much of the sun a point sees: from two maps of depth, a fine one around the camera and one of all.
+#include "pixel.glsl"
 
 uniform highp sampler2D shadow_near;
 uniform highp sampler2D shadow_far;
@@ -8,15 +9,14 @@ uniform vec2 sun_texel;  // metres that a texel covers: near, far
 
 // Four comparisons, mixed by where the point lies between the texels. Above 1: the point is not in the map.
 float compared(highp sampler2D map, vec3 at) {
-  ivec2 size = textureSize(map, 0);
+  vec2 share = share_of(map);
   if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 2.0;
-  vec2 texel = at.xy * vec2(size) - 0.5;
+  vec2 texel = at.xy / share - 0.5;
   ivec2 low = ivec2(floor(texel));
   vec2 part = texel - floor(texel);
   vec4 sees;
   for (int k = 0; k < 4; ++k) {
-    ivec2 near = clamp(low + ivec2(k & 1, k >> 1), ivec2(0), size - 1);
-    sees[k] = texelFetch(map, near, 0).r >= at.z ? 1.0 : 0.0;
+    sees[k] = pixel(map, share, low + ivec2(k & 1, k >> 1)).r >= at.z ? 1.0 : 0.0;
   }
   return mix(mix(sees.x, sees.y, part.x), mix(sees.z, sees.w, part.x), part.y);
 }

@@ -4,10 +4,14 @@
 // ends with the scope. It goes through its parts from the first on and stops at the one that the pixel is in. Repeat
 // makes equal parts of about the size v. Sizes are those that may have been written, half a step more or less
 // (NumPy: dividing.py), and how far a part's extent may be from what was meant is its slack.
-#include "absolutes.glsl"
+//
+// Where the absolute parts may fill the scope, their exact sum is needed. That is seldom, and takes a loop of its own, which
+// a software renderer would pay for each time: `divide` then gives up, and is called again when `filling` has the sum.
+#include "half_step.glsl"
+#include "record.glsl"
 #include "near.glsl"
 
-void divide(inout State now, vec4 head, int code) {
+bool divide(inout State now, vec4 head, int code) {
   bool along_y = code == OP_SPLITY || code == OP_REPEATY;
   vec2 span = along_y ? now.scope.yw : now.scope.xz;
   float slack = along_y ? now.slack.y : now.slack.x;
@@ -18,6 +22,7 @@ void divide(inout State now, vec4 head, int code) {
   float end = 0.0;
   vec4 part = head;
   int count = 0;
+  bool unknown = false;
   if (code <= OP_REPEATY) {
     float held = head.RepeatX_v;
     float parts = max(ceil((size - slack - grain) / (held + half_step(held))), 1.0);
@@ -37,8 +42,8 @@ void divide(inout State now, vec4 head, int code) {
     if (absolute > 0.0) {
       taken = absolute * HALF_STEP + half_step(absolute);
       if (abs(size - absolute) <= 2.0 * (slack + grain + taken)) {
-        vec2 sum = absolutes(now.rule, count);
-        if (abs(size - sum.x) <= slack + grain + sum.y) total = sum.x;
+        unknown = filling.x < 0.0;
+        if (abs(size - filling.x) <= slack + grain + filling.y) total = filling.x;
       }
     }
     bool fits = total > 0.0;
@@ -74,6 +79,8 @@ void divide(inout State now, vec4 head, int code) {
     }
     slack = end == size ? min(own + abs(end - start - width), reach) : own;
   }
+  filling = vec2(-1.0, 0.0);
+  if (unknown) return false;
   if (count > 1) near(now, at - start, end - start);
   vec2 found = vec2(span.x + start, span.x + end);
   if (along_y) {
@@ -84,4 +91,5 @@ void divide(inout State now, vec4 head, int code) {
     now.slack.x = slack;
   }
   now.rule = ivec2(part.SplitX_R);
+  return true;
 }

@@ -2,21 +2,35 @@
 //
 // Pixels that are drawn together (in warps, or in the vectors of a software renderer) pay for every branch that one of
 // them takes, and in a software renderer for every branch and every round of a loop, taken or not. So loops lie inside
-// each other, the cheapest innermost: splits and repeats; layers, skips and seeds; choices; tiles and rooms. They end at
-// their foot, where nothing more is left to be passed through.
+// each other, those that are met most or are cheapest innermost: layers and seeds; splits and repeats; choices; terminals
+// and skips; rooms. They end at their foot, where nothing more is left to be passed through. Each code belongs to one of
+// them, also one that there is not: a position that is none of a rule must not hold up a page for ever.
 #include "globals.glsl"
 #include "enter.glsl"
 #include "divide.glsl"
-#include "pass.glsl"
+#include "absolutes.glsl"
+#include "layer.glsl"
+#include "stack.glsl"
 #include "choose.glsl"
 #include "terminal.glsl"
+#include "next_layer.glsl"
 #include "intrusion.glsl"
 
+const int UNKNOWN = 100;  // added to the code of a Split that waits for the sum of its absolute sizes
+
 bool divides(int code) { return code >= OP_REPEATX && code <= OP_SPLITY; }
-bool passes(int code) { return code >= OP_RANDSTACK && code <= OP_SKIP || code == OP_NOTHING; }
 bool chooses(int code) { return code == OP_RAND || code == OP_RANDUNI; }
+bool descends(int code) { return code == OP_RANDSTACK || code == OP_LAYER; }
+bool waits(int code) { return code == UNKNOWN + OP_SPLITX || code == UNKNOWN + OP_SPLITY; }
+bool ends(int code) {
+  return !descends(code) && !divides(code) && !chooses(code) && !waits(code) && code != OP_INTRUSION && code != OP_END;
+}
 
 Surface evaluate(Question question) {
+  of_grammar = 1.0 / vec2(textureSize(grammar, 0));
+  of_atlas = 1.0 / vec2(textureSize(atlas, 0));
+  of_tile_table = 1.0 / vec2(textureSize(tile_table, 0));
+  tile_levels = textureSize(tile_table, 0).x - 1;
   asked = question;
   surface = Surface(vec4(0.0), vec4(0.0), vec4(0.0), ivec2(-1));
   frame_count = 0;
@@ -40,6 +54,8 @@ Surface evaluate(Question question) {
   now.footprint = question.footprint;
   now.shift = 1;
   now.faces = 0;
+  now.rooms = 0;
+  filling = vec2(-1.0, 0.0);
   now.seeds = 0;
   int taken = 0;
   vec4 head = enter(now, taken);
@@ -48,28 +64,45 @@ Surface evaluate(Question question) {
     do {
       do {
         do {
+          do {
+            if (descends(code)) {
+              if (code == OP_LAYER) layer(now, head);
+              else if (code == OP_RANDSTACK) stack(now, head);
+              head = enter(now, taken);
+              code = int(head.r);
+            }
+          } while (descends(code));
           if (divides(code)) {
-            divide(now, head, code);
-            head = enter(now, taken);
-            code = int(head.r);
+            if (divide(now, head, code)) {
+              head = enter(now, taken);
+              code = int(head.r);
+            } else {
+              code += UNKNOWN;
+            }
           }
-        } while (divides(code));
-        if (passes(code)) {
-          head = pass(now, head, code) ? enter(now, taken) : END;
+        } while (descends(code) || divides(code));
+        if (chooses(code)) {
+          choose(now, head);
+          head = enter(now, taken);
           code = int(head.r);
         }
-      } while (divides(code) || passes(code));
-      if (chooses(code)) {
-        choose(now, head);
-        head = enter(now, taken);
-        code = int(head.r);
-      }
-    } while (divides(code) || passes(code) || chooses(code));
-    if (code != OP_END) {
-      bool more = true;
-      if (code == OP_INTRUSION) intrusion(now, head);
-      else more = next_layer(now, terminal(now, head));
-      head = more ? enter(now, taken) : END;
+      } while (descends(code) || divides(code) || chooses(code));
+      do {
+        if (ends(code)) {
+          int skipped = code == OP_SKIP ? int(head.Skip_l) : 0;
+          if (code > OP_SKIP && code <= OP_MATALPHA) skipped = terminal(now, head);
+          head = next_layer(now, skipped) ? enter(now, taken) : END;
+          code = int(head.r);
+        }
+      } while (ends(code));
+    } while (descends(code) || divides(code) || chooses(code) || ends(code));
+    if (waits(code)) {
+      code -= UNKNOWN;
+      filling = absolutes(now.rule, int(head.SplitX_n));
+    }
+    if (code == OP_INTRUSION) {
+      intrusion(now, head);
+      head = enter(now, taken);
       code = int(head.r);
     }
   } while (code != OP_END);

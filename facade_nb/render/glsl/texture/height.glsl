@@ -9,7 +9,7 @@ float height(vec4 box, vec2 uv, bvec2 wrap) {
   vec2 part = place - low;
   if (low.x < 0.0) low.x = box.z - 1.0;
   if (low.y < 0.0) low.y = box.w - 1.0;
-  vec4 four = fetch(atlas, ivec2(box.xy + low));
+  vec4 four = fetch(atlas, of_atlas, box.xy + low);
   vec2 rows = mix(four.xz, four.yw, part.x);
   return mix(rows.x, rows.y, part.y);
 }

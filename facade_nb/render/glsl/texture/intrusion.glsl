@@ -5,6 +5,9 @@
 #include "near.glsl"
 
 void intrusion(inout State now, vec4 head) {
+  for (int i = 0; i < MAX_ROOMS; ++i) {
+    if (i == now.rooms) outside[i] = Room(now.at, now.ray, now.footprint, now.faces);
+  }
   float depth = head.Intrusion_v;
   vec2 corner_ = now.scope.xy;
   vec2 extent = now.scope.zw - corner_;
@@ -60,4 +63,5 @@ void intrusion(inout State now, vec4 head) {
   now.scope = vec4(corner_, corner_ + extent);
   now.shift += face + 1;
   now.faces = now.faces * 8 + face + 1;
+  now.rooms += 1;
 }

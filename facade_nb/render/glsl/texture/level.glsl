@@ -5,7 +5,7 @@
 
 int level(State now, int tile, vec2 repeats) {
 #ifdef MIPS
-  vec2 texels = repeats * fetch(tile_table, ivec2(1, tile - 1)).zw * now.footprint;  // were it seen straight on
+  vec2 texels = repeats * fetch(tile_table, of_tile_table, vec2(1, tile - 1)).zw * now.footprint;  // were it seen straight on
   vec2 slope = clamp(now.ray.xy / max(abs(now.ray.z), 1e-30), -1000.0, 1000.0);
   vec2 own = texels * texels * (1.0 + slope * slope);
   float both = texels.x * texels.y * slope.x * slope.y;
@@ -17,7 +17,8 @@ int level(State now, int tile, vec2 repeats) {
 #ifdef EDGES
   if (large > 16.0 * max(small, 1.0)) margin = 0.0;
 #endif
-  return int(floor(0.5 * log2(max(max(small, large * 0.11111111), 1.0))));
+  float square = max(max(small, large * 0.11111111), 1.0);
+  return ((floatBitsToInt(square) >> 23) - 127) >> 1;  // half the exponent: how often it can be halved
 #else
   return 0;
 #endif

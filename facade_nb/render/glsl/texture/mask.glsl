@@ -2,6 +2,6 @@
 #include "fetch.glsl"
 
 float mask(int tile, vec4 value) {
-  bool opaque = fetch(tile_table, ivec2(0, tile - 1)).r > 0.5;
+  bool opaque = fetch(tile_table, of_tile_table, vec2(0, tile - 1)).r > 0.5;
   return opaque ? (value.r + value.g + value.b) * (1.0 / 3.0) : value.a;
 }

@@ -4,5 +4,5 @@
 
 float random_number(uvec2 corner) {
   uint place = mixed(mixed(corner.x) ^ corner.y);
-  return fetch(noise, ivec2(int((place >> 16u) & 255u), int(place >> 24u))).r;
+  return fetch(noise, vec2(1.0 / 256.0), vec2((place >> 16u) & 255u, place >> 24u)).r;
 }

@@ -2,5 +2,5 @@
 #include "fetch.glsl"
 
 vec4 record(ivec2 rule, int k) {
-  return fetch(grammar, ivec2(rule.x + k, rule.y));
+  return fetch(grammar, of_grammar, vec2(rule.x + k, rule.y));
 }

@@ -61,7 +61,7 @@ float shade_at(vec2 at, vec2 uv, vec2 scale, float deep, float depth, vec4 box, 
 }
 
 Struck strike(State now, int source, vec4 numbers) {
-  vec4 known = fetch(tile_table, ivec2(0, abs(source) - 1));  // opaque, tile of heights, depth, how far it stands out
+  vec4 known = fetch(tile_table, of_tile_table, vec2(0, abs(source) - 1));  // opaque, tile of heights, depth, how far it stands out
   int heights = int(known.g) / 8;
   int marks = int(known.g) & 7;
   float fade = 1.0;
@@ -87,8 +87,8 @@ Struck strike(State now, int source, vec4 numbers) {
     scale = shown / extent;
     uv = numbers.xy + clamp((now.at - now.scope.xy) / extent, vec2(0.0), vec2(1.0)) * shown;
   }
-  int size = min(level(now, heights, abs(scale)), textureSize(tile_table, 0).x - 2);
-  vec4 box = fetch(tile_table, ivec2(size + 1, heights - 1));
+  int size = min(level(now, heights, abs(scale)), tile_levels - 1);
+  vec4 box = fetch(tile_table, of_tile_table, vec2(size + 1, heights - 1));
   float depth = known.b * fade;
   vec2 way = slope_of(now.ray) * depth;
   float end = past ? within_scope(now.at, now.scope, way, wrap) : 1.0;

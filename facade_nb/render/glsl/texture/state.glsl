@@ -9,12 +9,25 @@ struct State {
   float footprint;  // metres that the pixel covers there, across the ray
   int shift;    // how often the seed is added to the scope's corner
   int faces;    // faces of intrusions, three bits each, the innermost lowest
+  int rooms;    // how many they are
   int seeds;    // how many corners are on the seed stack
 };
 
-// A Layer operator with layers still to come.
+// A Layer operator with layers still to come, as it found the pixel. Few numbers, for a software renderer moves them all
+// whenever one pixel of eight comes to a Layer: positions are packed, and what changes in rooms alone is kept apart.
 struct Frame {
-  State state;  // as the operator found it
-  int below;    // how many layers are still to come
-  vec2 next;    // position of the rule of the layer below, where its record has been read with that of the one above
+  int rule;     // row · 65536 + column
+  vec4 scope;
+  vec2 slack;
+  int shift;
+  int held;     // layers still to come · 128 + seeds · 8 + rooms
+  int next;     // position of the rule of the layer below, where its record has been read with that of the one above
+};
+
+// What an intrusion changes.
+struct Room {
+  vec2 at;
+  vec3 ray;
+  float footprint;
+  int faces;
 };

@@ -20,7 +20,14 @@ int terminal(State now, vec4 head) {
   if (source != 0 && !masks) hit = strike(now, source, numbers);
   now.at = hit.at;
 #endif
-  for (int k = 1; k <= sources; ++k) {
+  int first = 1;
+  if (source == 0) {  // a colour with a mask does not go around twice
+    shown = numbers;
+    alpha = shown.a;
+    source = int(head.MatAlpha_a1);
+    first = 2;
+  }
+  for (int k = first; k <= sources; ++k) {
     if (k == 2) numbers = record(now.rule, 2);
     vec4 found = value(now, source, numbers);
     bool whole = k == 1 && !masks;

@@ -1,7 +1,7 @@
 // A normal of a face of an intrusion, written as (n + 1) / 2, as the façade has it.
 
 vec3 turned(vec3 n, int faces) {
-  for (int i = 0; i < MAX_FACES && faces > 0; ++i) {
+  for (int i = 0; i < MAX_ROOMS && faces > 0; ++i) {
     int face = faces & 7;
     faces /= 8;
     if (face == 1) n = vec3(n.z, n.y, 1.0 - n.x);
