@@ -13,13 +13,17 @@ from .document import read, write
 from .errors import DesignError, Fault, Suggestion, listed, nearest, quoted
 from .model import Design
 from .names import nfc
+from .renaming import rename_counter, rename_group, rename_symbol
 from .text import clean_name
 
 __all__ = [
     "add_layer",
     "move_layer",
     "remove_layer",
+    "rename_counter",
+    "rename_group",
     "rename_pattern",
+    "rename_symbol",
     "take",
     "with_canvas",
     "with_counter",

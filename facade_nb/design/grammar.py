@@ -17,7 +17,7 @@ from .lookalikes import described, is_unseen, meant, sign_classes
 from .modes import MODES, SYNONYMS
 from .text import fault_at
 
-__all__ = ["read_tree", "refuse", "show"]
+__all__ = ["read_tree", "refuse", "show", "token_ends"]
 
 _HANGUL = "(?:[\u1100-\u115e\ua960-\ua97c][\u1161-\u11a7\ud7b0-\ud7c6]|[\uac00-\ud7a3])[\u11a8-\u11ff\ud7cb-\ud7fb]?"
 """A syllable, also where its letters are stored one by one."""
@@ -97,6 +97,11 @@ def read_tree(text: str) -> Tree[Token]:
     except UnexpectedInput as error:
         stopped = error
     raise _explain(text, stopped)
+
+
+def token_ends(text: str) -> dict[int, int]:
+    """Where each token of a text that can be read ends, by where it begins."""
+    return {token.start_pos or 0: token.end_pos or 0 for token in _parser().lex(text)}
 
 
 def refuse(text: str, offset: int, message: str) -> PatternError:

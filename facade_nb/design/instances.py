@@ -5,7 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Container
 
-__all__ = ["spell_instance", "split_instance"]
+__all__ = ["Named", "meanings", "spell_instance", "split_instance"]
+
+Named = tuple[str, int | None]
+"""A symbol or ``*``, and the number of an instance; None where all of them are meant."""
 
 _INSTANCE = re.compile(r"(.+)\[(-?[1-9][0-9]{0,8}|0)\]", re.DOTALL)
 
@@ -18,6 +21,17 @@ def split_instance(name: str, known: Container[str]) -> tuple[str, int | None]:
     """
     found = None if name in known else _INSTANCE.fullmatch(name)
     return (name, None) if found is None else (found[1], int(found[2]))
+
+
+def meanings(key: str, known: Container[str]) -> list[tuple[Named, Named]]:
+    """Every pair of sides that a key of shapes may mean, where these symbols are `known`.
+
+    Names may have blanks: where both halves of two cuts name something, the key means both pairs.
+    """
+    words = key.split(" ")
+    pairs = ((" ".join(words[:cut]), " ".join(words[cut:])) for cut in range(1, len(words)))
+    parted = ((split_instance(x, known), split_instance(y, known)) for x, y in pairs)
+    return [pair for pair in parted if all(name == "*" or name in known for name, _ in pair)]
 
 
 def spell_instance(symbol: str, number: int) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from hashlib import blake2b
 from itertools import accumulate
 from typing import Any
@@ -12,7 +12,7 @@ from ...design.instances import spell_instance, split_instance
 from ...design.model import Design, Layer, Shape, Variant
 from ..model.layout import AxisLayout, PlacedLetter
 
-__all__ = ["DEFAULT_SHAPE", "Instance", "Looks", "instances"]
+__all__ = ["DEFAULT_SHAPE", "Instance", "Looks", "Told", "instances"]
 
 DEFAULT_SHAPE = Shape("wall", "box", "card", 0.0, 0.2, True)
 """What a shape is where nothing is said: a plain box, as in the paper."""
@@ -21,6 +21,28 @@ _FIELDS = tuple(f.name for f in fields(Shape) if f.name != "variants")
 
 Instance = tuple[str, int, int]
 """A symbol, a solid letter's number from 1 among those of it in the layer's word, and how many they are."""
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What one key says of a cell.
+
+    Attributes
+    ----------
+    level
+        Who says it: ``design``, ``x`` or ``y`` (the layer's pattern of that axis), or ``layer``.
+    key
+        The key of shapes.
+    fields
+        The fields that it sets, those of the variant that this instance takes included.
+    varied
+        Those of them that the variant sets.
+    """
+
+    level: str
+    key: str
+    fields: Mapping[str, Any]
+    varied: frozenset[str] = frozenset()
 
 
 def instances(solved: AxisLayout, layer: Layer) -> Iterator[tuple[PlacedLetter, Instance]]:
@@ -44,14 +66,15 @@ class Looks:
     """
 
     def __init__(self, design: Design, layer: Layer) -> None:
-        own = (design.patterns[layer.along(axis).pattern].shapes for axis in ("x", "y"))
-        self._sources = [source for source in (design.shapes, *own, layer.shapes) if source]
+        x, y = (design.patterns[side.pattern].shapes for side in (layer.x, layer.y))
+        every = (("design", design.shapes), ("x", x), ("y", y), ("layer", layer.shapes))
+        self._sources = [(level, source) for level, source in every if source]
         self._choice = (design.seed, layer.name)
         known = {*design.symbols, *(s for p in design.patterns.values() for s in p.parsed.symbols)}
         # Numbers by which a symbol's instances are named, from the left or from below and from the other end.
         self._named: dict[str, set[int]] = {}
         varied = False
-        for key, shape in ((key, shape) for source in self._sources for key, shape in source.items()):
+        for key, shape in ((key, shape) for _, source in self._sources for key, shape in source.items()):
             varied = varied or shape.variants is not None
             for name in _halves(key):
                 symbol, number = split_instance(name, known)
@@ -64,10 +87,7 @@ class Looks:
 
     def sort(self, own: Instance) -> int:
         """A number for all instances of a symbol that no key tells apart."""
-        symbol, number, count = own
-        named: Collection[int] = self._named.get(symbol, ())
-        numbers = [n for n in (number - count - 1, number) if n in named]
-        names = ("*", symbol, *(spell_instance(symbol, n) for n in numbers))
+        names = self._names(own)
         found = self._sorts.setdefault((names, own if self._varied else None), len(self._members))
         if found == len(self._members):
             self._members.append((names, own))
@@ -80,17 +100,41 @@ class Looks:
             look = self._cells[x, y] = self._made(*self._members[x], *self._members[y])
         return look
 
+    def told(self, x: Instance, y: Instance) -> list[Told]:
+        """What every key says of a cell, the least exact first: each goes over those before it.
+
+        A number of 0 means no instance in particular: then no key of an instance applies, and no variant is chosen.
+        """
+        return list(self._told(self._names(x), x, self._names(y), y))
+
+    def _names(self, own: Instance) -> tuple[str, ...]:
+        """The names in keys by which an instance is meant, the least exact first."""
+        symbol, number, count = own
+        if not number:
+            return ("*", symbol)
+        named: Collection[int] = self._named.get(symbol, ())
+        numbers = [n for n in (number - count - 1, number) if n in named]
+        return ("*", symbol, *(spell_instance(symbol, n) for n in numbers))
+
     def _made(self, across: Sequence[str], x: Instance, up: Sequence[str], y: Instance) -> Shape:
-        keys = [f"{a} {b}" for a in across for b in up]  # the least exact first
         told: dict[str, Any] = {}
-        for source in self._sources:
+        for one in self._told(across, x, up, y):
+            told.update(one.fields)
+        return replace(DEFAULT_SHAPE, **told) if told else DEFAULT_SHAPE
+
+    def _told(self, across: Sequence[str], x: Instance, up: Sequence[str], y: Instance) -> Iterator[Told]:
+        keys = [f"{a} {b}" for a in across for b in up]  # the least exact first
+        for level, source in self._sources:
             for key in keys:
                 given = source.get(key)
-                if given is not None:
-                    told |= _set(given)
-                    if given.variants is not None:
-                        told |= _set(self._variant(given.variants, x, y).shape)
-        return replace(DEFAULT_SHAPE, **told) if told else DEFAULT_SHAPE
+                if given is None:
+                    continue
+                fields = _set(given)
+                if given.variants is None or not (x[1] and y[1]):
+                    yield Told(level, key, fields)
+                else:
+                    chosen = _set(self._variant(given.variants, x, y).shape)
+                    yield Told(level, key, {**fields, **chosen}, frozenset(chosen))
 
     def _variant(self, variants: Sequence[Variant], x: Instance, y: Instance) -> Variant:
         """The variant of an instance: by the design's seed, the layer, the symbols and their numbers alone."""

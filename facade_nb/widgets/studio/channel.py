@@ -53,7 +53,11 @@ class Channel(ModelWire):
         super().__init__(
             model,
             gallery=list(gallery.names()),
-            catalogue={"geometries": list(GEOMETRIES), "materials": list(MATERIALS)},
+            catalogue={
+                "geometries": list(GEOMETRIES),
+                "materials": list(MATERIALS),
+                "swatches": {name: material.fill for name, material in MATERIALS.items()},
+            },
         )
         self.publish()
         model.observe(self._on_version, "version")

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import replace
 from itertools import chain, count
 from string import ascii_uppercase
 from typing import Any
 
 from ... import gallery
-from ...design import Design, DesignError, Fault
+from ...design import Design, DesignError, Fault, Shape
 from ...design.edit import (
     add_layer,
     remove_layer,
+    rename_counter,
+    rename_group,
     rename_pattern,
+    rename_symbol,
     take,
     with_layer,
     with_pattern,
     with_symbol,
 )
-from ...design.text import spell
+from ...design.instances import meanings
+from ...design.model import AXES, Axis
+from ...design.text import clean_name
 from ..shared.bundled import Message
 from .fields import find_layer
 from .model import FacadeModel
@@ -63,7 +68,11 @@ def _redo(model: FacadeModel, _: Message) -> Reply:
 
 def _select(model: FacadeModel, message: Message) -> Reply:
     model.select(
-        message.get("shape"), layer=message.get("layer", ""), x=message.get("x", ""), y=message.get("y", "")
+        message.get("shape"),
+        layer=message.get("layer", ""),
+        x=message.get("x", ""),
+        y=message.get("y", ""),
+        more=message.get("more", ()),
     )
     return None
 
@@ -88,40 +97,127 @@ def _gallery(model: FacadeModel, message: Message) -> Reply:
     return None
 
 
-def _declare(model: FacadeModel, message: Message) -> Reply:
-    """Give symbols that a draft needs a size of one metre."""
-    design = model.design
-    for name in message["symbols"]:
-        design = with_symbol(design, name, size=1.0)
-    model.edit(design)
-    return None
-
-
 def _add(model: FacadeModel, message: Message) -> Reply:
-    """Add a symbol, a pattern or a layer under the first name that is free."""
+    """Add a symbol, a pattern or a layer under the first name that is free; the answer tells the name."""
+    kind = message["kind"]
     adders = {"symbol": _add_symbol, "pattern": _add_pattern, "layer": _add_layer}
-    model.edit(adders[message["kind"]](model.design))
-    return None
+    design, name = adders[kind](model.design)
+    model.edit(design)
+    if kind == "layer":
+        model.select(layer=name)
+    return {"kind": "added", "what": kind, "name": name}
 
 
-def _add_symbol(design: Design) -> Design:
-    return with_symbol(design, _free(ascii_uppercase, design.symbols, "A"), size=1.0)
+def _add_symbol(design: Design) -> tuple[Design, str]:
+    name = _free(ascii_uppercase, design.symbols, "A")
+    return with_symbol(design, name, size=1.0), name
 
 
-def _add_pattern(design: Design) -> Design:
-    sized = next((symbol.name for symbol in design.symbols.values() if symbol.size is not None), None)
-    text = "ε" if sized is None else spell(sized)
-    return with_pattern(design, _free((), design.patterns, "P"), text)
+def _add_pattern(design: Design) -> tuple[Design, str]:
+    """A pattern without letters."""
+    name = _free((), design.patterns, "P")
+    return with_pattern(design, name, "ε"), name
 
 
-def _add_layer(design: Design) -> Design:
-    if not design.patterns:
-        raise DesignError(Fault("layers", "expected a pattern for the new layer; there is none yet"))
+def _add_layer(design: Design) -> tuple[Design, str]:
+    """A layer of the newest patterns on top, which draws nothing until it has shapes."""
+    x, y = _newest(design)
+    for own in (x, y):
+        if own not in design.patterns:
+            design = with_pattern(design, own, "ε")
     top = layers_from_top(design)[:1]
     name = _free((), [layer.name for layer in design.layers], "layer ")
+    depth = {"depth": top[0].depth} if top else {}
+    shapes = {"* *": {"visible": False}}
+    return add_layer(design, name, x, y, shapes=shapes, **depth), name
+
+
+def _newest(design: Design) -> tuple[str, str]:
+    """Patterns for the two axes of a new layer: those that no layer uses yet, the newest first, else the top layer's.
+
+    Where there are none for an axis, the name is that of a new one.
+    """
+    used = {layer.along(axis).pattern for layer in design.layers for axis in AXES}
+    waiting = [name for name in design.patterns if name not in used][-2:]
+    top = layers_from_top(design)[:1]
+    if len(waiting) == 2:
+        first, second = waiting
+        swap = _leaning(design, first) == "y" or _leaning(design, second) == "x"
+        return (second, first) if swap else (first, second)
     if not top:
-        return add_layer(design, name, next(iter(design.patterns)), list(design.patterns)[-1])
-    return add_layer(design, name, top[0].x.pattern, top[0].y.pattern, depth=top[0].depth)
+        across, up = waiting[0] if waiting else "", ""
+        if across and _leaning(design, across) == "y":
+            across, up = "", across
+        across = across or _free((), [*design.patterns, up], "P")
+        return across, up or _free((), [*design.patterns, across], "P")
+    across, up = top[0].x.pattern, top[0].y.pattern
+    if not waiting:
+        return across, up
+    return (across, waiting[0]) if _leaning(design, waiting[0]) == "y" else (waiting[0], up)
+
+
+def _leaning(design: Design, name: str) -> Axis | None:
+    """The axis that a pattern is probably for: where its symbols stand already, else by the end of its name."""
+    own = set(design.patterns[name].parsed.symbols)
+    common = dict.fromkeys(AXES, 0)
+    for layer in design.layers:
+        for axis in AXES:
+            common[axis] += len(own & set(design.patterns[layer.along(axis).pattern].parsed.symbols))
+    if common["x"] != common["y"]:
+        return "x" if common["x"] > common["y"] else "y"
+    return next((axis for axis in AXES if len(name) > 1 and name.endswith(axis)), None)
+
+
+def _duplicate(model: FacadeModel, message: Message) -> Reply:
+    """Put a copy of a layer above it; the answer tells its name."""
+    design, layer = model.design, find_layer(model.design, message["name"])
+    name = _free((f"{layer.name} copy",), [own.name for own in design.layers], f"{layer.name} copy ")
+    order = list(design.layers)
+    order.insert(order.index(layer) + 1, replace(layer, name=name))
+    model.edit(replace(design, layers=tuple(order)))
+    return {"kind": "added", "what": "layer", "name": name}
+
+
+def _solo(model: FacadeModel, message: Message) -> Reply:
+    """Show a layer alone; where it is alone already, show all."""
+    design, name = model.design, find_layer(model.design, message["name"]).name
+    alone = [layer.name for layer in design.layers if layer.visible] == [name]
+    layers = tuple(replace(layer, visible=alone or layer.name == name) for layer in design.layers)
+    model.edit(replace(design, layers=layers))
+    return None
+
+
+def _sweep(model: FacadeModel, _: Message) -> Reply:
+    """Remove the symbols and the counters that no pattern writes, with the shapes that only they could have."""
+    design = model.design
+    parsed = [pattern.parsed for pattern in design.patterns.values()]
+    written = {symbol for own in parsed for symbol in own.symbols}
+    counted = {counter for own in parsed for counter in own.counters}
+    gone = set(design.symbols) - written
+    counters = {name: own for name, own in design.counters.items() if name in counted}
+    model.edit(replace(_without_symbols(design, gone), counters=counters))
+    return None
+
+
+def _without_symbols(design: Design, gone: Container[str]) -> Design:
+    """The design without symbols, and without keys of shapes that mean nothing else."""
+    written = {symbol for pattern in design.patterns.values() for symbol in pattern.parsed.symbols}
+    known = {*design.symbols, *written}
+
+    def kept(shapes: Mapping[str, Shape]) -> dict[str, Shape]:
+        return {
+            key: shape
+            for key, shape in shapes.items()
+            if any(x not in gone and y not in gone for (x, _), (y, _) in meanings(key, known))
+        }
+
+    return replace(
+        design,
+        symbols={name: symbol for name, symbol in design.symbols.items() if name not in gone},
+        shapes=kept(design.shapes),
+        patterns={name: replace(own, shapes=kept(own.shapes)) for name, own in design.patterns.items()},
+        layers=tuple(replace(layer, shapes=kept(layer.shapes)) for layer in design.layers),
+    )
 
 
 def _remove(model: FacadeModel, message: Message) -> Reply:
@@ -129,6 +225,8 @@ def _remove(model: FacadeModel, message: Message) -> Reply:
     kind, name = message["kind"], message["name"]
     if kind == "layer":
         model.edit(remove_layer(model.design, name))
+    elif kind == "symbol" and not any(name in own.parsed.symbols for own in model.design.patterns.values()):
+        model.edit(_without_symbols(model.design, {name}))
     else:
         document = model.design.to_dict()
         section = {"symbol": "symbols", "counter": "counters", "pattern": "patterns"}[kind]
@@ -151,13 +249,34 @@ def _move(model: FacadeModel, message: Message) -> Reply:
 
 
 def _rename(model: FacadeModel, message: Message) -> Reply:
-    """Rename a pattern or a layer, wherever it is named."""
-    name, to = message["name"], str(message["to"]).strip()
-    if message["kind"] == "pattern":
-        model.edit(rename_pattern(model.design, name, to))
+    """Rename a symbol, a counter, a pattern, a layer or a group, wherever it is named; what is picked stays picked."""
+    kind, name, to = message["kind"], message["name"], str(message["to"]).strip()
+    picked = model.selection
+    if kind == "layer":
+        renamed = with_layer(model.design, name, name=to)
+        if picked.layer == name:
+            model.selection = replace(picked, layer=renamed.layers[_index(model.design, name)].name)
     else:
-        model.edit(with_layer(model.design, name, name=to))
-    return None
+        renamed = _RENAMERS[kind](model.design, name, to)
+        if kind == "symbol":
+            to = clean_name(to)
+            x, y = (to if own == name else own for own in (picked.x, picked.y))
+            more = tuple((to if a == name else a, to if b == name else b) for a, b in picked.more)
+            model.selection = replace(picked, x=x, y=y, more=more)
+    model.edit(renamed)
+    return {"kind": "renamed", "what": kind, "name": name, "to": to}
+
+
+def _index(design: Design, name: str) -> int:
+    return [layer.name for layer in design.layers].index(name)
+
+
+_RENAMERS = {
+    "pattern": rename_pattern,
+    "symbol": rename_symbol,
+    "counter": rename_counter,
+    "group": rename_group,
+}
 
 
 def _free(candidates: Iterable[str], taken: Container[str], stem: str) -> str:
@@ -181,8 +300,10 @@ COMMANDS: dict[str, Callable[[FacadeModel, Message], Reply]] = {
     "save": _save,
     "open": _open,
     "gallery": _gallery,
-    "declare": _declare,
     "add": _add,
+    "duplicate": _duplicate,
+    "solo": _solo,
+    "sweep": _sweep,
     "remove": _remove,
     "move": _move,
     "rename": _rename,

@@ -1,7 +1,8 @@
 """What a field of the front end edits: from a path in the design and a typed value to a new design.
 
-A path names things by their names, not by positions: ``("layers", "columns", "x", "pattern")``. Everything here is
-pure; what cannot be read raises `DesignError` with a fault whose place is the field.
+A path names things by their names, not by positions: ``("layers", "columns", "x", "pattern")``. In place of a key of
+shapes it may have several, each on a line of its own: they are set together. Everything here is pure; what cannot be
+read raises `DesignError` with a fault whose place is the field.
 """
 
 from __future__ import annotations
@@ -10,11 +11,11 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from ...design import Design, DesignError, Fault, Layer, LayerAxis
+from ...design import Design, DesignError, Fault, Layer, LayerAxis, Shape
 from ...design.edit import with_canvas, with_counter, with_layer, with_pattern, with_shape, with_symbol
 from ...design.errors import nearest
 
-__all__ = ["Path", "apply", "find_layer"]
+__all__ = ["UNSHAPED", "Path", "apply", "find_layer"]
 
 Path = tuple[str, ...]
 """Where a field's value stands: ``("patterns", "Bx", "text")``."""
@@ -51,9 +52,16 @@ def apply(design: Design, path: Path, value: Any) -> Design:
             return with_layer(design, name, **{axis: {"group": _optional(_name, path, value)}})
         case ("layers", name, "x" | "y" as axis, "mask"):
             return with_layer(design, name, **{axis: {"mask": value}})
-        case ("layers", name, "shapes", key, attribute) if attribute in _LOOKS:
-            read = _LOOKS[attribute]
-            return with_shape(design, key, layer=name, **{attribute: _optional(read, path, value)})
+        case ("layers", name, "shapes", keys, attribute) if attribute in _LOOKS:
+            read = _LOOKS[attribute](path, value)
+            return _with_looks(design, keys.split("\n"), attribute, read, layer=name)
+        case ("patterns", name, "shapes", keys, attribute) if attribute in _LOOKS:
+            read = _LOOKS[attribute](path, value)
+            return _with_looks(design, keys.split("\n"), attribute, read, pattern=name)
+        case ("shapes", keys, attribute) if attribute in _LOOKS:
+            return _with_looks(design, keys.split("\n"), attribute, _LOOKS[attribute](path, value))
+        case ("seed",):
+            return Design.from_dict({**design.to_dict(), "seed": _whole(path, value)})
         case _:
             raise DesignError(Fault(".".join(path), "expected a field of the design; there is none"))
 
@@ -65,6 +73,29 @@ def find_layer(design: Design, name: str) -> Layer:
             return layer
     names = [layer.name for layer in design.layers]
     raise DesignError(Fault("layers", f"expected the name of a layer, found {name!r}{nearest(name, names)}"))
+
+
+UNSHAPED = {"* *": Shape(visible=False)}
+"""The shapes of a layer that draws nothing until it has shapes of its own."""
+
+
+def _with_looks(
+    design: Design,
+    keys: list[str],
+    attribute: str,
+    value: Any,
+    *,
+    layer: str | None = None,
+    pattern: str | None = None,
+) -> Design:
+    """The design with one attribute of shapes under some keys; a layer that draws nothing yet draws them then."""
+    blank = layer is not None and find_layer(design, layer).shapes.get("* *", Shape()).visible is False
+    for key in keys:
+        fields = {attribute: value}
+        if blank and value is not None and attribute != "visible":
+            fields["visible"] = None if key == "* *" else True
+        design = with_shape(design, key, layer=layer, pattern=pattern, **fields)
+    return design
 
 
 def _kept_mask(design: Design, side: LayerAxis, pattern: Any) -> list[str] | None:
@@ -109,11 +140,32 @@ def _name(path: Path, value: Any) -> str:
     return value.strip()
 
 
+def _flag(path: Path, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise _fail(path, "true or false", value)
+    return value
+
+
+def _variants(path: Path, value: Any) -> Any:
+    """Variants as documents have them; their texts are read as the fields of shapes are."""
+    if not isinstance(value, list) or not all(isinstance(variant, dict) for variant in value):
+        raise _fail(path, "a list of variants", value)
+    read = {**_LOOKS, "weight": _maybe(_number)}
+    told = ({key: read[key](path, own) for key, own in variant.items() if key in read} for variant in value)
+    return [{key: own for key, own in variant.items() if own is not None} for variant in told] or None
+
+
+def _maybe(read: Callable[[Path, Any], Any]) -> Callable[[Path, Any], Any]:
+    return lambda path, value: _optional(read, path, value)
+
+
 _LOOKS: dict[str, Callable[[Path, Any], Any]] = {
-    "kind": _name,
-    "geometry": _name,
-    "material": _name,
-    "offset": _number,
-    "thickness": _number,
+    "kind": _maybe(_name),
+    "geometry": _maybe(_name),
+    "material": _maybe(_name),
+    "offset": _maybe(_number),
+    "thickness": _maybe(_number),
+    "visible": _maybe(_flag),
+    "variants": _maybe(_variants),
 }
-"""How each attribute of a shape is read."""
+"""How each attribute of a shape is read; nothing is None, which takes it back."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -17,8 +17,10 @@ from traitlets import Bool, Float, HasTraits, Instance, Int, Unicode
 from ...design import Design, DesignError, FacadeError, Fault, NoLayout
 from ...solver import Layout, Trace, solve
 from ..shared.history import History, Undoable
+from . import newcomers
 from .background import LatestSolver, Outcome, Solve
-from .fields import Path, apply
+from .fields import Path
+from .newcomers import Newcomers
 
 __all__ = ["Draft", "FacadeModel", "Selection"]
 
@@ -35,13 +37,16 @@ class Draft:
 class Selection:
     """What is picked: a shape of the layout, and the layer and the two symbols it leads to.
 
-    A layer or a symbol can be picked without a shape. Empty fields pick nothing.
+    A layer, a symbol or a pair of symbols can be picked without a shape. Empty fields pick nothing. `number` tells
+    which instances of the two symbols are picked; None: no shape was. `more` has further pairs of the same layer.
     """
 
     shape: int | None = None
     layer: str = ""
     x: str = ""
     y: str = ""
+    number: tuple[int, int] | None = None
+    more: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +55,7 @@ class _Snapshot:
 
     design: Design
     drafts: Mapping[Path, Draft] = field(default_factory=dict)
+    newcomers: Newcomers = field(default_factory=Newcomers)
 
 
 class FacadeModel(Undoable[_Snapshot], HasTraits):
@@ -77,6 +83,9 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
     message: str = Unicode("", help="Why the present design has no layout.")
     blame: NoLayout | None = Instance(NoLayout, allow_none=True, help="What is to blame for that.")
     drafts: Mapping[Path, Draft] = AnyTrait({}, help="Typed values that are not part of the design, by path.")
+    newcomers: Newcomers = Instance(
+        Newcomers, (), help="What came by itself as patterns were typed, and was not touched since."
+    )
     trace: Trace | None = Instance(
         Trace, allow_none=True, help="What the last solve did, also one without a layout; see `follow`."
     )
@@ -121,10 +130,12 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
             If the new design is not valid; the model then keeps the design it had.
         """
         design = _valid(change if isinstance(change, Design) else change(self.design))
-        self._take(_Snapshot(*_settle(design, self.drafts)), key=key)
+        self._take(_settle(*newcomers.tidy(design, self.newcomers), self.drafts), key=key)
 
     def enter(self, path: Path | str, value: Any) -> None:
         """Take over what was typed into a field; where that gives no valid design, keep it as the field's draft.
+
+        Symbols that a pattern's text needs come by themselves, with a size; see `newcomers`.
 
         Parameters
         ----------
@@ -137,16 +148,18 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
             path = tuple(path.split("."))
         others = {other: draft for other, draft in self.drafts.items() if other != path}
         try:
-            design = apply(self.design, path, value)
+            design, fresh = newcomers.enter(self.design, path, value, self.newcomers)
         except DesignError as error:
-            snapshot = _Snapshot(self.design, {**others, path: Draft(value, error.faults)})
+            drafts = {**others, path: Draft(value, error.faults)}
+            snapshot = _Snapshot(self.design, drafts, self.newcomers)
         else:
-            snapshot = _Snapshot(*_settle(design, others))
+            snapshot = _settle(design, fresh, others)
         self._take(snapshot, key=path)
 
     def discard(self, path: Path) -> None:
         """Forget the draft of a field."""
-        self._take(_Snapshot(self.design, {p: d for p, d in self.drafts.items() if p != path}), key=None)
+        left = {other: draft for other, draft in self.drafts.items() if other != path}
+        self._take(_Snapshot(self.design, left, self.newcomers), key=None)
 
     def load(self, source: Design | str | FilePath) -> None:
         """Replace the design, as one step that can be undone.
@@ -168,13 +181,21 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
         """The design as JSON text; with `path` it is also written there, atomically. Drafts are not part of it."""
         return self.design.to_json(path)
 
-    def select(self, shape: int | None = None, *, layer: str = "", x: str = "", y: str = "") -> None:
-        """Pick a shape by its index in `layout.shapes`, or a layer, or symbols; without arguments pick nothing."""
+    def select(
+        self,
+        shape: int | None = None,
+        *,
+        layer: str = "",
+        x: str = "",
+        y: str = "",
+        more: Iterable[tuple[str, str]] = (),
+    ) -> None:
+        """Pick a shape by its index in `layout.shapes`, or a layer, symbols or pairs; without arguments nothing."""
         if shape is not None and self.layout is not None and 0 <= shape < len(self.layout.shapes):
             placed = self.layout.shapes[shape]
-            self.selection = Selection(shape, placed.layer, placed.x, placed.y)
+            self.selection = Selection(shape, placed.layer, placed.x, placed.y, placed.number)
         else:
-            self.selection = Selection(None, layer, x, y)
+            self.selection = Selection(None, layer, x, y, None, tuple((a, b) for a, b in more))
         self._changed()
 
     # ---- solving -------------------------------------------------------------------------------------------------
@@ -206,7 +227,7 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
 
     def _restore(self, snapshot: _Snapshot) -> None:
         moved = snapshot.design != self.design
-        self.design, self.drafts = snapshot.design, snapshot.drafts
+        self.design, self.drafts, self.newcomers = snapshot.design, snapshot.drafts, snapshot.newcomers
         if moved:
             self._solve()
         self._judge()
@@ -219,7 +240,7 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
             self._loop = asyncio.get_running_loop()
         except RuntimeError:
             self._loop = None
-        self._solver.submit(self._revision, self.design, self.time_limit, self._traced)
+        self._solver.submit(self._revision, newcomers.begun(self.design), self.time_limit, self._traced)
         if self._loop is None:  # nobody will call back later
             self._solver.join()
             self._collect()
@@ -267,11 +288,20 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
     def _reselect(self, layout: Layout) -> None:
         """Keep the picked cell picked when its shape has another index, or is no more."""
         picked = self.selection
-        shape = picked.shape
-        if shape is not None:
-            cell = (picked.layer, picked.x, picked.y)
-            same = [i for i, s in enumerate(layout.shapes) if (s.layer, s.x, s.y) == cell]
-            self.selection = Selection(min(same, key=lambda i: abs(i - shape), default=None), *cell)
+        if picked.number is None:
+            return
+        index = {(s.layer, s.x, s.y, s.number): i for i, s in enumerate(layout.shapes)}
+        same = index.get((picked.layer, picked.x, picked.y, picked.number))
+        if same is None:  # there are fewer now: the one nearest to it
+            across, up = picked.number
+            apart = {
+                i: abs(number[0] - across) + abs(number[1] - up)
+                for (*cell, number), i in index.items()
+                if cell == [picked.layer, picked.x, picked.y]
+            }
+            same = min(apart, key=apart.__getitem__, default=None)
+        number = picked.number if same is None else layout.shapes[same].number
+        self.selection = replace(picked, shape=same, number=number)
 
     def _changed(self) -> None:
         self.version += 1
@@ -286,12 +316,12 @@ def _valid(design: Design) -> Design:
     return Design.from_dict(design.to_dict())
 
 
-def _settle(design: Design, drafts: Mapping[Path, Draft]) -> tuple[Design, dict[Path, Draft]]:
+def _settle(design: Design, fresh: Newcomers, drafts: Mapping[Path, Draft]) -> _Snapshot:
     """Take over those drafts that have become valid with `design`; the rest keep their present faults."""
     left: dict[Path, Draft] = {}
     for path, draft in drafts.items():
         try:
-            design = apply(design, path, draft.value)
+            design, fresh = newcomers.enter(design, path, draft.value, fresh)
         except DesignError as error:
             left[path] = Draft(draft.value, error.faults)
-    return design, left
+    return _Snapshot(design, left, fresh)

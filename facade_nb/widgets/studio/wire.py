@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from typing import Any
 
-from ...design import DesignError, Fault, parse
+from ...design import Fault
 from ...design.model import AXES, Axis, Design, Layer, LayerAxis
+from .fields import UNSHAPED
+from .looks import describe_cell, describe_pairs
 from .model import FacadeModel
 
 __all__ = ["describe_design", "describe_drafts", "describe_faults", "describe_selection", "describe_status"]
@@ -33,7 +35,7 @@ def describe_design(model: FacadeModel) -> Json:
             }
             for pattern in design.patterns.values()
         ],
-        "symbols": [_symbol(model, name, uses.get(name, "")) for name in {**design.symbols, **uses}],
+        "symbols": [_symbol(model, name, uses.get(name, ""), uses) for name in {**design.symbols, **uses}],
         "counters": [_counter(model, name) for name in _counters(design)],
         "groups": sorted({layer.along(axis).group for layer in design.layers for axis in AXES} | {"default"}),
     }
@@ -76,13 +78,12 @@ def describe_status(model: FacadeModel) -> Json:
 
 
 def describe_drafts(model: FacadeModel) -> list[Json]:
-    """The drafts, each with its faults and the symbols that would have to be given a size first."""
+    """The drafts, each with its faults."""
     return [
         {
             "path": list(path),
             "value": draft.value,
             "faults": describe_faults(draft.faults),
-            "missing": _missing(model.design, path, draft.value),
         }
         for path, draft in model.drafts.items()
     ]
@@ -103,26 +104,18 @@ def describe_faults(faults: Iterable[Fault]) -> list[Json]:
 
 
 def describe_selection(model: FacadeModel) -> Json:
-    """What is picked, with the rectangle of the shape."""
+    """What is picked, with the looks of the cell and the table of its layer's pairs."""
     picked = model.selection
-    told: Json = {"shape": picked.shape, "layer": picked.layer, "x": picked.x, "y": picked.y, "cell": None}
-    if picked.shape is not None and model.layout is not None and picked.shape < len(model.layout.shapes):
-        shape = model.layout.shapes[picked.shape]
-        own = next((layer.shapes for layer in model.design.layers if layer.name == shape.layer), {})
-        override = own.get(f"{shape.x} {shape.y}")
-        told["cell"] = {
-            "rect": [_rounded(value) for value in shape.rect],
-            "kind": shape.kind,
-            "geometry": shape.geometry,
-            "material": shape.material,
-            "offset": shape.offset,
-            "thickness": shape.thickness,
-            "own": [key for key in _LOOKS if override is not None and getattr(override, key) is not None],
-        }
-    return told
-
-
-_LOOKS = ("kind", "geometry", "material", "offset", "thickness")
+    return {
+        "shape": picked.shape,
+        "layer": picked.layer,
+        "x": picked.x,
+        "y": picked.y,
+        "number": None if picked.number is None else list(picked.number),
+        "more": [list(pair) for pair in picked.more],
+        "cell": describe_cell(model),
+        "pairs": describe_pairs(model),
+    }
 
 
 def layers_from_top(design: Design) -> list[Layer]:
@@ -143,6 +136,7 @@ def _layer(design: Design, layer: Layer) -> Json:
     return {
         "name": layer.name,
         "visible": layer.visible,
+        "unshaped": layer.shapes == UNSHAPED,
         "depth": layer.depth,
         "x": axis(layer.x),
         "y": axis(layer.y),
@@ -172,7 +166,7 @@ def _uses(design: Design) -> dict[str, str]:
     return uses
 
 
-def _symbol(model: FacadeModel, name: str, axes: str) -> Json:
+def _symbol(model: FacadeModel, name: str, axes: str, written: Container[str]) -> Json:
     symbol = model.design.symbol(name)
     layout = model.layout
     solved = {axis: layout.along(axis).sizes.get(name) for axis in AXES} if layout is not None else {}
@@ -187,7 +181,9 @@ def _symbol(model: FacadeModel, name: str, axes: str) -> Json:
         "placement": symbol.placement,
         "min": symbol.min,
         "max": symbol.max,
-        "solved": [_rounded(size) for size in solved.values() if size is not None],
+        "solved": {axis: _rounded(size) for axis, size in solved.items() if size is not None},
+        "fresh": name in model.newcomers.symbols,
+        "used": name in written,
     }
 
 
@@ -206,18 +202,9 @@ def _counter(model: FacadeModel, name: str) -> Json:
         "max": counter.max,
         "value": counter.value,
         "solved": model.layout.counters.get(name) if model.layout is not None else None,
+        "fresh": name in model.newcomers.counters,
+        "used": any(name in pattern.parsed.counters for pattern in model.design.patterns.values()),
     }
-
-
-def _missing(design: Design, path: tuple[str, ...], value: Any) -> list[str]:
-    """Symbols that a pattern's draft writes solid and that have no size."""
-    if path[:1] != ("patterns",) or path[-1] != "text" or not isinstance(value, str):
-        return []
-    try:
-        parsed = parse(value)
-    except DesignError:
-        return []
-    return [s for s in parsed.symbols if s in parsed.solids and design.symbol(s).size is None]
 
 
 def _rounded(value: float) -> float | None:

@@ -98,13 +98,13 @@ def test_numbers_are_read_as_typed_and_kept_where_they_are_none() -> None:
 
 def test_a_draft_is_taken_over_once_a_later_edit_makes_it_valid() -> None:
     model = FacadeModel(house())
-    model.enter(BX, "A(BA)^kZ")
-    assert "Z" in str(model.drafts[BX].faults[0])
-    model.enter(("symbols", "Z", "size"), "0.5")
+    side = ("layers", "base", "x", "pattern")
+    model.enter(side, "Z")
+    assert "Z" in str(model.drafts[side].faults[0])
+    model.edit(lambda design: with_pattern(design, "Z", "(AB)^k"))
     assert model.drafts == {}
-    assert model.design.patterns["Bx"].text == "A(BA)^kZ"
+    assert model.design.layers[0].x.pattern == "Z"
     assert model.layout is not None
-    assert any(shape.x == "Z" for shape in model.layout.shapes)
 
 
 def test_a_design_without_a_layout_says_why_and_keeps_the_last_one() -> None:
@@ -176,13 +176,13 @@ def test_selection_leads_from_a_shape_to_its_layer_and_symbols_and_survives_a_ne
     assert model.layout is not None
     index = next(i for i, s in enumerate(model.layout.shapes) if s.layer == "columns")
     model.select(index)
-    assert model.selection == Selection(index, "columns", "C", "P")
+    assert model.selection == Selection(index, "columns", "C", "P", (1, 1))
     model.enter(BX, "A(BA)^2")
     assert model.selection.shape is not None
     picked = model.layout.shapes[model.selection.shape]
     assert (picked.layer, picked.x, picked.y) == ("columns", "C", "P")
     model.enter(("layers", "columns", "visible"), False)
-    assert model.selection == Selection(None, "columns", "C", "P")
+    assert model.selection == Selection(None, "columns", "C", "P", (1, 1))
     model.select(layer="base")
     assert model.selection == Selection(None, "base")
     model.select()
