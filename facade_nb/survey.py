@@ -28,7 +28,16 @@ from .design.inputs import read_json_text, read_text
 from .design.sections import DocumentReader
 from .solver.model.layout import Layout, PlacedShape, Rect
 
-__all__ = ["OPENING_KINDS", "Pair", "Survey", "SurveyError", "compare", "load_survey", "match"]
+__all__ = [
+    "OPENING_KINDS",
+    "Pair",
+    "Survey",
+    "SurveyError",
+    "buildings",
+    "compare",
+    "load_survey",
+    "match",
+]
 
 OPENING_KINDS = frozenset({"window", "door"})
 """The kinds of shapes that a survey of openings can speak of."""
@@ -138,6 +147,11 @@ def match(layout: Layout, openings: Sequence[Mapping[str, Any]]) -> tuple[Pair, 
     )
 
 
+def buildings(path: str | Path | None = None) -> tuple[str, ...]:
+    """The buildings that a data file has, in its order. `path`, and what it raises, are as for `load_survey`."""
+    return tuple(_read_file(path)[2])
+
+
 def load_survey(building: str, path: str | Path | None = None) -> Survey:
     """Read the surveyed openings of a building.
 
@@ -155,15 +169,8 @@ def load_survey(building: str, path: str | Path | None = None) -> Survey:
         If the file does not exist, is no survey, or lacks the building. The message has the place of every
         fault, what was expected and what was found.
     """
-    file, name = _data_file(path), str(building)
-    try:
-        document = read_json_text(read_text(file, "a survey"), str(file))
-    except DesignError as error:
-        raise SurveyError(f"expected a survey; {error}") from None
-    reader = _Reader(document)
-    found = reader.facades()
-    if reader.faults.found:
-        raise reader.error(file)
+    reader, file, found = _read_file(path)
+    name = str(building)
     if name not in found:
         known = ", ".join(map(cut, islice(found, 8))) + (", …" if len(found) > 8 else "") or "there is none"
         raise SurveyError(
@@ -173,6 +180,20 @@ def load_survey(building: str, path: str | Path | None = None) -> Survey:
     if reader.faults.found:
         raise SurveyError(f"{file}: building {cut(name)}: {DesignError(reader.faults.found)}")
     return survey
+
+
+def _read_file(path: str | Path | None) -> tuple[_Reader, Path, dict[str, tuple[str, Mapping[str, Any]]]]:
+    """Read a data file: its reader, the file, and place and members of each building."""
+    file = _data_file(path)
+    try:
+        document = read_json_text(read_text(file, "a survey"), str(file))
+    except DesignError as error:
+        raise SurveyError(f"expected a survey; {error}") from None
+    reader = _Reader(document)
+    found = reader.facades()
+    if reader.faults.found:
+        raise reader.error(file)
+    return reader, file, found
 
 
 def _named(name: str | int) -> bool:

@@ -15,7 +15,7 @@ from .relief import Edges, Relief, Segment
 from .scene import Scene, Solid, build_scene
 from .style import FINE, HEAVY, MEDIUM, Style, find_style, num
 
-__all__ = ["elevation_svg"]
+__all__ = ["draw_facade", "elevation_svg"]
 
 
 def elevation_svg(
@@ -74,7 +74,7 @@ def elevation_svg(
     if background:
         body.append(f'<rect width="100%" height="100%" fill="{style.paper}"/>')
     if scene.solids:
-        body += _facade(scene, defs, frame, style, ids=ids)
+        body += draw_facade(scene, defs, frame, style, ids=ids)
     else:
         body += draw_empty(layout.canvas.width, layout.canvas.height, frame, style)
     body += _ground(frame, style)
@@ -94,7 +94,8 @@ def elevation_svg(
     )
 
 
-def _facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bool) -> Iterable[str]:
+def draw_facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bool) -> Iterable[str]:
+    """The shapes of a scene with their shadows and lines, layer by layer."""
     relief = Relief(scene)
     edges, shadows = relief.edges(), relief.shadows()
     layers: list[list[Solid]] = [[] for _ in relief.layers]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from typing import Generic, TypeVar
 
 __all__ = ["History", "Undoable"]
@@ -46,6 +46,21 @@ class History(Generic[T]):
     def can_redo(self) -> bool:
         """Whether there is an undone state to go forward to."""
         return bool(self._future)
+
+    @property
+    def past(self) -> tuple[T, ...]:
+        """The states to go back to, oldest first."""
+        return tuple(self._past)
+
+    @property
+    def future(self) -> tuple[T, ...]:
+        """The undone states to go forward to, the next one last."""
+        return tuple(self._future)
+
+    def resume(self, past: Sequence[T], present: T, future: Sequence[T]) -> None:
+        """Go on from a line of states that was kept."""
+        self._past, self._present, self._future = list(past)[-self._limit :], present, list(future)
+        self._key = None
 
     def record(self, state: T, *, key: Hashable | None, now: float) -> None:
         """Make `state` the present one.

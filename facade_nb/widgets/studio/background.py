@@ -58,6 +58,7 @@ class LatestSolver:
         self._condition = threading.Condition()
         self._next: tuple[int, Design, float | None, bool] | None = None
         self._latest = 0
+        self._ended = 0
         self._thread: threading.Thread | None = None
 
     def submit(
@@ -87,6 +88,11 @@ class LatestSolver:
             self._latest = revision
             self._next = None
 
+    def stop(self) -> None:
+        """End the solve under way; the best layout that it has found so far is delivered, and counts."""
+        with self._condition:
+            self._ended = self._latest
+
     def join(self, timeout: float | None = None) -> bool:
         """Wait until nothing is being solved; returns whether that came within `timeout` seconds."""
         with self._condition:
@@ -111,7 +117,10 @@ class LatestSolver:
         error: Exception | None = None
         try:
             layout = self._solve(
-                design, time_limit=time_limit, should_stop=lambda: self._latest != revision, **more
+                design,
+                time_limit=time_limit,
+                should_stop=lambda: self._latest != revision or self._ended >= revision,
+                **more,
             )
         except NoLayout as none:
             error = none

@@ -12,9 +12,11 @@ from ... import gallery
 from ...design import DesignError
 from ...render import GEOMETRIES, MATERIALS, elevation_svg
 from ...solver import Layout
-from ..shared.bundled import Message, ModelWire
+from ..shared.bundled import Message
 from .commands import COMMANDS
+from .extras import Extras
 from .model import FacadeModel
+from .requests import REQUESTS
 from .wire import describe_design, describe_drafts, describe_faults, describe_selection, describe_status
 
 __all__ = ["Channel"]
@@ -29,7 +31,7 @@ The front end has one message under way, so this is also how long a solve is lef
 """
 
 
-class Channel(ModelWire):
+class Channel(Extras):
     """One model's line to the browser. Get it by `Channel.of`: there is one per model."""
 
     front = "studio"
@@ -69,12 +71,15 @@ class Channel(ModelWire):
     def _empty(self) -> None:
         self._forget_timer()
         self.svg = ""
+        self._empty_extras()
 
     def close(self) -> None:
         """Close the wire; the model lives on."""
         if self.comm is not None:
             self.model.unobserve(self._on_version, "version")
             self._forget_timer()
+            if self.keeper is not None:
+                self.keeper.close()
         super().close()
 
     def publish(self) -> None:
@@ -101,6 +106,7 @@ class Channel(ModelWire):
         self.status = status
         self.drafts = describe_drafts(self.model)
         self.selection = describe_selection(self.model)
+        self._describe_extras(self.theme)
 
     def _draw(self, layout: Layout) -> str:
         prefix = (
@@ -132,6 +138,8 @@ class Channel(ModelWire):
         try:
             if message["op"] == "theme":
                 self.theme = "dark" if message["theme"] == "dark" else "light"
+            elif message["op"] in REQUESTS:
+                reply = REQUESTS[message["op"]](self, message)
             else:
                 reply = COMMANDS[message["op"]](self.model, message)
             self._failure = ""

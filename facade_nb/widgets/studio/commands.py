@@ -30,7 +30,7 @@ from .fields import find_layer
 from .model import FacadeModel
 from .wire import describe_faults, layers_from_top
 
-__all__ = ["COMMANDS", "Reply"]
+__all__ = ["COMMANDS", "Reply", "file_name"]
 
 Reply = dict[str, Any] | None
 """What is sent back besides the changed state: a file to save, or the faults of a document."""
@@ -78,7 +78,7 @@ def _select(model: FacadeModel, message: Message) -> Reply:
 
 
 def _save(model: FacadeModel, _: Message) -> Reply:
-    return {"kind": "file", "name": f"{_file_name(model.design.name)}.json", "text": model.save()}
+    return {"kind": "file", "name": f"{file_name(model.design.name)}.json", "text": model.save()}
 
 
 def _open(model: FacadeModel, message: Message) -> Reply:
@@ -94,7 +94,7 @@ def _open(model: FacadeModel, message: Message) -> Reply:
 
 def _gallery(model: FacadeModel, message: Message) -> Reply:
     model.load(gallery.load(message["name"]))
-    return None
+    return {"kind": "opened", "name": str(message["name"]).replace("-", " ")}
 
 
 def _add(model: FacadeModel, message: Message) -> Reply:
@@ -285,7 +285,7 @@ def _free(candidates: Iterable[str], taken: Container[str], stem: str) -> str:
     return next(name for name in chain(candidates, numbered) if name not in taken)
 
 
-def _file_name(name: str) -> str:
+def file_name(name: str) -> str:
     """A name that every file system takes."""
     return "".join(c if c.isalnum() or c in "-_" else "-" for c in name.lower()).strip("-") or "design"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
@@ -177,6 +177,18 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
         self._take(_Snapshot(_read(source)), key=None)
         self.select()
 
+    @property
+    def history(self) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
+        """The designs that undo goes back to, oldest first, and those that redo goes forward to, the next one last."""
+        past, future = self._history.past, self._history.future
+        return tuple(state.design for state in past), tuple(state.design for state in future)
+
+    def resume(self, past: Sequence[Design], design: Design, future: Sequence[Design] = ()) -> None:
+        """Go on with a design and the history that it had."""
+        self._history.resume([*map(_Snapshot, past)], _Snapshot(design), [*map(_Snapshot, future)])
+        self._restore(self._history.present)
+        self.select()
+
     def save(self, path: str | FilePath | None = None) -> str:
         """The design as JSON text; with `path` it is also written there, atomically. Drafts are not part of it."""
         return self.design.to_json(path)
@@ -205,6 +217,16 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
         done = self._solver.join(seconds)
         self._arrive()
         return done
+
+    def stop(self) -> None:
+        """End the solve under way: the best layout that it has found is taken; without one, the last one stays."""
+        self._solver.stop()
+
+    def solve_for(self, seconds: float) -> None:
+        """Solve again, and from now on, for so many seconds at most."""
+        self.time_limit = seconds
+        self._solve()
+        self._changed()
 
     def follow(self) -> None:
         """Record a `trace` of each solve from now on. Views of the solver ask for it."""

@@ -34,7 +34,7 @@ _PICTURE_LIMIT = 120_000
 """Bytes of SVG up to which a saved notebook carries the static picture."""
 
 
-_FIRST = 2.0
+FIRST = 2.0
 """Seconds that a new part waits for the layout, so that it appears complete; a longer solve goes on behind it."""
 
 
@@ -61,7 +61,7 @@ class Part(AnyWidget):
 
     def __init__(self, model: FacadeModel | Design | str | Path | None = None, **traits: Any) -> None:
         self.model = model if isinstance(model, FacadeModel) else FacadeModel(model)
-        self.model.wait(_FIRST)
+        self.model.wait(FIRST)
         super().__init__(channel=Channel.of(self.model), part=self._shows, **traits)
 
     def __repr__(self) -> str:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ipywidgets import Widget, widget_serialization
 from traitlets import Enum, Instance, Int
 
-from .parts import Part
+from ...design import Design
+from .keeping import Keeper, kept_path, studio_name
+from .model import FacadeModel
+from .parts import FIRST, Part
 
 if TYPE_CHECKING:
     from .massing import Massing
@@ -67,19 +71,42 @@ class Studio(MassingView):
     height
         Height of the façade and of the panel beside it, in pixels.
     view
-        ``"elevation"``, ``"massing"`` (3D) or ``"both"``.
-
+        ``"elevation"``, ``"massing"`` (3D), ``"both"``, ``"exploded"`` (the layers drawn apart) or ``"compare"``
+        (two snapshots side by side).
+    name
+        Under which the design is kept beside the notebook while it is edited, so that it outlives the kernel. None: by
+        the cell, where the studio has made its model itself; a model that was given is kept by name only. An empty name
+        keeps nothing.
     """
 
     _shows = "studio"
 
-    view = Enum(["elevation", "both", "massing"], "elevation").tag(sync=True)
+    view = Enum(["elevation", "both", "massing", "exploded", "compare"], "elevation").tag(sync=True)
     height = Int(600).tag(sync=True)
 
-    def __init__(self, *args: Any, **traits: Any) -> None:
-        super().__init__(*args, **traits)
+    def __init__(
+        self,
+        model: FacadeModel | Design | str | Path | None = None,
+        *,
+        name: str | None = None,
+        **traits: Any,
+    ) -> None:
+        super().__init__(model, **traits)
+        self._keep(name, own=not isinstance(model, FacadeModel))
         self.observe(self._on_view, "view")
+
+    def _keep(self, name: str | None, *, own: bool) -> None:
+        """Keep the design beside the notebook, if it is this studio's to keep."""
+        if self.channel.keeper is not None or name == "" or (name is None and not own):
+            return
+        place = studio_name()
+        if name is not None:
+            place = (place[0] if place else "designs", name)
+        if place is not None:
+            self.channel.keeper = Keeper(self.model, kept_path(*place))
+            self.model.wait(FIRST)
+            self.channel.publish()
 
     def _on_view(self, _: object) -> None:
         if self._massing is not None:
-            self._massing.show(self.view != "elevation")
+            self._massing.show(self.view in ("massing", "both"))

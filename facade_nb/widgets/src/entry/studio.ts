@@ -5,6 +5,7 @@ import "../styles/base.css";
 import "../styles/fields.css";
 import "../styles/editors.css";
 import "../styles/views.css";
+import "../styles/stage.css";
 import { absence } from "../shared/absence.ts";
 import { h, mark } from "../shared/dom.ts";
 import { keepKeys } from "../shared/keys.ts";

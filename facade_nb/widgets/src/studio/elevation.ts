@@ -1,11 +1,12 @@
 import { h, mark, setText, svg } from "../shared/dom.ts";
 import { type Box, boxOf, type Drawing, neighbour, parseDrawing, shapeAt } from "../shared/drawing.ts";
-import { formatNumber } from "../shared/fields.ts";
+import { button, formatNumber } from "../shared/fields.ts";
 import type { MakePart } from "./common.ts";
 import { edge } from "./edge.ts";
 import { inspector } from "./inspector.ts";
+import { fullScreen } from "./screen.ts";
+import { type Camera, clear, fitted, navigate } from "./viewport.ts";
 
-const PADDING = 14;
 const ARROWS: Record<string, [number, number]> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
@@ -23,53 +24,74 @@ export const elevation: MakePart = (context) => {
   const sheet = h("div", { class: "fnb-sheet" }, overlay as unknown as HTMLElement);
   const tag = h("span", { class: "fnb-tag", hidden: true }, "Last good layout");
   const empty = h("p", { class: "fnb-empty fnb-stage-note", hidden: true });
+  const tools = h("div", {
+    class: "fnb-stage-tools",
+    role: "toolbar",
+    "aria-label": "View of the façade",
+    "data-local": true,
+    "data-beside": true,
+  });
   const stage = h(
     "div",
     { class: "fnb-paper", tabindex: 0, role: "group", "aria-label": "Elevation: arrow keys go from shape to shape" },
     sheet,
     tag,
+    tools,
     empty,
   );
   const el = h("div", { class: "fnb-elevation" }, stage, inspector(context));
 
   const ids = `fnb-${Math.random().toString(36).slice(2)}`;
   let drawing: Drawing | null = null;
+  /** As it was zoomed and moved; null: fitted to the stage. */
+  let free: Camera | null = null;
   /** While an edge is dragged: how large a metre is and where the façade's corner stands, so that both stay. */
-  let held: { metre: number; left: number; bottom: number } | null = null;
-  let placed = { left: 0, top: 0, scale: 1 };
+  let held: Camera | null = null;
+  /** How large the drawing was made when it was last made sharp. */
+  let sharp = 1;
 
-  const corner = () => ({
-    metre: (drawing?.scale ?? 1) * placed.scale,
-    left: placed.left + (drawing?.origin.x ?? 0) * placed.scale,
-    bottom: placed.top + (drawing?.origin.y ?? 0) * placed.scale,
-  });
-  const place = () => {
-    const [width, height] = [stage.clientWidth, stage.clientHeight];
-    if (!drawing || !width || !height) return;
-    if (held) {
-      const scale = held.metre / drawing.scale;
-      placed = { left: held.left - drawing.origin.x * scale, top: held.bottom - drawing.origin.y * scale, scale };
-    } else {
-      const scale = Math.min((width - 2 * PADDING) / drawing.width, (height - 2 * PADDING) / drawing.height);
-      placed = { left: (width - drawing.width * scale) / 2, top: (height - drawing.height * scale) / 2, scale };
-    }
-    sheet.style.width = `${drawing.width * placed.scale}px`;
-    sheet.style.height = `${drawing.height * placed.scale}px`;
-    sheet.style.transform = `translate(${placed.left}px, ${placed.top}px)`;
-    for (const handle of handles) handle.place(drawing, placed.scale);
+  const camera = (): Camera | null => {
+    const room = { width: stage.clientWidth, height: stage.clientHeight };
+    if (!drawing || !room.width || !room.height) return null;
+    if (free) return free;
+    return held ? clear(held, room, drawing) : fitted(room, drawing);
   };
+  /** Show the drawing where the camera says; rough: only moved and stretched, so that no frame is missed. */
+  const place = (rough = false) => {
+    const at = camera();
+    if (!drawing || !at) return;
+    const scale = at.metre / drawing.scale;
+    const [left, top] = [at.left - drawing.origin.x * scale, at.bottom - drawing.origin.y * scale];
+    if (!rough) {
+      sharp = scale;
+      sheet.style.width = `${drawing.width * scale}px`;
+      sheet.style.height = `${drawing.height * scale}px`;
+      for (const handle of handles) handle.place(drawing, scale);
+    }
+    const stretched = scale === sharp ? "" : ` scale(${scale / sharp})`;
+    sheet.style.transform = `translate(${left}px, ${top}px)${stretched}`;
+    mark(stage, "data-free", free !== null);
+  };
+  const settle = (then: () => void) => {
+    mark(sheet, "data-settling", true);
+    then();
+    setTimeout(() => mark(sheet, "data-settling", false), 220);
+  };
+  const fit = () =>
+    settle(() => {
+      free = null;
+      place();
+    });
 
   const handles = (["width", "height"] as const).map((side) =>
     edge(context, side, {
       hold: () => {
-        held = corner();
-        return held.metre;
+        held = camera();
+        return held?.metre ?? 1;
       },
       release: () => {
         held = null;
-        mark(sheet, "data-settling", true);
-        place();
-        setTimeout(() => mark(sheet, "data-settling", false), 220);
+        settle(place);
       },
     }),
   );
@@ -129,10 +151,26 @@ export const elevation: MakePart = (context) => {
     const shape = element?.getAttribute("data-shape");
     store.ask(shape === null || shape === undefined ? { op: "select" } : { op: "select", shape: Number(shape) });
   };
-  sheet.addEventListener("click", (event) => {
-    if (event.target instanceof Element && event.target.closest(".fnb-edge")) return;
+  // Beside the façade, too: there nothing is picked.
+  stage.addEventListener("click", (event) => {
+    if (event.target instanceof Element && event.target.closest(".fnb-edge, [data-beside]")) return;
     pick(shapeAt(event.target));
   });
+  const { zoom } = navigate(stage, signal, {
+    camera,
+    move: (to, rough) => {
+      free = to;
+      place(rough);
+    },
+    fit,
+    taken: (target) => shapeAt(target) !== null,
+  });
+  tools.append(
+    button("Zoom out (−)", "minus", () => settle(() => zoom(0.8))),
+    button("Zoom in (+)", "plus", () => settle(() => zoom(1.25))),
+    button("Fit the façade into the view (0)", "fit", fit),
+    fullScreen(signal),
+  );
   sheet.addEventListener("pointerover", (event) => {
     const shape = shapeAt(event.target);
     if (shape) setBox(hover, boxOf(shape));
@@ -150,7 +188,7 @@ export const elevation: MakePart = (context) => {
     if (next) pick(next);
   });
 
-  const observer = new ResizeObserver(place);
+  const observer = new ResizeObserver(() => place());
   observer.observe(stage);
   signal.addEventListener("abort", () => observer.disconnect());
   return el;
