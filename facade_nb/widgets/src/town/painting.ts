@@ -12,14 +12,14 @@ import type { Pass, Pixels, Values, Vector } from "./types.ts";
 
 const BUDGET = 48; // milliseconds of a frame in motion, and of a piece of the picture at rest
 const RESTED = 140; // milliseconds after which it becomes finer
-export const FACTORS = [1, 1.5, 2, 3, 4, 6, 8] as const;
+export const FACTORS = [1, 1.5, 2, 3, 4, 6, 8, 12] as const;
 const HELD = 0.075; // of a map's width that one may be away from where it was taken
 const INDICES = 60_000; // of the mesh that a first piece draws
 
 /** How coarse the next frame should be, after one that was so coarse and took so long. */
 export function coarser(factor: number, milliseconds: number): number {
   const wanted = factor * Math.sqrt(milliseconds / BUDGET);
-  if (wanted > factor) return FACTORS.find((own) => own >= wanted * 0.98) ?? 8;
+  if (wanted > factor) return FACTORS.find((own) => own >= wanted * 0.98) ?? 12;
   return FACTORS.findLast((own) => own >= wanted * 1.1 && own <= factor) === undefined
     ? factor
     : (FACTORS.find((own) => own >= wanted * 1.1) ?? factor);

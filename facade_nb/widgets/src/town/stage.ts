@@ -57,6 +57,7 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
                   : "");
     setText(note, text);
     note.hidden = text === "";
+    mark(note, "data-over", (failure !== "" || context().lost) && paint.last !== null);
     mark(note, "data-small", session.drawable && !failure && !context().lost);
     mark(canvas, "data-loaded", loaded.toFixed(3));
   };
@@ -68,7 +69,8 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
     } = own;
     failure = "";
     const coarse = factor === 1 ? "" : `, 1 : ${factor}`;
-    setText(told, `${Math.round(milliseconds)} ms · ${w} × ${t}${coarse}`);
+    const spent = milliseconds < 1000 ? `${Math.round(milliseconds)} ms` : `${(milliseconds / 1000).toFixed(1)} s`;
+    setText(told, `${spent} · ${w} × ${t}${coarse}`);
     say();
     options.told?.(own);
   };
