@@ -48,7 +48,6 @@ RUN = """async code => {
     await until(() => !canvas());
     const shown = await until(() => canvas());
     const first = await until(() => canvas()?.dataset.coarse);
-    const finest = [];
     const sharp = await until(() => canvas().dataset.state === "sharp" && Number(canvas().dataset.loaded) === 1);
     return {kernel, shown, first, sharp};
 }"""

@@ -5,8 +5,27 @@ import type { Session } from "./session.ts";
 
 const metres = (value: number) => `${value.toFixed(1)} m`;
 
+const heightOf = (eaves: number, rise: number) =>
+  rise > 0.05 ? `${metres(eaves + rise)}, walls ${metres(eaves)}` : metres(eaves);
+const keyed = (...names: string[]) => names.map((name) => h("kbd", {}, name));
+
 export function inspector(session: Session, signal: AbortSignal): HTMLElement {
-  const hint = h("p", { class: "fnb-town-hint" }, "Click a building, or press Enter, to see what it is made of.");
+  const hint = h(
+    "div",
+    { class: "fnb-town-hint" },
+    h("p", {}, "Click a building, or press Enter, to see what it is made of."),
+    h(
+      "p",
+      {},
+      "Drag to look around. ",
+      ...keyed("W", "A", "S", "D"),
+      " fly, ",
+      ...keyed("Q", "E"),
+      " sink and rise, ",
+      ...keyed("Shift"),
+      " is faster.",
+    ),
+  );
   const title = h("h4", {});
   const list = h("dl", {});
   const style = h("select", { class: "fnb-select fnb-town-edit", "aria-label": "Style of this building" });
@@ -42,7 +61,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
     const facts: [string, string][] = [
       ["Use", town.kinds[at(town.kind)] ?? ""],
       ["Storeys", String(at(town.storeys))],
-      ["Height", `${metres(at(town.eaves) + at(town.rise))}, walls ${metres(at(town.eaves))}`],
+      ["Height", heightOf(at(town.eaves), at(town.rise))],
       ["Roof", town.roofs[at(town.roof)] ?? ""],
       ["Seed", `${(town.seed[2 * own] as number) / 64}, ${(town.seed[2 * own + 1] as number) / 64} m`],
     ];

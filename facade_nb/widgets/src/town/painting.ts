@@ -4,6 +4,7 @@
 import { mark } from "../shared/dom.ts";
 import { rowsFor } from "../texture/painting.ts";
 import { context } from "./context.ts";
+import { fading } from "./fading.ts";
 import { frustumOf, type Sunlight, sunlightOf } from "./frame.ts";
 import type { Shown } from "./pipeline.ts";
 import type { Session } from "./session.ts";
@@ -11,14 +12,14 @@ import type { Pass, Pixels, Values, Vector } from "./types.ts";
 
 const BUDGET = 48; // milliseconds of a frame in motion, and of a piece of the picture at rest
 const RESTED = 140; // milliseconds after which it becomes finer
-export const FACTORS = [1, 1.5, 2, 3, 4, 6, 8] as const;
+export const FACTORS = [1, 1.5, 2, 3, 4, 6, 8, 12] as const;
 const HELD = 0.075; // of a map's width that one may be away from where it was taken
 const INDICES = 60_000; // of the mesh that a first piece draws
 
 /** How coarse the next frame should be, after one that was so coarse and took so long. */
 export function coarser(factor: number, milliseconds: number): number {
   const wanted = factor * Math.sqrt(milliseconds / BUDGET);
-  if (wanted > factor) return FACTORS.find((own) => own >= wanted * 0.98) ?? 8;
+  if (wanted > factor) return FACTORS.find((own) => own >= wanted * 0.98) ?? 12;
   return FACTORS.findLast((own) => own >= wanted * 1.1 && own <= factor) === undefined
     ? factor
     : (FACTORS.find((own) => own >= wanted * 1.1) ?? factor);
@@ -48,6 +49,8 @@ export interface Told {
 export interface Painting {
   /** Draw it anew. */
   redraw(): void;
+  /** Draw the same with what has come since: a picture at rest turns into a finer one. */
+  refresh(): void;
   stop(): void;
   /** The last picture that was drawn as a whole; null: none. */
   readonly last: Pixels | null;
@@ -62,6 +65,8 @@ interface Options {
   /** Called after each picture. */
   told: (told: Told) => void;
   failed: (message: string) => void;
+  /** Called when one has come to rest, before the picture becomes finer. */
+  rested: () => void;
   /** Called when `done` has changed. */
   stated: () => void;
 }
@@ -69,9 +74,10 @@ interface Options {
 export function painting(
   canvas: HTMLCanvasElement,
   session: Session,
-  { off, shown, told, failed, stated }: Options,
+  { off, shown, told, failed, rested, stated }: Options,
 ): Painting {
   const paper = canvas.getContext("2d", { alpha: false, willReadFrequently: context().software });
+  const fade = fading(paper);
   const left = off ?? (() => []);
   let [timer, frame] = [0, 0];
   let factor: number = context().software ? 4 : 1;
@@ -200,11 +206,13 @@ export function painting(
       yield;
     }
   }
-  const refine = () =>
+  const refine = (softly = false) =>
     attempt(() => {
       const own = turn;
+      rested();
+      if (softly) fade.keep();
       if (!able() || !session.pipeline?.ready()) return;
-      const steps = [...new Set([factor > 3 ? 3 : 1, 1])].filter((own) => own < factor || own === 1);
+      const steps = softly ? [1] : [...new Set([factor > 3 ? 3 : 1, 1])].filter((fine) => fine < factor || fine === 1);
       const work = (function* () {
         for (const fine of steps) yield* pieces(fine);
       })();
@@ -215,6 +223,7 @@ export function painting(
           let over = false;
           while (!over && performance.now() - start < BUDGET / 3) over = !!work.next().done;
           if (!over) timer = window.setTimeout(next, 0);
+          else if (last && softly) fade.begin(() => own === turn && state(true));
           else if (last) state(true);
         });
       next();
@@ -223,11 +232,15 @@ export function painting(
     done = now;
     stated();
   };
-  const redraw = () => {
+  const begin = (softly: boolean) => {
     clearTimeout(timer);
-    timer = window.setTimeout(refine, RESTED);
+    fade.stop();
+    timer = window.setTimeout(() => refine(softly), RESTED);
     turn += 1;
     state(false);
+  };
+  const redraw = () => {
+    begin(false);
     if (frame) return;
     frame = requestAnimationFrame(() => {
       frame = 0;
@@ -236,8 +249,13 @@ export function painting(
   };
   return {
     redraw,
+    refresh() {
+      if (done) begin(true);
+      else redraw();
+    },
     stop() {
       clearTimeout(timer);
+      fade.stop();
       cancelAnimationFrame(frame);
     },
     get last() {

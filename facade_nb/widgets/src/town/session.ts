@@ -43,6 +43,8 @@ export class Session extends Entering<Entered> {
   private readonly detail = new Detail();
   /** Counts what has changed in what is drawn, beside the place and the hour. */
   touched = 0;
+  /** Counts sets of tiles: the same in another resolution. */
+  finer = 0;
   /** Pixels of the widest view of it, which tell how fine tiles have to be. */
   wide = 720;
   /** Side and version of the tiles that are shown. */
@@ -110,7 +112,7 @@ export class Session extends Entering<Entered> {
   move(place: Place): void {
     if (place.every((value, k) => value === this.place[k])) return;
     this.place = place;
-    this.arrange();
+    this.arrange(true);
     this.loading.ask(place);
     for (const moved of [...this.movers]) moved();
     clearTimeout(this.telling);
@@ -225,10 +227,10 @@ export class Session extends Entering<Entered> {
   }
 
   /**
-   * Give the card other tiles where the view needs finer ones and they have come, or where it may have fewer: one size up
-   * at a time, and no fewer until it has four times as many as it needs.
+   * Give the card other tiles where the view needs finer ones and they have come, or where it may have fewer: no fewer until
+   * it has four times as many as it needs; `moving`: one size up at a time.
    */
-  arrange(): void {
+  arrange(moving = false): void {
     const { head, pipeline, loading } = this;
     if (!head || !pipeline || !loading.tiles.complete) return;
     const needed = sideNeeded(this.place, this.wide, head.chunks.low, head.chunks.high);
@@ -236,13 +238,13 @@ export class Session extends Entering<Entered> {
     const own = this.shown;
     const wanted = own.side > needed && own.side <= 2 * needed ? own.side : needed;
     const { version } = loading.tiles;
-    const step = own.version === version && own.side ? Math.min(wanted, 2 * own.side) : wanted;
+    const step = moving && own.version === version ? Math.min(wanted, 2 * own.side) : wanted;
     const side = loading.tiles.sideFor(step, head.tile_bytes, context().largest);
     if (side === own.side && version === own.version) return;
     this.shown = { side, version };
     this.images = loading.tiles.arranged(side);
     pipeline.replace(this.source(head));
-    this.touched += 1;
+    this.finer += 1;
   }
 
   /** A block of something large has come. */

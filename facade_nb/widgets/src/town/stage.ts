@@ -35,7 +35,7 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
   const told = h("div", { class: "fnb-town-told", "aria-hidden": "true" });
   const el = h("div", { class: "fnb-town-stage" }, canvas, told, note);
   let failure = "";
-  let drawn = "";
+  let [drawn, come] = ["", ""];
 
   const say = () => {
     const loaded = session.loading.part;
@@ -57,6 +57,7 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
                   : "");
     setText(note, text);
     note.hidden = text === "";
+    mark(note, "data-over", (failure !== "" || context().lost) && paint.last !== null);
     mark(note, "data-small", session.drawable && !failure && !context().lost);
     mark(canvas, "data-loaded", loaded.toFixed(3));
   };
@@ -68,7 +69,8 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
     } = own;
     failure = "";
     const coarse = factor === 1 ? "" : `, 1 : ${factor}`;
-    setText(told, `${Math.round(milliseconds)} ms · ${w} × ${t}${coarse}`);
+    const spent = milliseconds < 1000 ? `${Math.round(milliseconds)} ms` : `${(milliseconds / 1000).toFixed(1)} s`;
+    setText(told, `${spent} · ${w} × ${t}${coarse}`);
     say();
     options.told?.(own);
   };
@@ -76,7 +78,13 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
     failure = message;
     say();
   };
-  const paint = painting(canvas, session, { ...options, told: tell, failed, stated: () => state() });
+  /** What has come of the same town. */
+  const more = () => [session.finer, Math.floor(session.loading.part * STEPS)].join();
+  const rested = () => {
+    session.arrange();
+    come = more();
+  };
+  const paint = painting(canvas, session, { ...options, told: tell, failed, rested, stated: () => state() });
   const fly = flying(canvas, session, options, signal);
 
   /** `moving`: it is being drawn; `loading`: what it shows has not come as a whole; `sharp`: it will stay as it is. */
@@ -105,22 +113,15 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
       `Town at ${timeOf(session.hour)}. W, A, S, D or arrow keys fly, Q and E down and up, Shift faster; Enter chooses ` +
         "the building in the middle, Home goes to the first view.",
     );
-    const { head, loading } = session;
+    const { head } = session;
     const small = head ? Math.max(head.sunlight.side, ...Object.values(head.textures).flatMap(({ size }) => size)) : 0;
     const why = small ? context().tooSmall(small) : "";
     if (why) failure = why;
-    const now = JSON.stringify([
-      session.hour,
-      session.chosen,
-      session.drawable,
-      Math.floor(loading.part * STEPS),
-      canvas.width,
-      canvas.height,
-      session.touched,
-    ]);
-    if (!why && now !== drawn) {
-      if (head && session.drawable) paint.redraw();
-      drawn = now;
+    const now = [session.hour, session.chosen, session.drawable, canvas.width, canvas.height, session.touched].join();
+    if (!why && (now !== drawn || more() !== come)) {
+      if (head && session.drawable && now !== drawn) paint.redraw();
+      else if (head && session.drawable) paint.refresh();
+      [drawn, come] = [now, more()];
     }
     state();
     say();

@@ -44,7 +44,7 @@ describe("how coarse a frame is", () => {
   it("grows with its time, and falls when there is time", () => {
     expect(coarser(1, 48)).toBe(1);
     expect(coarser(1, 190)).toBeGreaterThanOrEqual(2);
-    expect(coarser(4, 5000)).toBe(8);
+    expect(coarser(4, 5000)).toBe(12);
     expect(coarser(8, 3)).toBeLessThan(8);
     expect(coarser(4, 40)).toBe(4);
     expect(coarser(1, 2)).toBe(1);
