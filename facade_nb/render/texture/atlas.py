@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from math import ceil, sqrt
+from math import sqrt
 from typing import Any, Protocol
 
 import numpy as np
@@ -167,7 +167,7 @@ def _corner(u: Floats, size: NDArray[np.int32], wrap: bool) -> tuple[Floats, NDA
 
 
 def pack(tiles: Tiles | None, names: Sequence[str], relief: bool = False) -> Atlas:
-    """Pack tiles, each with all its levels side by side, on shelves; with `relief` also their heights.
+    """Pack tiles with all their levels, the highest first, on shelves; with `relief` also their heights.
 
     Raises
     ------
@@ -188,29 +188,21 @@ def pack(tiles: Tiles | None, names: Sequence[str], relief: bool = False) -> Atl
             raise DesignError(Fault("tiles", message))
     if not images:
         return Atlas(np.zeros((1, 1, 4), np.uint8), np.array([[[0, 0, 1, 1]]], np.int32), np.ones(1, bool))
-    sizes = [
-        (max(image.shape[0] for image in levels), sum(image.shape[1] for image in levels))
-        for levels in images
-    ]
-    area = sum(height * width for height, width in sizes)
-    wide = max(ceil(sqrt(area)), *(width for _, width in sizes))
+    parts = [(k, level, *image.shape[:2]) for k, own in enumerate(images) for level, image in enumerate(own)]
+    widest = max(width for *_, width in parts)
+    wide = widest * max(1, round(sqrt(sum(height * width for *_, height, width in parts)) / widest))
     count = max(len(levels) for levels in images)
     table = np.zeros((len(images), count, 4), np.int32)
     x = y = shelf = 0
-    for k in sorted(range(len(images)), key=lambda k: -sizes[k][0]):
-        height, width = sizes[k]
+    for k, level, height, width in sorted(parts, key=lambda part: (-part[2], -part[3])):  # the rest in order
         if x + width > wide:
             x, y, shelf = 0, y + shelf, 0
         shelf = max(shelf, height)
-        for level in range(count):
-            if level < len(images[k]):
-                image = images[k][level]
-                table[k, level] = x, y, image.shape[1], image.shape[0]
-                x += image.shape[1]
-            else:
-                table[k, level] = table[k, level - 1]
+        table[k, level] = x, y, width, height
+        x += width
     pixels = np.zeros((y + shelf, wide, 4), np.uint8)
     for k, levels in enumerate(images):
+        table[k, len(levels) :] = table[k, len(levels) - 1]
         for level, image in enumerate(levels):
             left, bottom, width, height = table[k, level]
             pixels[bottom : bottom + height, left : left + width] = image

@@ -15,7 +15,7 @@ uniform vec3 sun;
 
 layout(location = 0) out highp vec4 out_color;     // alpha: 2 and how much of the sun the relief takes, where it takes any
 layout(location = 1) out highp vec4 out_normal;    // of length 1 out of doors, 0 in a room; how near a boundary is, in pixels
-layout(location = 2) out highp vec4 out_specular;  // and how deep the pixel lies, behind walls too
+layout(location = 2) out highp vec4 out_specular;  // and how far the pixel lies behind its wall, along the depth
 #ifdef PICK
 layout(location = 3) out highp ivec4 out_terminal;
 #endif
@@ -50,7 +50,7 @@ void main() {
 #endif
   vec3 turned = 2.0 * (found.normal.xyz + (1.0 - found.normal.a) * vec3(0.5, 0.5, 1.0)) - 1.0;
   out_normal = vec4(turned.x * tangent + turned.y * up + turned.z * face.xyz, min(margin, 9.0));
-  out_specular = vec4(found.specular.rgb, face.w + deep / spread);
+  out_specular = vec4(found.specular.rgb, deep / spread);
 #ifdef COUNT_FETCHES
   out_color = vec4(float(fetches));  // in place of what is seen, for a bench
 #endif

@@ -41,7 +41,7 @@ void main() {
   vec4 own = drawn(normal, share);
   float sees = shades.x > 0.0 && dot(face.xyz, towards) > 0.0 ? sunlit(point, face.xyz) : 1.0;
   vec4 shine = drawn(specular, share);
-  float around = shades.y > 0.0 ? open_at(ivec2(gl_FragCoord.xy), shine.a) : 1.0;
+  float around = shades.y > 0.0 ? open_at(ivec2(gl_FragCoord.xy), face.w + shine.a) : 1.0;
   vec4 tint = drawn(color, share);
   if (tint.a > 1.5) {  // relief stands between
     sees *= 3.0 - tint.a;
