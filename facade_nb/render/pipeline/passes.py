@@ -12,7 +12,18 @@ from typing import Any, Literal
 
 from ...design.errors import nearest
 
-__all__ = ["BUFFERS", "PASSES", "THROUGH", "Buffer", "Pass", "arranged", "seen_through", "without"]
+__all__ = [
+    "BUFFERS",
+    "PASSES",
+    "THROUGH",
+    "Buffer",
+    "Pass",
+    "arranged",
+    "image_bytes",
+    "seen_through",
+    "shared",
+    "without",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +121,7 @@ BUFFERS: tuple[Buffer, ...] = (
     Buffer("depth", 1, "depth", "Which triangle is in front."),
     Buffer("color", 4, "f2", "What the grammar gives: colour times alpha; from 2 on, how much sun relief takes."),
     Buffer("normal", 4, "f2", "Its normal, short in rooms; and how near a split is, in pixels."),
-    Buffer("specular", 4, "f4", "Its specular value, in rooms a lamp's colour; and how deep it lies."),
+    Buffer("specular", 4, "f2", "Its specular value, in rooms a lamp's colour; and how far it lies behind the wall."),
     Buffer("occlusion", 2, "f2", "How much around a point is open, of a few taps; and how deep it lies.", part=2),
     Buffer("softened", 2, "f2", "The same without the pattern of the taps.", part=2),
     Buffer("light", 4, "f2", "Light that comes from there, linear."),
@@ -165,6 +176,64 @@ def arranged(passes: Sequence[Pass] = PASSES, buffers: Sequence[Buffer] = BUFFER
                 raise ValueError(f"pass {own.name!r}: it reads {name!r}, which no pass before it writes")
         written.update(own.writes)
     return tuple(passes)
+
+
+def shared(
+    passes: Sequence[Pass] = PASSES,
+    buffers: Sequence[Buffer] = BUFFERS,
+    whole: Iterable[str] = ("picture",),
+) -> dict[str, str]:
+    """Which buffer's image each buffer uses: its own, or that of an earlier one like it which no pass needs any more.
+
+    Parameters
+    ----------
+    whole
+        Buffers that are read after the last pass. Those of a size of their own are kept as well: they may serve the
+        next picture.
+    """
+    by_name = {own.name: own for own in buffers}
+    last = dict.fromkeys((*whole, *(own.name for own in buffers if own.side)), len(passes))
+    for number, own_pass in enumerate(passes):
+        for name in (*own_pass.reads, *own_pass.writes):
+            last[name] = max(number, last.get(name, 0))
+    found: dict[str, str] = {}
+    free_after: dict[str, int] = {}  # of an image, by the name of the first buffer in it
+    for number, own_pass in enumerate(passes):
+        for name in own_pass.writes:
+            if name in found:
+                continue
+            own = by_name[name]
+            like = (
+                image
+                for image, until in free_after.items()
+                if until < number and _like(own) == _like(by_name[image])
+            )
+            found[name] = next(like, name)
+            free_after[found[name]] = last[name]
+    return found
+
+
+def _like(own: Buffer) -> tuple[object, ...]:
+    return own.kind, own.channels, own.side, own.part
+
+
+_BYTES = {"f1": 1, "f2": 2, "f4": 4, "i4": 4, "depth": 4}
+
+
+def image_bytes(
+    pixels: tuple[int, int],
+    passes: Sequence[Pass] = PASSES,
+    buffers: Sequence[Buffer] = BUFFERS,
+    whole: Iterable[str] = ("picture",),
+) -> int:
+    """Bytes of the images that a picture of so many pixels takes."""
+    images = set(shared(passes, buffers, whole).values())
+    sizes = {own.name: own.size(pixels) for own in buffers}
+    return sum(
+        sizes[own.name][0] * sizes[own.name][1] * own.channels * _BYTES[own.kind]
+        for own in buffers
+        if own.name in images
+    )
 
 
 def without(names: Iterable[str], passes: Sequence[Pass] = PASSES) -> tuple[Pass, ...]:

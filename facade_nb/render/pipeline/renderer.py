@@ -14,7 +14,7 @@ from ..texture.gl import GlPainter
 from ..texture.shaders import room, rooms_for, shader
 from ..texture.uploads import Upload, grammar_upload, tile_uploads
 from .frame import Frame, visible
-from .passes import BUFFERS, PASSES, Buffer, Pass, arranged
+from .passes import BUFFERS, PASSES, Buffer, Pass, arranged, shared
 from .scene import Scene
 from .vertices import VERTEX
 
@@ -56,6 +56,7 @@ class Renderer:
         self._kept = ExitStack()
         self._sized = ExitStack()
         self._pixels = (0, 0)
+        self._whole: frozenset[str] = frozenset()  # buffers that share no image with a later one
         self._images: dict[str, Any] = {}
         self._targets: dict[str, Any] = {}
         self._programs: dict[tuple[str, ...], Any] = {}
@@ -152,7 +153,7 @@ class Renderer:
             most = context.info["GL_MAX_TEXTURE_SIZE"]
             if max(frame.pixels) > most or min(frame.pixels) < 1:
                 raise ValueError(f"pixels: expected from 1 to {most} across and up; found {frame.pixels}")
-            self._make_room(frame.pixels)
+            self._make_room(frame.pixels, frozenset(wanted))
             self._hold_tiles(frame.looks.relief)
             uniforms = frame.uniforms()
             written: set[str] = set()
@@ -222,12 +223,12 @@ class Renderer:
             bool((self._read(name) < 1).any()) for name in own.writes if self.buffers[name].kind == "depth"
         )
 
-    def _make_room(self, pixels: tuple[int, int]) -> None:
-        """Images of the picture's size, kept until another is asked for."""
-        if pixels == self._pixels:
+    def _make_room(self, pixels: tuple[int, int], wanted: frozenset[str]) -> None:
+        """Images of the picture's size, kept until another is asked for; those no longer needed are used again."""
+        if pixels == self._pixels and wanted <= self._whole:
             return
         self._sized.close()
-        self._images, self._targets, self._pixels = {}, {}, pixels
+        self._images, self._targets, self._pixels, self._whole = {}, {}, pixels, wanted
         self._maps.clear()
         context = self._context
 
@@ -235,10 +236,12 @@ class Renderer:
             self._sized.callback(made.release)
             return made
 
-        used = {name for own_pass in self.passes for name in (*own_pass.reads, *own_pass.writes)}
-        for name, own in self.buffers.items():
-            if name not in used:
+        sharing = shared(self.passes, tuple(self.buffers.values()), wanted)
+        for name, first in sharing.items():
+            if first != name:
+                self._images[name] = self._images[first]
                 continue
+            own = self.buffers[name]
             size = own.size(pixels)
             if own.kind == "depth":
                 image = context.depth_texture(size)

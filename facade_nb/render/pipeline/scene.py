@@ -102,10 +102,10 @@ class Scene:
 
     @property
     def bytes(self) -> dict[str, int]:
-        """What the graphics card holds of it."""
+        """What the graphics card holds of it, heights of tiles included."""
         from ..texture.uploads import tile_uploads
 
-        held = {own.name: len(own.content) for own in tile_uploads(self.question.atlas)}
+        held = {own.name: len(own.content) for own in tile_uploads(self.relief_question.atlas)}
         found = {
             "vertices": int(self.vertices.nbytes + self.indices.nbytes),
             "grammars": int(self.question.texture.nbytes),

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from math import ceil, sqrt
+from math import sqrt
 from typing import Any, Protocol
 
 import numpy as np
@@ -188,7 +188,7 @@ def _corner(u: Floats, size: NDArray[np.int32], wrap: bool) -> tuple[Floats, NDA
 
 
 def pack(tiles: Tiles | None, names: Sequence[str], relief: bool = False) -> Atlas:
-    """Pack tiles, each with all its levels side by side, on shelves; with `relief` also their heights.
+    """Pack tiles with all their levels, the highest first, on shelves; with `relief` also their heights.
 
     Raises
     ------
@@ -219,7 +219,7 @@ def _arranged(images: list[list[NDArray[np.uint8]]], grey: NDArray[np.bool_], re
     every.sort(key=lambda own: (-images[own[0]][own[1]].shape[0], own))
     widest = max(image.shape[1] for levels in images for image in levels)
     area = sum(image.shape[0] * image.shape[1] for levels in images for image in levels)
-    wide = widest * ceil(sqrt(area) / widest)
+    wide = widest * max(1, round(sqrt(area) / widest))
     count = max(len(levels) for levels in images)
     table = np.zeros((len(images), count, 4), np.int32)
     x = y = shelf = 0

@@ -50,6 +50,7 @@ class GlPainter:
     def __init__(self, name: str, missing: Callable[[], str], make: Callable[[], Any], install: str) -> None:
         self.name, self._missing, self._make, self._install = name, missing, make, install
         self._lock = threading.RLock()
+        self._entered = 0
         self._atlases: dict[int, tuple[Atlas, dict[str, Any]]] = {}
         self._programs: dict[tuple[str, str], Any] = {}
 
@@ -80,14 +81,22 @@ class GlPainter:
 
     @contextmanager
     def entered(self) -> Iterator[Any]:
-        """Its `moderngl.Context`, for this thread alone until the block ends."""
-        with self._lock, self._context as context:
-            yield context
+        """Its `moderngl.Context`, for this thread alone until the block ends; blocks may lie inside each other."""
+        with self._lock, ExitStack() as kept:
+            if not self._entered:
+                kept.enter_context(self._context)
+            self._entered += 1
+            kept.callback(self._leave)
+            yield self._context
+
+    def _leave(self) -> None:
+        self._entered -= 1
 
     @property
     def renderer(self) -> str:
         """What draws, as the driver calls it."""
-        return str(self._context.info["GL_RENDERER"])
+        with self.entered() as context:
+            return str(context.info["GL_RENDERER"])
 
     def paint(
         self,
@@ -141,7 +150,7 @@ class GlPainter:
         data: Sequence[Upload],
     ) -> Iterator[list[Any]]:
         """The images that a shader draws: colour, normal, specular, numbers. They end with the context."""
-        with self._lock, self._context as context, ExitStack() as kept:
+        with self.entered() as context, ExitStack() as kept:
             most = context.info["GL_MAX_TEXTURE_SIZE"]
             if max(size) > most:
                 raise ValueError(f"pixels: {self.name} draws at most {most} across and up; found {size}")
@@ -282,7 +291,12 @@ def _make_egl() -> Any:
     import moderngl
 
     options: dict[str, Any] = {"backend": "egl", "libgl": "libGL.so.1", "libegl": "libEGL.so.1"}
-    return moderngl.create_context(standalone=True, require=330, **options)
+    context = moderngl.create_context(standalone=True, require=330, **options)
+    # From now on EGL takes it for the current one, also when OSMesa has taken its place, and then `entered` would bind
+    # nothing: what is drawn would go to OSMesa's context. Once left, it is bound anew each time.
+    with context:
+        pass
+    return context
 
 
 OSMESA = GlPainter("osmesa", _no_osmesa, _make_osmesa, _INSTALL_OSMESA)

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...design.errors import DesignError, Fault
+from ..pipeline.passes import image_bytes
 from ..pipeline.scene import Scene
 from ..pipeline.viewpoint import Viewpoint
 from ..texture import Grammar
-from ..texture.uploads import tile_uploads
 from .generated import generate_plan
 from .mesh import Mesh, build_mesh
 from .plan import KINDS, ROOFS, Plan
@@ -32,6 +32,9 @@ __all__ = ["MOST", "Town"]
 
 MOST = 100_000
 """A generated town has no more buildings."""
+
+PIXELS = (1024, 768)
+"""Of the picture whose images `Town.stats` counts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,22 +164,17 @@ class Town:
         return self.mesh.building_of
 
     def stats(self) -> dict[str, Any]:
-        """How much there is of what, and how many bytes the graphics card gets."""
+        """How much there is of what, and how many bytes the graphics card holds, with a picture of `PIXELS`."""
         mesh, encoding = self.mesh, self.grammar.encoding
-        given = {one.name: one for one in tile_uploads(self.grammar.atlas())}
-        sizes = {
-            "vertices": int(mesh.vertices.nbytes + mesh.indices.nbytes),
-            "grammars": int(encoding.texture.nbytes),
-            "tiles": len(given["atlas"].content) + len(given["tile_table"].content),
-            "noise": len(given["noise"].content),
-        }
+        sizes = {**self.scene.bytes, "images": image_bytes(PIXELS)}
+        total = sizes.pop("total") + sizes["images"]
         return {
             "buildings": len(self.plan),
             "facades": mesh.facades,
             "vertices": len(mesh.vertices),
             "grammars": len(self.styles),
             "rules": len(encoding.positions),
-            "bytes": sizes | {"total": sum(sizes.values())},
+            "bytes": {**sizes, "total": total},
         }
 
     @cached_property

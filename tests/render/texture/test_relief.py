@@ -334,8 +334,8 @@ class TestPipeline:
             for relief in (False, True):
                 frame = Frame(scene, frustum, Daytime.at(12), PIXELS, Looks(relief=relief))
                 deep[relief] = renderer.draw(frame, ("specular",))["specular"][45, 60, 3]
-        assert deep[False] == pytest.approx(2.0, abs=1e-3)
-        assert deep[True] == pytest.approx(1.8, abs=1e-3)
+        assert deep[False] == pytest.approx(0.0, abs=1e-3)
+        assert deep[True] == pytest.approx(-0.2, abs=1e-3)
 
     def test_the_sun_is_lost_where_relief_stands_before_it(self) -> None:
         scene = Scene.of_facades([Facade(Grammar.parse(fit("step"), Tiles()), (1.0, 1.0))])

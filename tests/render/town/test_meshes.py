@@ -174,7 +174,7 @@ def test_stats_count_what_the_card_gets(town: Town) -> None:
     stats = town.stats()
     sizes = stats["bytes"]
     assert list(stats) == ["buildings", "facades", "vertices", "grammars", "rules", "bytes"]
-    assert list(sizes) == ["vertices", "grammars", "tiles", "noise", "total"]
+    assert list(sizes) == ["vertices", "grammars", "tiles", "noise", "images", "total"]
     assert stats["buildings"] == len(town.plan) == len(town.buildings)
     assert sizes["vertices"] == 68 * len(town.vertices) + 4 * len(town.indices)
     assert sizes["noise"] == 256 * 256 * 4

@@ -44,8 +44,8 @@ void main() {
 #ifdef BEHIND
   float around = 1.0;  // occlusion is that of what stands in front
 #else
-  float around = shades.y > 0.0 ? open_at(ivec2(gl_FragCoord.xy), shine.a) : 1.0;
-  if (shine.a > 1.001 * face.w + 0.05) around = mix(1.0, around, 0.6);  // in a room: the pane before it mirrors the sky
+  float around = shades.y > 0.0 ? open_at(ivec2(gl_FragCoord.xy), face.w + shine.a) : 1.0;
+  if (shine.a > 0.001 * face.w + 0.05) around = mix(1.0, around, 0.6);  // in a room: the pane before it mirrors the sky
 #endif
   vec4 tint = drawn(color, share);
   if (tint.a > 1.5) {  // relief stands between

@@ -19,14 +19,14 @@ void main() {
   vec2 share = share_of(specular);
   ivec2 cell = ivec2(gl_FragCoord.xy);
   ivec2 at = min(2 * cell, most);
-  float depth = pixel(specular, share, at).a;
+  vec4 face = pixel(facing, share, at);
+  float depth = face.w + pixel(specular, share, at).a;
   out_occlusion = vec4(1.0, depth, 0.0, 1.0);
   if (depth <= 0.0) return;
   float covers = depth * window.w;
   float radius = min(reach / covers, WIDEST / window.w);
   if (radius < 1.5) return;
   vec3 point = ray_at(vec2(at) + 0.5) * depth;
-  vec4 face = pixel(facing, share, at);
   uint number = mixed(uint(cell.x & 3) * 4u + uint(cell.y & 3));
   float turn = float(number & 1023u) * (6.2831853 / 1024.0);
   vec2 way = vec2(cos(turn), sin(turn));
@@ -35,7 +35,7 @@ void main() {
     float far = radius * (float(k) + 0.5) / float(TAPS);
     ivec2 near = clamp(at + ivec2(round(far * way)), ivec2(0), most);
     way = vec2(GOLDEN.x * way.x - GOLDEN.y * way.y, GOLDEN.y * way.x + GOLDEN.x * way.y);
-    float other = pixel(specular, share, near).a;
+    float other = pixel(facing, share, near).w + pixel(specular, share, near).a;
     if (other <= 0.0) continue;
     vec3 to = ray_at(vec2(near) + 0.5) * other - point;
     float length2 = dot(to, to);
