@@ -33,9 +33,11 @@ start
 seed
     Of the façade, metres: whole multiples of 1/64 from 0 to below 16384, which a 32-bit float holds exactly.
 normal
-    Unit vector out of the façade.
+    Unit vector out of the façade. Zeros: it turns to whoever looks, the sun too. The four corners of such a quad have
+    the position of its middle, and it is open where the tile is that the uppermost colour of its rule paints.
 tangent
-    Unit vector along the façade's width. Height runs along the cross product of normal and tangent.
+    Unit vector along the façade's width. Height runs along the cross product of normal and tangent. Of what turns: the
+    axis about which it does, up, or zeros, for all ways.
 
 Triangles are counter-clockwise where their front is seen.
 """

@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from . import doors, fabric, furniture, masks, masonry, ornament, plain, rooms, street, timber, windows
+from . import (
+    doors,
+    fabric,
+    furniture,
+    greenery,
+    masks,
+    masonry,
+    ornament,
+    plain,
+    rooms,
+    street,
+    timber,
+    windows,
+)
 from .canvas import Canvas
 
 __all__ = ["CATALOGUE", "MAPS", "Recipe"]
@@ -45,6 +58,8 @@ class Recipe:
         How much of the sky's light is drawn into its colour, 0 to 1.
     even
         Its colour is evened out below that many swings across it, so that it may be repeated often; 0: as drawn.
+    relief
+        Whether it is deep as it is drawn. Leaves are not: they only look towards where they would.
     """
 
     name: str
@@ -59,10 +74,15 @@ class Recipe:
     mask: bool = False
     shade: float = 1.0
     even: float = 0.0
+    relief: bool = True
 
 
 def _render(colour: str) -> Draw:
     return lambda canvas, seed: plain.plaster(canvas, seed, colour)
+
+
+def _leafy(draw: Callable[[Canvas, int, Sequence[str]], None], tones: Sequence[str]) -> Draw:
+    return lambda canvas, seed: draw(canvas, seed, tones)
 
 
 def _hole(shape: str) -> Draw:
@@ -76,12 +96,13 @@ def _recipes() -> list[Recipe]:
         "Frames, open between their bars",
         "Doors, shutters and gates",
     )
-    ornament_, cloth, room, thing, ground, hole = (
+    ornament_, cloth, room, thing, ground, green, hole = (
         "Ornament and ironwork",
         "Curtains, blinds, glass",
         "Rooms",
         "Furniture and lamps",
         "Streets and shops",
+        "Trees and street lamps",
         "Masks",
     )
     plain_ = ("normal",)
@@ -325,6 +346,18 @@ def _recipes() -> list[Recipe]:
         Recipe("goods", ground, 1.8, 1.5, "", street.goods, "what shops show: below boxes, above fruit", 155, ()),
         Recipe("sign", ground, 3.2, 2, "", lambda c, s: street.sign(c, s, ("BOOKS", "CAFE", "GROCER", "FLORIST")),
             "letters of signs, four rows", 156, (), shade=0.4),
+        Recipe("crown", green, 5, 5, "", _leafy(greenery.crown, ("#263319", "#3d4f27", "#5a6f35", "#78894a")),
+            "crown of a lime, gaps between its leaves", 211, plain_, shade=0.6, relief=False),
+        Recipe("crown-light", green, 4, 5, "", lambda c, s: greenery.crown(
+            c, s, ("#33421d", "#526629", "#788b40", "#9aa75e"), bunch=0.38, airy=0.7),
+            "crown of a birch", 223, plain_, shade=0.6, relief=False),
+        Recipe("tree", green, 4, 5.4, "", lambda c, s: greenery.crown(
+            c, s, ("#2b391c", "#445829", "#627838", "#81934f"), bunch=0.4, airy=0.3, trunk=1.3),
+            "small tree as a whole", 227, plain_, shade=0.6, relief=False),
+        Recipe("spruce", green, 3.6, 9, "", _leafy(greenery.spruce, ("#1b2a1f", "#2b3d2b", "#405541")),
+            "spruce", 231, plain_, shade=0.6, relief=False),
+        Recipe("street-lamp", green, 0.8, 4.4, "", greenery.post_lamp, "street lamp on its post", 251, plain_,
+            relief=False),
         *(
             Recipe(f"mask-{shape}", hole, 1.2, 2.1 if shape == "arch" else 1.8, "", _hole(shape),
                 what, 1, (), mask=True, shade=0)

@@ -48,7 +48,8 @@ def draw(name: str, size: int) -> Mapping[str, Floats]:
 
 def relief(name: str, size: int) -> Relief | None:
     """How deep the tile is, where; None if it is flat, or if nothing stands out of what it shows (no normal map)."""
-    return relief_of(_drawn(name, size)) if "normal" in CATALOGUE[name].maps else None
+    recipe = CATALOGUE[name]
+    return relief_of(_drawn(name, size)) if recipe.relief and "normal" in recipe.maps else None
 
 
 def _drawn(name: str, size: int) -> Canvas:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..pipeline.vertices import VERTEX
 from .chance import Floats
@@ -67,6 +68,7 @@ class Faces:
         owner: Ints,
         foot: Floats | None = None,
         plane: Ints | None = None,
+        both: NDArray[np.bool_] | None = None,
     ) -> None:
         """Flat polygons (f, k, 3), counter-clockwise from outside, whose width runs along vectors (f, 3) in them.
 
@@ -75,6 +77,8 @@ class Faces:
         foot, plane
             (f, 3), (f,) where polygons are parts of larger planes: a point of each plane, and its number. All parts of
             a plane have one façade.
+        both
+            (f,) which are seen from behind, too.
         """
         normal, size = _normals(points)
         kept = size > _NOTHING  # where a chain of corners stands still, its planes are lines
@@ -95,6 +99,14 @@ class Faces:
             low, high = ends[0][part], ends[1][part]
         place = np.round(np.maximum(place - low[:, None], 0), 4)
         self.add(points, place, np.round(high - low, 4), start, seed, normal, tangent, owner)
+        if both is not None and len(points) and both[kept].any():
+            self._behind(points.shape[:2], both[kept])
+
+    def _behind(self, shape: tuple[int, int], chosen: NDArray[np.bool_]) -> None:
+        """Add the faces that came last once more, the other way round, with the same vertices."""
+        f, k = shape
+        triangles = self.triangles[-1].reshape(f, k - 2, 3)[chosen]
+        self.triangles.append(triangles[..., ::-1].reshape(-1, 3))
 
     def add(
         self,

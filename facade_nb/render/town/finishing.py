@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from .chance import Floats, length
 from .looks import choose_seeds
 from .neighbours import Cut
-from .plan import OUTBUILDING, Ground, Plan
+from .plan import GABLE, HIP, OUTBUILDING, SHED, Ground, Plan
 from .rings import Ints, after, offsets_of, ring_numbers, take_rings
 from .roles import PARTY, STREET
 from .roof_kinds import choose_roofs
@@ -159,8 +159,20 @@ def finish(
         characters.kind,
         characters.shop,
         ground,
+        _over(characters, roofs.kind, styles),
         dict(left_out or {}),
     )
+
+
+_OVER: Mapping[str, float] = {"detached": 0.5, "half-timbered": 0.4, "brickworks": 0.25}
+"""How far roofs of some styles hang over, metres."""
+
+
+def _over(characters: Characters, kind: NDArray[np.uint8], styles: Sequence[Style]) -> Floats:
+    """How far roofs hang over, metres: those with a slope do, and those of sheds less."""
+    over = np.array([_OVER.get(one.name, 0.35) for one in styles])[characters.style]
+    over = np.where(characters.kind == OUTBUILDING, 0.2, over)
+    return np.where(np.isin(kind, (GABLE, HIP, SHED)), over, 0.0)
 
 
 def _entrances(

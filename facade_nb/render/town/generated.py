@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from .chance import length
 from .characters import of_districts
+from .chimneys import chimneys_of
 from .districts import settle
 from .finishing import finish, pairs_of, walls_of
 from .fitting import single_fronts
+from .greenery import trees_of
 from .grounds import ground_of
+from .kerbs import along_kerbs
 from .neighbours import cut_walls
 from .plan import Plan
 from .rings import after, ring_numbers
@@ -20,6 +24,9 @@ from .stages import Stages
 from .styles import Style
 
 __all__ = ["generate_plan"]
+
+_TREES = 0.5
+"""Trees in gardens and yards for each house, at the most."""
 
 
 def generate_plan(buildings: int, seed: int, styles: Sequence[Style], stages: Stages | None = None) -> Plan:
@@ -48,6 +55,11 @@ def generate_plan(buildings: int, seed: int, styles: Sequence[Style], stages: St
         seed,
     )
     stages.at(0.45, "ground")
-    ground = ground_of(cells, district, np.unique(cell))
+    built = np.unique(cell)
+    ground = ground_of(cells, district, built)
     stages.at(0.5, "roofs")
-    return finish(walls, pairs, characters, styles, ground, seed, stages=stages)
+    plan = finish(walls, pairs, characters, styles, ground, seed, stages=stages)
+    stages.at(0.68, "trees")
+    return replace(
+        plan, things=trees_of(plan, seed, _TREES) + chimneys_of(plan, seed) + along_kerbs(cells, built, seed)
+    )

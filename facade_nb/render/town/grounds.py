@@ -5,17 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .chance import Floats, length, millimetres
 from .footprints import District
 from .plan import Ground
 from .rings import Ints, after, ring_numbers, take_rings
 from .roofing import triangulated
-from .streets import AVENUE, Cells
+from .streets import AVENUE, WALKS, WIDTHS, Cells
 
 __all__ = ["Pieces", "ground_of"]
 
-ASPHALT, PAVEMENT, COURT, GRASS = range(4)
+ASPHALT, PAVEMENT, COURT, GRASS, LINE = range(5)
+
+_LINE = 0.07
+"""Half the width of the line in the middle of a street, metres."""
 
 _INSIDE = {
     District.MARKET: PAVEMENT,
@@ -47,11 +51,13 @@ def ground_of(cells: Cells, district: Ints, built: Ints) -> Ground:
     i = np.flatnonzero(good[number])
     j = after(offsets)[i]
     pieces = Pieces()
-    for one, other, name in ((outer, kerb, ASPHALT), (kerb, block, PAVEMENT)):
-        quad = np.stack([one[i], one[j], other[j], other[i]], axis=1).reshape(-1, 2)
-        corner = 4 * np.arange(len(i))[:, None]
-        triangles = np.concatenate([corner + np.array([0, 1, 2]), corner + np.array([0, 2, 3])])
-        pieces.add(quad, triangles, np.full(len(quad), name), np.arange(len(quad)) // 4)
+    marked = cells.street[index[i]] <= AVENUE
+    # Wide streets have a line in their middle: each side half of it.
+    share = np.where(marked, _LINE / (WIDTHS / 2 - WALKS)[cells.street[index[i]]], 0.0)[:, None]
+    lines = [millimetres(outer[k] + (kerb[k] - outer[k]) * share) for k in (i, j)]
+    pieces.strips(outer[i][marked], outer[j][marked], lines[1][marked], lines[0][marked], LINE)
+    pieces.strips(lines[0], lines[1], kerb[j], kerb[i], ASPHALT)
+    pieces.strips(kerb[i], kerb[j], block[j], block[i], PAVEMENT)
     kinds = np.array([_INSIDE.get(k, GRASS) for k in range(8)])[district[chosen]]
     garden = (chosen * 2654435761 >> 12) % 5 < _GARDENS  # of fifths
     kinds = np.where((district[chosen] == District.INNER) & garden, GRASS, kinds)
@@ -66,16 +72,23 @@ def ground_of(cells: Cells, district: Ints, built: Ints) -> Ground:
 class Pieces:
     """Gathers pieces of ground."""
 
-    parts: list[tuple[Floats, Ints, Ints, Ints]] = field(default_factory=list)
+    parts: list[tuple[Floats, Ints, Ints, Ints, NDArray[np.bool_]]] = field(default_factory=list)
 
-    def add(self, corners: Floats, triangles: Ints, kind: Ints, piece: Ints) -> None:
+    def add(self, corners: Floats, triangles: Ints, kind: Ints, piece: Ints, along: bool = False) -> None:
         """Corners with their kinds and pieces, and triangles of them."""
         if len(corners):
-            self.parts.append((corners, triangles, kind, piece))
+            self.parts.append((corners, triangles, kind, piece, np.full(len(corners), along)))
+
+    def strips(self, a: Floats, b: Floats, c: Floats, d: Floats, kind: int) -> None:
+        """Pieces of four corners (n, 2) each, along a street: from a to b on its side. Asphalt has no pattern."""
+        quad = np.stack([a, b, c, d], axis=1).reshape(-1, 2)
+        corner = 4 * np.arange(len(a))[:, None]
+        triangles = np.concatenate([corner + np.array([0, 1, 2]), corner + np.array([0, 2, 3])])
+        self.add(quad, triangles, np.full(len(quad), kind), np.arange(len(quad)) // 4, kind != ASPHALT)
 
     def ground(self) -> Ground:
         """All of them, without triangles that are lines."""
-        corners, triangles, kind, piece = zip(*self.parts, strict=True)
+        corners, triangles, kind, piece, along = zip(*self.parts, strict=True)
         starts = np.cumsum([0] + [len(points) for points in corners[:-1]])
         numbers = np.cumsum([0] + [int(own.max()) + 1 for own in piece[:-1]])
         every = np.concatenate([t + start for t, start in zip(triangles, starts, strict=True)])
@@ -87,6 +100,7 @@ class Pieces:
             every[area > 0],
             np.concatenate(kind).astype(np.uint8),
             np.concatenate([own + first for own, first in zip(piece, numbers, strict=True)]),
+            np.concatenate(along),
         )
 
 

@@ -16,6 +16,7 @@ from .plan import COURT, OUTBUILDING, PARTY, SIDE, STREET, Plan
 from .rings import Ints, offsets_of, ring_numbers
 from .roofing import Houses, cover
 from .styles import Style
+from .things import stand
 
 __all__ = ["NOBODY", "Mesh", "build_mesh"]
 
@@ -73,7 +74,9 @@ def build_mesh(plan: Plan, styles: Sequence[Style], grammar: Grammar) -> Mesh:
     cover(faces, _houses(plan, styles, starts))
     houses = faces.count
     _ground(faces, plan, grammar)
-    return _chunked(faces, plan, facades, houses)
+    ground = faces.count
+    stand(faces, plan.things, grammar)
+    return _chunked(faces, plan, facades, houses, ground)
 
 
 def _walls(faces: Faces, plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> None:
@@ -102,6 +105,10 @@ def _houses(plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> H
     true = ~plan.added
     counts = np.bincount(ring_numbers(plan.rings), weights=true, minlength=len(plan.ring_of)).astype(np.int64)
     works = np.array([one.name == "brickworks" for one in styles])[plan.style]
+    # No roof hangs over a wall of which a neighbour covers a part. Edges go from true corner to true corner.
+    edge = np.cumsum(true) - 1
+    joined = np.bincount(edge, weights=plan.role == PARTY, minlength=int(true.sum())) > 0
+    over = np.where(joined, 0.0, plan.over[plan.building[true]])
     return Houses(
         plan.corners[true],
         offsets_of(counts),
@@ -114,11 +121,15 @@ def _houses(plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> H
         works,
         {face: starts[face][plan.style] for face in ("gable", "roof", "flat", "plain")},
         plan.seed / 64.0,
+        over,
     )
 
 
 def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> None:
-    """The ground: one façade that lies on its back, so that a pattern runs on from triangle to triangle."""
+    """The ground: one façade that lies on its back, so that a pattern runs on from triangle to triangle.
+
+    Strips along streets are façades of their own: width runs along the street, height away from it.
+    """
     ground = plan.ground
     if not len(ground.corners):
         return
@@ -127,20 +138,36 @@ def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> None:
     low = np.floor(ground.corners.min(axis=0))
     size = np.ceil(ground.corners.max(axis=0)) - low
     count = len(ground.corners)
+    place, sizes = ground.corners - low, np.tile(size, (count, 1))
+    tangent = np.tile([1.0, 0.0, 0.0], (count, 1))
+    strips = np.flatnonzero(ground.along).reshape(-1, 4)
+    quad = ground.corners[strips]
+    way = quad[:, 1] - quad[:, 0]
+    unit = way / np.maximum(length(way), 1e-9)[:, None]
+    away = quad - quad[:, :1]
+    across = np.stack([-unit[:, 1], unit[:, 0]], axis=1)
+    own = np.stack([(away * axis[:, None]).sum(axis=2) for axis in (unit, across)], axis=2)
+    own = np.round(own - own.min(axis=1, keepdims=True), 4)
+    good = (length(way) > 0.01) & (
+        own[..., 1].max(axis=1) > 0.01
+    )  # a corner that is no strip lies as the rest does
+    place[strips[good]] = own[good]
+    sizes[strips[good]] = own.max(axis=1)[good][:, None]
+    tangent[strips[good]] = np.column_stack([unit, np.zeros(len(unit))])[good][:, None]
     faces.loose(
         np.column_stack([ground.corners, np.zeros(count)]),
-        ground.corners - low,
-        np.tile(size, (count, 1)),
+        place,
+        sizes,
         start[ground.kind],
         np.zeros((count, 2)),
         np.tile([0.0, 0.0, 1.0], (count, 1)),
-        np.tile([1.0, 0.0, 0.0], (count, 1)),
+        tangent,
         np.full(count, -1),
         ground.triangles,
     )
 
 
-def _chunked(faces: Faces, plan: Plan, facades: int, houses: int) -> Mesh:
+def _chunked(faces: Faces, plan: Plan, facades: int, houses: int, ground: int) -> Mesh:
     """Order vertices and triangles by chunk and building."""
     vertices = np.concatenate(faces.vertices)
     triangles = np.concatenate(faces.triangles)
@@ -155,9 +182,11 @@ def _chunked(faces: Faces, plan: Plan, facades: int, houses: int) -> Mesh:
     sums = [
         np.bincount(piece, weights=np.rint(at[:, k] * 1000)) for k in (0, 1)
     ]  # whole numbers add up exactly
-    key[houses:] = _code(np.floor(np.stack(sums, axis=1) / count[:, None] / 1000 / CELL).astype(np.int64))[
-        piece
-    ]
+    key[houses:ground] = _code(
+        np.floor(np.stack(sums, axis=1) / count[:, None] / 1000 / CELL).astype(np.int64)
+    )[piece]
+    where = vertices["position"][ground:, ::2].astype(np.float64) * (1, -1)
+    key[ground:] = _code(np.floor(where / CELL).astype(np.int64))
     order = np.lexsort((owner, key))
     moved = np.empty(len(order), np.int64)
     moved[order] = np.arange(len(order))
@@ -171,7 +200,12 @@ def _chunked(faces: Faces, plan: Plan, facades: int, houses: int) -> Mesh:
     chunks = np.zeros(len(begin), CHUNK)
     chunks["first"] = 3 * begin
     chunks["count"] = 3 * np.diff(np.append(begin, len(triangles)))
-    low, high = position[triangles].min(axis=1), position[triangles].max(axis=1)
+    # What turns reaches as far on all sides as it is large.
+    turns = (vertices["normal"] == 0).all(axis=1)
+    reach = np.where(turns[:, None], 0.5 * np.abs(vertices["size"]).sum(axis=1, keepdims=True), 0)
+    reach = reach.astype(np.float32)
+    low, high = ((position + sign * reach)[triangles] for sign in (-1, 1))
+    low, high = low.min(axis=1), high.max(axis=1)
     chunks["low"] = np.minimum.reduceat(low, begin, axis=0)
     chunks["high"] = np.maximum.reduceat(high, begin, axis=0)
     building_of = np.where(owner[first][by] < 0, int(NOBODY), owner[first][by]).astype(np.uint32)

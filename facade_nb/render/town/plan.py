@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .chance import Floats
 from .rings import Ints, after, ring_numbers
 from .roles import COURT, PARTY, ROLES, SIDE, STREET
+from .things import NOTHING, Things
 
 __all__ = [
     "COURT",
@@ -61,15 +62,19 @@ class Ground:
         (v,) index into `names`. All corners of a triangle are of one kind.
     piece
         (v,) which piece of ground a corner belongs to; pieces share no corners.
+    along
+        (v,) whether a piece is a strip of four corners that lies along a street: it begins with the edge on the
+        street's side.
     names
-        Asphalt, pavement, court, grass.
+        Asphalt, pavement, court, grass, the line in the middle of a street.
     """
 
     corners: Floats
     triangles: Ints
     kind: NDArray[np.uint8]
     piece: Ints
-    names: tuple[str, ...] = ("asphalt", "pavement", "court", "grass")
+    along: NDArray[np.bool_]
+    names: tuple[str, ...] = ("asphalt", "pavement", "court", "grass", "line")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,6 +123,10 @@ class Plan:
         What is between and under the buildings.
     left_out
         Why footprints were left out, and how many.
+    over
+        (b,) how far the roof hangs over walls that no neighbour touches, metres.
+    things
+        Trees, lamps and what else stands about.
     """
 
     corners: Floats
@@ -139,7 +148,9 @@ class Plan:
     kind: NDArray[np.uint8]
     shop: NDArray[np.bool_]
     ground: Ground
+    over: Floats
     left_out: Mapping[str, int] = field(default_factory=dict)
+    things: Things = NOTHING
 
     def __len__(self) -> int:
         return len(self.eaves)

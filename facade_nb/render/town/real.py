@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +13,11 @@ from numpy.typing import NDArray
 
 from .chance import Floats, chance, length, pick
 from .characters import eaves_of, storeys_of, table_of
+from .chimneys import chimneys_of
 from .finishing import Characters, Pairs, finish, pairs_of, walls_of
 from .fitting import fit_fronts, single_fronts
 from .geojson import Outlines, read_outlines
+from .greenery import trees_of
 from .neighbours import Cut, cut_walls, with_hidden
 from .openness import gaps_of, look_out
 from .plains import plain_of
@@ -26,6 +29,9 @@ from .styles import Style
 from .tags import Use, has_shop, levels_of, metres_of, roof_of, use_of
 
 __all__ = ["real_plan"]
+
+_TREES = 3.0
+"""Trees for each house, at the most."""
 
 _WANTED: Mapping[int, Mapping[str, float]] = {
     Use.UNKNOWN: {"detached": 1},
@@ -71,7 +77,9 @@ def real_plan(
     stages.at(0.4, "ground")
     ground = plain_of(offsets, outlines.corners[index])
     stages.at(0.55, "roofs")
-    return finish(walls, pairs, characters, styles, ground, seed, given, tops, outlines.left_out, stages)
+    plan = finish(walls, pairs, characters, styles, ground, seed, given, tops, outlines.left_out, stages)
+    stages.at(0.68, "trees")
+    return replace(plan, things=trees_of(plan, seed, _TREES) + chimneys_of(plan, seed))
 
 
 def _sizes(outlines: Outlines) -> Floats:

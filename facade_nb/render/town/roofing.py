@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from .chance import Floats, length
 from .faces import Faces
+from .overhangs import Hang, overhung
+from .overhangs import lowered as _lowered
 from .plan import FLAT, GABLE, HIP, MANSARD, SHED
 from .rings import Ints, after, areas, inset, offsets_of, ragged, ring_numbers, take_rings
 from .skeletons import shrink
@@ -43,6 +45,8 @@ class Houses:
         Rule positions (b, 2) of each kind of face: gable, roof, flat, plain.
     seed
         (b, 2) metres.
+    over
+        (n,) how far the roof hangs over the wall below, from each corner to the next, metres.
     """
 
     corners: Floats
@@ -56,6 +60,7 @@ class Houses:
     works: NDArray[np.bool_]
     start: dict[str, Floats]
     seed: Floats
+    over: Floats
 
     @property
     def first(self) -> Ints:
@@ -78,26 +83,32 @@ def cover(faces: Faces, houses: Houses) -> None:
     _flat(faces, houses, np.flatnonzero(houses.roof == FLAT))
 
 
-def _chains(houses: Houses, chosen: Ints, count: int) -> tuple[Floats, Floats]:
-    """Front and rear chains (s, m, 2) of strips with so many corners."""
+def _chains(houses: Houses, chosen: Ints, count: int) -> tuple[Ints, Ints]:
+    """Front and rear chains (s, m) of strips with so many corners, as numbers of corners."""
     ahead, behind = {
         4: ((0, 1), (3, 2)),
         6: ((0, 1, 2), (5, 4, 3)),
         7: ((0, 1, 2, 3), (6, 5, 5, 4)),
     }[count]
     base, eave = houses.offsets[houses.first[chosen]], houses.eave[chosen]
-    front, rear = (
-        houses.corners[base[:, None] + (eave[:, None] + np.array(way)) % count] for way in (ahead, behind)
-    )
+    front, rear = (base[:, None] + (eave[:, None] + np.array(way)) % count for way in (ahead, behind))
     return front, rear
 
 
 def _strip(faces: Faces, houses: Houses, kind: int, chosen: Ints, count: int) -> None:
     """Roofs of a cross-section that is carried along two chains of corners."""
-    front, rear = _chains(houses, chosen, count)
+    ahead, behind = _chains(houses, chosen, count)
+    front, rear = houses.corners[ahead], houses.corners[behind]
     if kind == HIP:
         _hipped(faces, houses, chosen, front, rear)
         return
+    # What hangs over: along the front and the rear, and at both ends. Sawtooth roofs and mansards do not.
+    over = [houses.over[ahead[:, :-1]], houses.over[behind[:, 1:]]]
+    ends = np.stack([houses.over[behind[:, 0]], houses.over[ahead[:, -1]]], axis=1)
+    if kind == SHED:
+        over[1] = 0 * over[1]
+    if kind == MANSARD:
+        over, ends = [0 * one for one in over], 0 * ends
     gaps = length(rear - front).min(axis=1)
     teeth = np.where(houses.works[chosen] & (kind == SHED), np.maximum(np.rint(gaps / _TOOTH), 1), 0).astype(
         int
@@ -110,7 +121,9 @@ def _strip(faces: Faces, houses: Houses, kind: int, chosen: Ints, count: int) ->
         way = rear[some] - front[some]
         at = front[some][:, :, None] + way[:, :, None] * t[:, None, :, None]  # (s, m, j, 2)
         points = np.concatenate([at, np.broadcast_to(level[:, None, :, None], (*at.shape[:3], 1))], axis=3)
-        _carried(faces, houses, own, points, h, int(number))
+        none = 0.0 if number else 1.0
+        hang = Hang(over[0][some] * none, over[1][some] * none, ends[some] * none)
+        _carried(faces, houses, own, points, h, int(number), hang)
 
 
 def _profile(kind: int, teeth: int, width: Floats) -> tuple[Floats, Floats]:
@@ -131,13 +144,16 @@ def _profile(kind: int, teeth: int, width: Floats) -> tuple[Floats, Floats]:
     return np.tile(np.array(t, float), (len(width), 1)), np.array(h, float)
 
 
-def _carried(faces: Faces, houses: Houses, own: Ints, points: Floats, h: Floats, teeth: int) -> None:
+def _carried(
+    faces: Faces, houses: Houses, own: Ints, points: Floats, h: Floats, teeth: int, hang: Hang
+) -> None:
     """The planes of a cross-section (s, m, j, 3) from corner to corner of its chains, and its two ends."""
     seed = houses.seed[own]
     arms, steps = points.shape[1] - 1, points.shape[2] - 1
     for k in range(arms):
+        wide, both = overhung(points, k, hang)
         for j in range(steps):
-            one, two = points[:, k, j : j + 2], points[:, k + 1, j : j + 2]
+            one, two = wide[:, 0, j : j + 2], wide[:, 1, j : j + 2]
             quad = np.stack([one[:, 0], two[:, 0], two[:, 1], one[:, 1]], axis=1)
             lower, upper = two[:, 0] - one[:, 0], two[:, 1] - one[:, 1]
             shorter = (length(lower) < length(upper))[:, None]
@@ -146,7 +162,7 @@ def _carried(faces: Faces, houses: Houses, own: Ints, points: Floats, h: Floats,
             run = points[:, k, j + 1, :2] - points[:, k, j, :2]
             upright = bool(np.all(length(run) < 1e-9))
             face = "plain" if upright else "roof"
-            faces.planes(quad, along * sign, houses.start[face][own], seed, own)
+            faces.planes(quad, along * sign, houses.start[face][own], seed, own, both=both)
     for k, way in ((0, slice(None)), (arms, slice(None, None, -1))):
         end = points[:, k]
         along = (end[:, 0] - end[:, -1]) * (1 if k == 0 else -1)
@@ -172,24 +188,34 @@ def _hipped(faces: Faces, houses: Houses, own: Ints, front: Floats, rear: Floats
         back = np.minimum(length(rear[:, k] - front[:, k]) / 2, most)
         ridge[:, k] = ridge[:, k] + way / np.maximum(length(way), 1e-9)[:, None] * back[:, None]
 
-    def at(points: Floats, height: Floats) -> Floats:
-        return np.concatenate([points, np.broadcast_to(height[:, None], (len(points), 1))], axis=1)
-
     roof = houses.start["roof"][own]
+    over, tops = _least_over(houses)[own], at3(ridge, high)
+    eaves = [_lowered(at3(chain, low), tops, over) for chain in (front, rear)]
+    both = over > 0
     for k in range(last):
-        for chain, (i, j) in ((front, (k, k + 1)), (rear, (k + 1, k))):
-            quad = np.stack(
-                [at(chain[:, i], low), at(chain[:, j], low), at(ridge[:, j], high), at(ridge[:, i], high)], 1
-            )
+        for chain, feet, (i, j) in ((front, eaves[0], (k, k + 1)), (rear, eaves[1], (k + 1, k))):
+            quad = np.stack([feet[:, i], feet[:, j], tops[:, j], tops[:, i]], 1)
             along = np.where(
                 (length(chain[:, j] - chain[:, i]) < 1e-6)[:, None],
                 quad[:, 2] - quad[:, 3],
                 quad[:, 1] - quad[:, 0],
             )
-            faces.planes(quad, along, roof, seed, own)
-    for left, right, k in ((rear[:, 0], front[:, 0], 0), (front[:, last], rear[:, last], last)):
-        triangle = np.stack([at(left, low), at(right, low), at(ridge[:, k], high)], axis=1)
-        faces.planes(triangle, triangle[:, 1] - triangle[:, 0], roof, seed, own)
+            faces.planes(quad, along, roof, seed, own, both=both)
+    ahead, behind = eaves
+    for left, right, k in ((behind[:, 0], ahead[:, 0], 0), (ahead[:, last], behind[:, last], last)):
+        triangle = np.stack([left, right, tops[:, k]], axis=1)
+        faces.planes(triangle, triangle[:, 1] - triangle[:, 0], roof, seed, own, both=both)
+
+
+def at3(points: Floats, height: Floats) -> Floats:
+    """Points (s, m, 2) at heights (s,), as (s, m, 3)."""
+    return np.concatenate([points, np.broadcast_to(height[:, None, None], (*points.shape[:2], 1))], axis=2)
+
+
+def _least_over(houses: Houses) -> Floats:
+    """How far the roof of each building hangs over all its outer walls, metres."""
+    index, offsets = take_rings(houses.offsets, houses.first)
+    return np.asarray(np.minimum.reduceat(houses.over[index], offsets[:-1]))
 
 
 def room_of(corners: Floats, offsets: Ints) -> Floats:
@@ -229,10 +255,20 @@ def _shrunk(faces: Faces, houses: Houses, own: Ints) -> None:
 
     low, high = height(shrunk.low, number), height(shrunk.high, number)
     points = np.concatenate([shrunk.strips, np.stack([low, low, high, high], axis=1)[:, :, None]], axis=2)
+    over = _least_over(houses)[own]
+    wide, whole = inset(ring, offsets, -over[ring_numbers(offsets)])
+    whole &= np.maximum.reduceat(length(wide - ring), offsets[:-1]) < 2.5 * over + 1e-9
+    over = np.where(whole, over, 0.0)
+    lowest = (shrunk.low == 0) & (over[number] > 0)
+    drop = np.round(houses.eaves[owner] - over[number] * slope[number], 3)
+    for k, corner in ((0, shrunk.edge), (1, after(offsets)[shrunk.edge])):
+        points[lowest, k] = np.column_stack([wide[corner], drop])[lowest]
     foot, end = ring[shrunk.edge], ring[after(offsets)[shrunk.edge]]
     level = np.column_stack([foot, houses.eaves[owner]])
     along = np.column_stack([end - foot, np.zeros(len(foot))])
-    faces.planes(points, along, houses.start["roof"][owner], houses.seed[owner], owner, level, shrunk.edge)
+    faces.planes(
+        points, along, houses.start["roof"][owner], houses.seed[owner], owner, level, shrunk.edge, lowest
+    )
     corners, tops, of = shrunk.tops
     if len(of):
         order = np.argsort(of, kind="stable")

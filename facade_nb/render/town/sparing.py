@@ -15,7 +15,7 @@ __all__ = ["SparingTiles", "town_tiles"]
 
 _WHOLE = frozenset({
     "Walls and roofs", "Windows", "Frames, open between their bars", "Doors, shutters and gates",
-    "Ornament and ironwork",
+    "Ornament and ironwork", "Trees and street lamps",
 })  # fmt: skip
 """Groups of tiles that one comes near to; curtains, rooms, furniture and the ground are seen from farther away."""
 

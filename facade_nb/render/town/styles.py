@@ -147,7 +147,10 @@ STYLES: tuple[Style, ...] = (*_WRITTEN, *map(_solved, SOLVED))
 """Every style: those that are written in the gallery, then those whose fronts are solved."""
 
 GROUND: Mapping[str, str] = MappingProxyType(
-    {kind: f"ground.{kind.capitalize()}" for kind in ("asphalt", "pavement", "court", "grass", "field")}
+    {
+        kind: f"ground.{kind.capitalize()}"
+        for kind in ("asphalt", "pavement", "court", "grass", "line", "field")
+    }
 )
 """For each kind of ground, the rule that it begins with."""
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ...design.errors import DesignError, Fault, nearest
 from ...render import Grammar
 from ...render.town.styles import GROUND, Style
+from ...render.town.things import RULES
 
 __all__ = ["Starts", "start_names"]
 
@@ -18,9 +19,9 @@ _FACES = ("front", "street", "party", "gable", "roof", "flat", "plain", "side", 
 
 
 def start_names(styles: Sequence[Style]) -> tuple[str, ...]:
-    """The rules that walls, roofs and ground may begin with."""
+    """The rules that walls, roofs, ground and what stands about may begin with."""
     every = [rule for style in styles for rule in style.starts.values()]
-    return tuple(dict.fromkeys((*every, *GROUND.values())))
+    return tuple(dict.fromkeys((*every, *GROUND.values(), *RULES)))
 
 
 class Starts:
@@ -83,7 +84,7 @@ class Starts:
         return rules
 
     def _face(self, rule: str) -> str:
-        """What a rule is for; empty for ground."""
+        """What a rule is for; empty for what belongs to no house."""
         for style in self.styles:
             for face in (*_FACES, *style.starts):
                 if style.starts.get(face) == rule:

@@ -25,8 +25,8 @@ def town(request: pytest.FixtureRequest) -> Town:
 
 @pytest.fixture(scope="module")
 def bare(town: Town) -> Town:
-    """The town with every wall down to the ground, also between neighbours."""
-    plan = replace(town.plan, covered=np.zeros(len(town.plan.covered)))
+    """The town with every wall down to the ground, also between neighbours, and with roofs that end at the walls."""
+    plan = replace(town.plan, covered=np.zeros(len(town.plan.covered)), over=np.zeros(len(town.plan)))
     return replace(town, plan=plan, mesh=build_mesh(plan, town.styles, town.grammar))
 
 
@@ -96,23 +96,36 @@ def test_only_what_a_neighbour_covers_is_left_away(town: Town, bare: Town) -> No
     assert len(bare.vertices) > len(town.vertices)
 
 
-def test_normals_stand_on_triangles_and_tangents_lie_in_them(town: Town) -> None:
+def still(town: Town) -> np.ndarray:
+    """(t, 3) vertices of the triangles that do not turn to whoever looks."""
     corner = town.vertices[town.indices.reshape(-1, 3)]
+    return corner[(corner["normal"][:, 0] != 0).any(axis=1)]
+
+
+def test_normals_stand_on_triangles_and_tangents_lie_in_them(town: Town) -> None:
+    """Those that are there twice, to be seen from behind, have the normal of the front."""
+    corner = still(town)
     p = corner["position"].astype(float)
     normal = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
     size = np.linalg.norm(normal, axis=1)
     good = size > 1e-2
     normal = normal[good] / size[good][:, None]
+    place = np.sort(p[good].reshape(len(normal), -1, 3).mean(axis=1).round(3), axis=1)
+    behind = np.einsum("ij,ij->i", normal, corner["normal"][good, 0]) < 0
+    assert 0 < behind.sum() < len(behind) / 2
+    fronts = set(map(tuple, place[~behind].tolist()))
+    assert all(tuple(middle) in fronts for middle in place[behind].tolist())
+    normal[behind] *= -1
     for k in range(3):
         assert np.einsum("ij,ij->i", normal, corner["normal"][good, k]).min() > 0.999
         assert np.abs(np.einsum("ij,ij->i", normal, corner["tangent"][good, k])).max() < 0.05
     for name in ("normal", "tangent"):
-        assert np.abs(np.linalg.norm(town.vertices[name].astype(float), axis=1) - 1).max() < 1e-5
+        assert np.abs(np.linalg.norm(corner[name].astype(float), axis=2) - 1).max() < 1e-5
 
 
 def test_places_are_metres_on_the_face(town: Town) -> None:
     """From corner to corner, a place moves along tangent and height as the position does."""
-    corner = town.vertices[town.indices.reshape(-1, 3)]
+    corner = still(town)
     up = np.cross(corner["normal"].astype(float), corner["tangent"].astype(float))
     for a, b in ((0, 1), (1, 2)):
         way = (corner["position"][:, b] - corner["position"][:, a]).astype(float)
@@ -158,8 +171,13 @@ def test_chunks_part_the_mesh(town: Town) -> None:
     assert (np.cumsum(chunks["count"])[:-1] == chunks["first"][1:]).all()
     assert chunks["count"].sum() == len(town.indices) == 3 * len(town.building_of)
     for chunk in chunks:
-        own = town.vertices["position"][town.indices[chunk["first"] : chunk["first"] + chunk["count"]]]
-        assert (own.min(axis=0) == chunk["low"]).all() and (own.max(axis=0) == chunk["high"]).all()
+        own = town.vertices[town.indices[chunk["first"] : chunk["first"] + chunk["count"]]]
+        turns = (own["normal"] == 0).all(axis=1)
+        # What turns may reach as far to each side as its diagonal is long.
+        reach = np.where(turns, np.linalg.norm(own["size"], axis=1) / 2, 0)[:, None]
+        low, high = own["position"] - reach, own["position"] + reach
+        assert (low.min(axis=0) >= chunk["low"]).all() and (high.max(axis=0) <= chunk["high"]).all()
+        assert (chunk["high"] - chunk["low"] <= high.max(axis=0) - low.min(axis=0) + 8).all()
     building = town.building_of
     assert set(building.tolist()) == {*range(len(town.plan)), int(NOBODY)}
     # A building lies in one chunk, and its middle in that chunk's cell.

@@ -1,3 +1,12 @@
-// Depth alone.
+// Depth alone, but where leaves are open.
+#include "open.glsl"
 
-void main() {}
+in vec2 mesh_place;
+flat in vec2 mesh_size;
+flat in vec2 mesh_start;
+flat in int mesh_turns;
+
+void main() {
+  vec2 covers = fwidth(mesh_place);
+  if (mesh_turns == 1 && open(ivec2(mesh_start), mesh_place, mesh_size, max(covers.x, covers.y))) discard;
+}

@@ -123,7 +123,7 @@ export class Pipeline {
   /** Say that bytes of vertices, indices or a texture have changed. */
   changed(name: string, at = 0, end = Infinity): void {
     this.due.push({ name, at, end });
-    if (name === "vertices" || name === "indices") this.version += 1;
+    if (["vertices", "indices", "atlas", "tile_table"].includes(name)) this.version += 1; // leaves are open where tiles are
   }
 
   /** Whether all shaders are there; those that are not are compiled beside the page, where the browser can do so. */
@@ -133,7 +133,7 @@ export class Pipeline {
     return this.passes.map((pass) => ready(gl, this.program(gl, pass))).every(Boolean);
   }
 
-  /** Whether a pass need not run: its maps depend on one matrix and the mesh, and these are as they were. */
+  /** Whether a pass need not run: its maps depend on one matrix, the mesh and its leaves, and these are as they were. */
   fresh(pass: Pass, values: Values): boolean {
     const key = this.keyOf(pass, values);
     return key !== "" && this.kept.get(pass.name) === key;
