@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
@@ -49,6 +50,7 @@ READ = """canvas => {
     for (let at = 0; at < data.length; at += 8192) text += String.fromCharCode(...data.subarray(at, at + 8192));
     return [canvas.width, canvas.height, btoa(text)];
 }"""
+CONTEXT = 'globalThis[Symbol.for("facade_nb.town.context")]'
 SESSION = "window.jupyterapp.shell.currentWidget.sessionContext.session"
 SPIED = """limits => {
     const own = WebGL2RenderingContext.prototype;
@@ -244,6 +246,41 @@ def test_where_images_are_too_small_the_view_says_so_and_the_rest_goes_on(town: 
         town.page.evaluate(UNSPIED)
     town.show()
     assert town.picture().std() > 8
+
+
+def test_without_float_buffers_there_is_a_still_picture(town: Shown) -> None:
+    town.page.evaluate(
+        """() => {
+            const own = WebGL2RenderingContext.prototype;
+            window.extensionsOnce = own.getExtension;
+            own.getExtension = function (name) {
+                return name === "EXT_color_buffer_float" ? null : window.extensionsOnce.call(this, name);
+            };
+        }"""
+    )
+    try:
+        town.show()
+        expect(town.page.locator(".fnb-town .fnb-tex-why")).to_contain_text("no EXT_color_buffer_float")
+        expect(town.page.locator(".fnb-town img")).to_be_visible()
+    finally:
+        town.page.evaluate("() => { WebGL2RenderingContext.prototype.getExtension = window.extensionsOnce; }")
+
+
+def test_a_context_that_is_lost_while_the_town_comes_is_made_again(town: Shown) -> None:
+    town.show()
+    whole = town.picture()
+    town.show(before="hold = True\n")
+    expect(town.canvas).to_have_attribute("data-state", "loading")
+    town.page.evaluate(
+        f"() => {{ window.lose = {CONTEXT}.get().getExtension('WEBGL_lose_context'); window.lose.loseContext(); }}"
+    )
+    note = town.page.locator(".fnb-town-note")
+    expect(note).to_contain_text("taken the graphics card away")
+    expect(note).to_have_css("background-color", re.compile("0\\.78"))  # it can be read over the picture
+    town.tell("release()")
+    town.page.evaluate("() => window.lose.restoreContext()")
+    assert apart(town.picture(), whole) == 0
+    expect(note).to_be_hidden()
 
 
 @pytest.mark.parametrize("what", ["restart", "shutdown"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from io import BytesIO
 
 from ...render.pipeline.frame import Frame, Looks
@@ -10,6 +11,7 @@ from ...render.texture.daytime import Daytime
 from ...render.texture.gl import EGL, OSMESA, GlPainter
 from ..shared.pictured import picture_html
 from .model import TownModel
+from .tiles import coarse_tiles
 
 __all__ = ["SIZE", "painter", "still", "told"]
 
@@ -24,16 +26,20 @@ def painter() -> GlPainter | None:
     return next((own for own in (OSMESA, EGL) if own.available), None)
 
 
-def still(model: TownModel, pixels: tuple[int, int] = SIZE) -> bytes:
-    """What is seen from the viewpoint in the light of the hour, as JPEG; empty where no OpenGL can be had."""
+def still(model: TownModel, pixels: tuple[int, int] = SIZE, hasty: bool = False) -> bytes:
+    """What is seen from the viewpoint in the light of the hour, as JPEG; empty where no OpenGL can be had.
+
+    `hasty`: where tiles have not been drawn yet, small ones are drawn instead.
+    """
     from PIL import Image
 
     by = painter()
     if by is None:
         return b""
-    frame = Frame(
-        model.scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, Looks(relief=False)
-    )
+    scene = model.scene
+    if hasty and (small := coarse_tiles(scene.grammar)) is not None:
+        scene = replace(scene, grammar=replace(scene.grammar, tiles=small))
+    frame = Frame(scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, Looks(relief=False))
     with renderer_of(frame.scene, by, tile_bytes=int(model.tile_megabytes * 1e6)) as renderer:
         drawn = renderer.draw(frame)["picture"]
     out = BytesIO()

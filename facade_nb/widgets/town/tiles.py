@@ -13,7 +13,7 @@ from ...render.texture.atlas import Tiles
 from ...render.texture.evaluating import Question
 from ...render.tiles import TileSet
 
-__all__ = ["COARSE", "question_of", "tiles_of", "tiles_piece"]
+__all__ = ["COARSE", "coarse_tiles", "question_of", "tiles_of", "tiles_piece"]
 
 COARSE = 32
 """The side of what comes first: a tile that has not been drawn yet is drawn in that size, which takes little time."""
@@ -24,6 +24,19 @@ Images = Sequence[NDArray[np.uint8]]
 def tiles_of(grammar: Grammar) -> Tiles:
     """The tiles that a grammar was read with."""
     return grammar.tiles if grammar.tiles is not None else TileSet.builtin()
+
+
+def coarse_tiles(grammar: Grammar) -> Tiles | None:
+    """Small tiles in the place of a grammar's, of which some have not been drawn yet; None: all have been."""
+    tiles = tiles_of(grammar)
+    drawn = getattr(tiles, "is_drawn", None)
+    if drawn is None or all(map(drawn, grammar.encoding.tiles)):
+        return None
+    return _small(tiles)
+
+
+def _small(tiles: Any) -> Any:
+    return tiles.of(COARSE)
 
 
 class _Unseen:
@@ -70,8 +83,7 @@ def _levels(tiles: Tiles, name: str, upto: int) -> tuple[Images, bool]:
     """All sizes of a tile; of one that has not been drawn yet only small ones, where no more is asked for."""
     drawn = getattr(tiles, "is_drawn", None)
     if drawn is not None and upto <= COARSE and not drawn(name):
-        small: Any = getattr(tiles, "of")(COARSE)  # noqa: B009 (not of all tiles)
-        return small.stored(name), True
+        return _small(tiles).stored(name), True
     stored = getattr(tiles, "stored", None)
     if stored is not None:
         return stored(name), False

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -112,13 +114,18 @@ def test_evening_out_takes_slow_swings_and_leaves_the_rest() -> None:
     assert np.abs(even[..., 0] - (0.4 + fast)[:, None]).max() < 0.002
 
 
-def test_tiles_are_the_same_in_another_process() -> None:
+def test_tiles_are_the_same_in_another_process(tmp_path: Path) -> None:
+    """One with nothing in its folder for caches: it draws them."""
     names = ["brick", "ashlar.normal", "window1", "window-arch", "parquet", "plant"]
     code = (
         "import hashlib; from facade_nb.render.tiles import TileSet; t = TileSet.builtin(128);"
         f"print(hashlib.sha256(b''.join(t.color(n).tobytes() for n in {names[::-1]!r})).hexdigest())"
     )
-    other = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    empty = {**os.environ, "XDG_CACHE_HOME": str(tmp_path)}
+    other = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=empty
+    )
+    assert list(tmp_path.rglob("brick.128.zz"))
     here = hashlib.sha256(b"".join(TILES.color(name).tobytes() for name in names[::-1])).hexdigest()
     assert other.stdout.strip() == here
 
@@ -138,9 +145,11 @@ def test_a_larger_tile_is_the_same_tile() -> None:
         assert np.abs(small - large).mean() < 0.02
 
 
-def test_a_tile_is_drawn_only_when_it_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_tile_is_drawn_only_when_it_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from facade_nb.render.tiles import tileset
+    from facade_nb.render.tiles.drawn import Drawn
 
+    monkeypatch.setattr(tileset, "_DRAWN", Drawn(tmp_path))
     drawn: list[str] = []
     draw = tileset.draw
     monkeypatch.setattr(tileset, "draw", lambda name, size: drawn.append(name) or draw(name, size))

@@ -252,6 +252,22 @@ def test_what_was_not_drawn_yet_comes_small_at_first(
     assert not told["draft"]
 
 
+def test_a_first_still_waits_for_no_tile(town: Town, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sizes: list[int] = []
+    paint = tileset.TileSet._paint
+
+    def noted(self: tileset.TileSet, name: str) -> Any:
+        sizes.append(self.size)
+        return paint(self, name)
+
+    view = TownView(town)
+    monkeypatch.setattr(tileset.TileSet, "_paint", noted)
+    monkeypatch.setattr(tileset, "_DRAWN", Drawn(tmp_path))
+    assert "<img" in view.to_html()
+    assert set(sizes) == {32}
+    assert len(sizes) == len(town.grammar.encoding.tiles)
+
+
 def test_tiles_have_a_bound(town: Town) -> None:
     view = TownView(town, tile_megabytes=3)
     assert view.model.tile_megabytes == 3

@@ -1,13 +1,31 @@
 // Far away less is drawn: the triangles of a chunk stand in the order of their size, and those that are much smaller than
 // a pixel are left out.
 
-import type { Chunks, Pixels, Place } from "./types.ts";
+import type { Chunks, Head, Pixels, Place } from "./types.ts";
 
 const SEEN = 0.25; // of a pixel that a triangle takes at least, seen straight on
 
 export class Detail {
   /** Areas of the triangles of each chunk, the largest first. */
   private readonly areas = new Map<number, Float32Array>();
+
+  /** Order the triangles of a chunk, in the bytes of all; from where to where in those of the indices it lies. */
+  take(
+    chunk: number,
+    { chunks, stride, attributes }: Pick<Head, "chunks" | "stride" | "attributes">,
+    vertices: Uint8Array,
+    indices: Uint8Array,
+  ): Pixels {
+    const [first, count] = [chunks.first[chunk] as number, chunks.count[chunk] as number];
+    this.sort(
+      chunk,
+      new Uint32Array(indices.buffer as ArrayBuffer, 4 * first, count),
+      new Float32Array(vertices.buffer as ArrayBuffer, 0, vertices.length / 4),
+      stride / 4,
+      (attributes.position?.[1] ?? 0) / 4,
+    );
+    return [4 * first, 4 * (first + count)];
+  }
 
   /**
    * Put the triangles of a chunk in the order of their size, in place. `vertices`: their positions begin at `offset`, every

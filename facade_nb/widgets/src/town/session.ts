@@ -7,10 +7,11 @@ import { type Bytes, byteLength, bytesOf, unpack } from "../solver/packing.ts";
 import { CHOSEN, MARKED, SHADER } from "./chosen.ts";
 import { context } from "./context.ts";
 import { Detail } from "./detail.ts";
+import { Fitted } from "./fitted.ts";
 import { cropped, daylight, frustumOf, isDay, type Sunlight, uniformsOf, visible } from "./frame.ts";
 import { Loading, type Reply } from "./loading.ts";
 import { Pipeline, type Source } from "./pipeline.ts";
-import { COARSE, sideNeeded, type Texture, type TileReply } from "./tiles.ts";
+import { COARSE, sideNeeded, type TileReply } from "./tiles.ts";
 import type { Head, Light, Pass, Pixels, Place, Stop, Values, Vector } from "./types.ts";
 import { Walls } from "./walls.ts";
 
@@ -47,9 +48,7 @@ export class Session extends Entering<Entered> {
   finer = 0;
   /** Pixels of the widest view of it, which tell how fine tiles have to be. */
   wide = 720;
-  /** Side and version of the tiles that are shown. */
-  private shown = { side: 0, version: -1 };
-  private images: Record<"atlas" | "tile_table", Texture> | null = null;
+  private readonly fitted = new Fitted();
   /** The head that was read last. */
   private taken: Bytes | null = null;
   /** A head that waits for tiles that it names. */
@@ -126,13 +125,13 @@ export class Session extends Entering<Entered> {
 
   /** Whether there is something to draw. */
   get drawable(): boolean {
-    return !!this.pipeline && this.loading.meshed && this.loading.whole("noise") && !!this.images;
+    return !!this.pipeline && this.loading.meshed && this.loading.whole("noise") && !!this.fitted.images;
   }
 
   /** Whether all has come that there is to draw, as far as is known here. */
   get settled(): boolean {
     const { tiles, part } = this.loading;
-    return part >= 1 && this.taking === 0 && !this.waiting && this.shown.version === tiles.version;
+    return part >= 1 && this.taking === 0 && !this.waiting && this.fitted.of(tiles);
   }
 
   /** The passes that run: not those that are switched off, nor those for which there is no cause now. */
@@ -168,20 +167,12 @@ export class Session extends Entering<Entered> {
     return visible(chunks, through, (chunk) => this.loading.has(chunk), some);
   }
 
-  /** Order what a chunk draws, so that the smallest can be left out. */
+  /** All that a chunk draws is here: it is ordered, so that the smallest can be left out. */
   private sort(chunk: number): void {
-    const { head, loading } = this;
+    const { head, loading, detail } = this;
     if (!head) return;
-    const [first, count] = [head.chunks.first[chunk] as number, head.chunks.count[chunk] as number];
-    const [indices, vertices] = [loading.content("indices"), loading.content("vertices")];
-    this.detail.sort(
-      chunk,
-      new Uint32Array(indices.buffer as ArrayBuffer, 4 * first, count),
-      new Float32Array(vertices.buffer as ArrayBuffer, 0, vertices.length / 4),
-      head.stride / 4,
-      (head.attributes.position?.[1] ?? 0) / 4,
-    );
-    this.pipeline?.changed("indices", 4 * first, 4 * (first + count));
+    const [from, to] = detail.take(chunk, head, loading.content("vertices"), loading.content("indices"));
+    this.pipeline?.changed("indices", from, to);
   }
 
   /** What stands at a place of the picture (0 to 1 from its lower left): drawn anew, for that one pixel. */
@@ -222,27 +213,17 @@ export class Session extends Entering<Entered> {
       attributes: head.attributes,
       vertices: this.loading.content("vertices"),
       indices: this.loading.content("indices"),
-      textures: { ...textures, ...this.images },
+      textures: { ...textures, ...this.fitted.images },
     };
   }
 
-  /**
-   * Give the card other tiles where the view needs finer ones and they have come, or where it may have fewer: no fewer until
-   * it has four times as many as it needs; `moving`: one size up at a time.
-   */
+  /** Give the card finer tiles where the view needs them and they have come; `moving`: one size up at a time. */
   arrange(moving = false): void {
-    const { head, pipeline, loading } = this;
-    if (!head || !pipeline || !loading.tiles.complete) return;
-    const needed = sideNeeded(this.place, this.wide, head.chunks.low, head.chunks.high);
-    loading.needed = needed;
-    const own = this.shown;
-    const wanted = own.side > needed && own.side <= 2 * needed ? own.side : needed;
-    const { version } = loading.tiles;
-    const step = moving && own.version === version ? Math.min(wanted, 2 * own.side) : wanted;
-    const side = loading.tiles.sideFor(step, head.tile_bytes, context().largest);
-    if (side === own.side && version === own.version) return;
-    this.shown = { side, version };
-    this.images = loading.tiles.arranged(side);
+    const { head, pipeline, loading, fitted } = this;
+    if (!head || !pipeline) return;
+    loading.needed = sideNeeded(this.place, this.wide, head.chunks.low, head.chunks.high);
+    const bounds = { bytes: head.tile_bytes, most: context().largest };
+    if (!fitted.fit(loading.tiles, loading.needed, bounds, moving)) return;
     pipeline.replace(this.source(head));
     this.finer += 1;
   }
@@ -281,7 +262,9 @@ export class Session extends Entering<Entered> {
 
   protected override kernelChanged(): void {
     super.kernelChanged();
-    if (this.live && this.head) this.loading.again(this.place);
+    if (!this.live || !this.head) return;
+    this.loading.again(this.place);
+    if (this.waiting) this.loading.demand(this.loading.tiles.lacking(this.waiting.tiles), COARSE);
   }
 
   /** Python has said where one is to stand. */

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { Fitted } from "../../src/town/fitted.ts";
 import { COARSE, sideNeeded, type TileInfo, Tiles } from "../../src/town/tiles.ts";
 import type { Pixels, Place } from "../../src/town/types.ts";
 
@@ -130,6 +131,45 @@ describe("tiles", () => {
     expect(tiles.lacking(["b", "c"])).toEqual(["c"]);
     tiles.take(["b", "c"]);
     expect(all(tiles, kernel(SIDES), Infinity).every(({ names }) => `${names}` === "c")).toBe(true);
+  });
+});
+
+describe("the card's tiles", () => {
+  const bounds = { bytes: 1e9, most: 1 << 14 };
+  const side = (fitted: Fitted) => {
+    const { tile_table } = fitted.images as NonNullable<typeof fitted.images>;
+    return new Float32Array(tile_table.content.buffer)[6];
+  };
+  it("grow by one size at a time in motion, at once at rest, and shrink late", () => {
+    const tiles = new Tiles();
+    const fitted = new Fitted();
+    tiles.take(["a", "c"]);
+    expect(fitted.fit(tiles, 256, bounds, false)).toBe(false); // nothing has come
+    const answer = kernel(SIDES);
+    all(tiles, answer, COARSE);
+    expect(fitted.fit(tiles, 256, bounds, false)).toBe(true);
+    expect(side(fitted)).toBe(32);
+    all(tiles, answer, Infinity);
+    const told = [0, 1, 2, 3, 4].map(() => (fitted.fit(tiles, 256, bounds, true) ? side(fitted) : 0));
+    expect(told).toEqual([64, 128, 256, 0, 0]);
+    expect(fitted.fit(tiles, 128, bounds, true)).toBe(false); // it may need them again soon
+    expect(fitted.fit(tiles, 64, bounds, true)).toBe(true);
+    expect(side(fitted)).toBe(64);
+    expect(fitted.fit(tiles, 256, bounds, false)).toBe(true);
+    expect(side(fitted)).toBe(256);
+  });
+  it("are those of another grammar at once", () => {
+    const tiles = new Tiles();
+    const fitted = new Fitted();
+    tiles.take(["a"]);
+    all(tiles, kernel(SIDES), Infinity);
+    fitted.fit(tiles, 256, bounds, false);
+    expect(fitted.of(tiles)).toBe(true);
+    tiles.take(["c", "a"]);
+    expect(fitted.of(tiles)).toBe(false);
+    all(tiles, kernel(SIDES), Infinity);
+    expect(fitted.fit(tiles, 256, bounds, true)).toBe(true);
+    expect(fitted.of(tiles)).toBe(true);
   });
 });
 
