@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import fields
 from typing import Any
 
@@ -110,18 +109,24 @@ def _instance(layout: Layout | None, picked: Selection, layer: Layer, axis: Axis
     return (symbol, number, max(len(own), number))
 
 
-def _keys(x: Instance, y: Instance) -> list[str]:
-    """The keys under which a cell can be edited, the most exact first."""
-
-    def names(own: Instance) -> Iterator[str]:
-        symbol, number, count = own
-        if number:
-            yield spell_instance(symbol, number)
-            yield spell_instance(symbol, number - count - 1)
-        yield symbol
-        yield "*"
-
-    return [f"{a} {b}" for a in names(x) for b in names(y)]
+def _keys(x: Instance, y: Instance) -> list[Json]:
+    """The keys under which a cell can be edited, each with what it means in words."""
+    (across, i, columns), (up, j, rows) = x, y
+    found = [(f"{across} {up}", f"all {across} {up}")]
+    if i and j:
+        one, other = spell_instance(across, i), spell_instance(up, j)
+        last, top = spell_instance(across, i - columns - 1), spell_instance(up, j - rows - 1)
+        found = [
+            (f"{one} {other}", "this one"),
+            *found,
+            (f"{one} {up}", f"this {across} with every {up}"),
+            (f"{across} {other}", f"every {across} with this {up}"),
+            (f"{one} *", f"all of this {across}"),
+            (f"* {other}", f"all of this {up}"),
+            (f"{last} {top}", "this one, counted from the other ends"),
+        ]
+    found += [(f"{across} *", f"every {across}"), (f"* {up}", f"every {up}"), ("* *", "everything")]
+    return [{"key": key, "means": means} for key, means in found]
 
 
 def _field(name: str, steps: list[Told]) -> Json:

@@ -302,7 +302,7 @@ def test_the_description_is_plain_json_without_nan() -> None:
     assert symbols["A"]["solved"] == {"x": round(model.layout.x.sizes["A"], 4)}
     assert symbols["e"]["size"] is None
     assert symbols["P"]["axes"] == "y"
-    assert all(math.isfinite(value) for symbol in symbols.values() for value in symbol["solved"])
+    assert all(math.isfinite(value) for symbol in symbols.values() for value in symbol["solved"].values())
 
 
 def test_a_channel_that_nobody_looks_at_is_small_and_wakes_for_the_next_view() -> None:

@@ -134,7 +134,7 @@ def test_what_a_cell_is_told_to_look_like_is_what_is_drawn(name: str) -> None:
         assert cell is not None
         for field in ("kind", "geometry", "material", "offset", "thickness"):
             assert cell["fields"][field]["value"] == getattr(shape, field)
-        assert cell["keys"][0] == f"{shape.x}[{shape.number[0]}] {shape.y}[{shape.number[1]}]"
+        assert cell["keys"][0]["key"] == f"{shape.x}[{shape.number[0]}] {shape.y}[{shape.number[1]}]"
 
 
 def test_each_value_tells_its_level_and_key() -> None:

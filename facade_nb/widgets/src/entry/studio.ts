@@ -6,9 +6,11 @@ import "../styles/fields.css";
 import "../styles/editors.css";
 import "../styles/views.css";
 import "../styles/stage.css";
+import "../styles/panel.css";
 import { absence } from "../shared/absence.ts";
 import { h, mark } from "../shared/dom.ts";
 import { keepKeys } from "../shared/keys.ts";
+import { keepFocus } from "../shared/staying.ts";
 import { Store } from "../shared/store.ts";
 import { adoptStyle, type Theme, themeOf, watchTheme } from "../shared/theme.ts";
 import type { Mount, WidgetModel } from "../shared/types.ts";
@@ -16,10 +18,12 @@ import { canvas } from "../studio/canvas.ts";
 import { type Context, type MakePart, section } from "../studio/common.ts";
 import { counters } from "../studio/counters.ts";
 import { elevation } from "../studio/elevation.ts";
+import { inspector } from "../studio/inspector.ts";
 import { layers } from "../studio/layers.ts";
 import { massing } from "../studio/massing.ts";
 import { notices } from "../studio/notices.ts";
 import { patterns } from "../studio/patterns.ts";
+import { shapes } from "../studio/shapes.ts";
 import { statusLine } from "../studio/status.ts";
 import { studio } from "../studio/studio.ts";
 import { symbols } from "../studio/symbols.ts";
@@ -42,6 +46,7 @@ const PARTS: Record<string, Make> = {
   symbols: adding("symbol", "Symbols", symbols),
   counters: (context) => section("Counters", counters(context)),
   layers: adding("layer", "Layers", layers),
+  shapes: (context) => section("Shapes", h("div", {}, shapes(context), inspector(context))),
   canvas: (context) => section("Canvas", canvas(context)),
   toolbar,
 };
@@ -60,6 +65,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   root.append(make({ store, signal, notify }, model), noticeArea);
   mark(root, "inert", store.kernel.presence === "saved");
   absence(root, store.kernel, signal, { what: "façade", unsent: () => store.waits });
+  keepFocus(root, signal);
   keepKeys(root, signal, (op) => store.ask({ op }));
   root.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && !event.defaultPrevented) store.ask({ op: "select" });

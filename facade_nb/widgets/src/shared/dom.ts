@@ -61,17 +61,38 @@ export interface Row<T> {
   update(item: T): void;
 }
 
-/** Keep one row per item, by key, in the items' order; rows that stay keep their element, focus and caret. */
+const FOCUSABLE = "button, input, select, textarea, summary, [tabindex]";
+
+/** What in an element can be given the focus now, in order. */
+export function focusables(el: Element): HTMLElement[] {
+  const all = [...el.querySelectorAll<HTMLElement>(FOCUSABLE)];
+  return all.filter((one) => !one.matches(":disabled, [hidden], [hidden] *, [tabindex='-1']"));
+}
+
+/** Give the focus to where in an element the next thing is typed. */
+export function focusMain(el: Element): boolean {
+  const main = el.querySelector<HTMLElement>("[data-main]:not(:disabled)") ?? focusables(el)[0];
+  main?.focus({ preventScroll: true });
+  return main !== undefined;
+}
+
+/**
+ * Keep one row per item, by key, in the items' order; rows that stay keep their element, focus and caret. Where the row that
+ * has the focus goes, the focus goes to the row in its place: to the same thing in it, if it has only another name.
+ */
 export function keyed<T>(parent: HTMLElement, keyOf: (item: T) => string, make: (item: T) => Row<T>) {
   const rows = new Map<string, Row<T>>();
   return (items: T[]): void => {
+    const before = focused(parent);
+    const many = rows.size;
+    const row = [...parent.children].findIndex((el) => before && el.contains(before));
+    const spot = row < 0 ? -1 : focusables(parent.children[row] as Element).indexOf(before as HTMLElement);
     const keys = new Set(items.map(keyOf));
     for (const [key, row] of rows)
       if (!keys.has(key)) {
         row.el.remove();
         rows.delete(key);
       }
-    const before = focused(parent);
     let at = parent.firstElementChild;
     for (const item of items) {
       let row = rows.get(keyOf(item));
@@ -83,7 +104,17 @@ export function keyed<T>(parent: HTMLElement, keyOf: (item: T) => string, make: 
       else parent.insertBefore(row.el, at);
       row.update(item);
     }
-    if (before instanceof HTMLElement && before !== focused(parent) && parent.contains(before))
-      before.focus({ preventScroll: true });
+    if (row < 0 || !(before instanceof HTMLElement) || before === focused(parent)) return;
+    const next = parent.children[Math.min(row, parent.childElementCount - 1)];
+    if (parent.contains(before)) before.focus({ preventScroll: true });
+    else if (next && (items.length !== many || !follow(before, focusables(next)[spot]))) focusMain(next);
   };
+}
+
+/** Go on in a field that has taken the place of another one, with the caret where it was. */
+function follow(before: HTMLElement, next: HTMLElement | undefined): boolean {
+  next?.focus({ preventScroll: true });
+  if (before instanceof HTMLTextAreaElement && next instanceof HTMLTextAreaElement)
+    next.setSelectionRange(before.selectionStart, before.selectionEnd);
+  return next !== undefined;
 }

@@ -4,6 +4,7 @@
 import { focused, h, mark, setText } from "./dom.ts";
 import { type IconName, icon } from "./icons.ts";
 import { historyKey } from "./keys.ts";
+import { scrub } from "./scrub.ts";
 import { type Range, stepByKeys } from "./stepping.ts";
 import { keyOf, type Store } from "./store.ts";
 import type { DraftState, Fault, Path } from "./types.ts";
@@ -60,7 +61,9 @@ export function numberField(store: Store, options: TextOptions & Range & { min: 
   const field = { el: input, update: () => showText(store, input, options) };
   input.addEventListener("input", () => store.set(options.path, input.value));
   input.addEventListener("blur", field.update);
-  stepByKeys(input, options, () => Number(formatNumber(options.start?.() ?? options.min)));
+  const start = () => Number(formatNumber(options.start?.() ?? options.min));
+  stepByKeys(input, options, start);
+  scrub(input, options, start);
   return field;
 }
 
@@ -100,7 +103,13 @@ export function codeField(store: Store, options: TextOptions): Field & { input: 
 }
 
 /** A name that is changed when the field is left or Enter is pressed; Escape brings the old one back. */
-export function nameField(options: { label: string; value: () => string; commit: (name: string) => void }): Field {
+export function nameField(options: {
+  label: string;
+  value: () => string;
+  commit: (name: string) => void;
+  /** Where Enter leads. */
+  next?: () => HTMLElement;
+}): Field {
   const input = h("input", {
     type: "text",
     class: "fnb-name",
@@ -116,7 +125,10 @@ export function nameField(options: { label: string; value: () => string; commit:
   };
   input.addEventListener("blur", commit);
   input.addEventListener("keydown", (event) => {
-    if (event.key === "Enter") input.blur();
+    if (event.key !== "Enter") return;
+    const next = options.next?.();
+    if (next) next.focus();
+    else commit(); // left to nobody, the focus would fall to the host
   });
   holdBack(input, options.value);
   return {
@@ -164,15 +176,15 @@ export function choiceField(
   };
 }
 
-/** A button that is on or off. */
+/** A word that holds or does not. */
 export function toggleField(
   store: Store,
-  options: { label: string; title: string; path: Path; icon: IconName; value: () => boolean },
+  options: { label: string; title: string; path: Path; word: string; value: () => boolean },
 ): Field {
   const button = h(
     "button",
-    { type: "button", class: "fnb-toggle", "aria-label": options.label, title: options.title },
-    icon(options.icon),
+    { type: "button", class: "fnb-word", "aria-label": options.label, title: options.title },
+    options.word,
   );
   const on = () => button.getAttribute("aria-pressed") === "true";
   button.addEventListener("click", () => {
@@ -220,7 +232,6 @@ export function faultBox(store: Store, paths: () => Path[], under?: HTMLTextArea
       shown = state;
       el.hidden = drafts.length === 0;
       el.replaceChildren(...drafts.flatMap((draft) => draft.faults.map((fault) => faultLine(fault, draft, under))));
-      for (const draft of drafts) if (draft.missing.length) el.append(declareButton(store, draft.missing));
     },
   };
 }
@@ -238,11 +249,4 @@ export function faultLine(fault: Fault, draft?: DraftState, under?: HTMLTextArea
   setText(message, own || !fault.place ? fault.message : `${fault.place}: ${fault.message}`);
   line.append(message);
   return line;
-}
-
-function declareButton(store: Store, symbols: string[]): HTMLElement {
-  const names = symbols.join(", ");
-  const element = h("button", { type: "button", class: "fnb-fix" }, `Add ${names} with size 1 m`);
-  element.addEventListener("click", () => store.ask({ op: "declare", symbols }));
-  return element;
 }

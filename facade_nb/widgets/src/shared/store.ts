@@ -30,6 +30,8 @@ export class Store {
   private seq = 0;
   /** The operation that was sent last. */
   private last = "";
+  /** What was asked to have another name: what waits for it meanwhile is about the new one. */
+  private renames: { section: "patterns" | "symbols" | "counters" | "layers"; name: string; to: string }[] = [];
   private readonly waiters = new Set<() => void>();
 
   readonly kernel: Kernel;
@@ -136,10 +138,31 @@ export class Store {
     if (this.flying || !this.live) return;
     const next = this.queue.shift();
     if (!next) return;
+    this.readdress(next);
     this.last = next.message.op;
     this.flying = { ...next, seq: ++this.seq, since: performance.now() };
     this.send();
     for (const waiter of this.waiters) waiter();
+  }
+
+  /** What is typed in a field whose pattern, say, was renamed a moment ago goes to where the field is now. */
+  private readdress(next: Queued): void {
+    const { op, kind, name, to, path } = next.message;
+    if (op === "rename") {
+      const section = { pattern: "patterns", symbol: "symbols", counter: "counters", layer: "layers" } as const;
+      const own = section[kind as keyof typeof section];
+      if (own) this.renames = [...this.renames.slice(-9), { section: own, name: String(name), to: String(to).trim() }];
+    }
+    if (op !== "set") return;
+    const there = (section: string, name?: string) =>
+      (this.get("design")[section as "patterns"] ?? []).some((other) => other.name === name);
+    let [section, own, ...rest] = path as Path;
+    for (const rename of this.renames)
+      if (rename.section === section && rename.name === own && !there(section, own) && there(section, rename.to))
+        own = rename.to;
+    if (section === undefined || own === undefined || own === (path as Path)[1]) return;
+    next.message = { ...next.message, path: [section, own, ...rest] };
+    next.key = keyOf([section, own, ...rest]);
   }
 
   private send(): void {

@@ -15,6 +15,8 @@ export interface LayerSide {
 export interface LayerState {
   name: string;
   visible: boolean;
+  /** Whether it draws nothing yet: no shape has been chosen in it. */
+  unshaped: boolean;
   depth: number;
   x: LayerSide;
   y: LayerSide;
@@ -39,7 +41,11 @@ export interface SymbolState {
   placement: "center" | "left" | "right";
   min: number | null;
   max: number | null;
-  solved: number[];
+  solved: { x?: number; y?: number };
+  /** Whether it came by itself as it was typed, and was not touched since. */
+  fresh: boolean;
+  /** Whether a pattern writes it. */
+  used: boolean;
 }
 
 export interface CounterState {
@@ -48,6 +54,8 @@ export interface CounterState {
   max: number | null;
   value: number | null;
   solved: number | null;
+  fresh: boolean;
+  used: boolean;
 }
 
 export interface DesignState {
@@ -97,17 +105,49 @@ export interface DraftState {
   path: Path;
   value: unknown;
   faults: Fault[];
-  missing: string[];
+}
+
+/** Who says what a cell looks like: a layer, its pattern of an axis, or the design; "": nobody, it is the default. */
+export type Level = "layer" | "x" | "y" | "design";
+export const LEVELS: readonly Level[] = ["layer", "x", "y", "design"];
+
+export type Look = string | number | boolean;
+
+export interface Looks {
+  kind?: string;
+  geometry?: string;
+  material?: string;
+  offset?: number;
+  thickness?: number;
+  visible?: boolean;
+}
+
+export type VariantState = Looks & { weight: number };
+
+export interface LookState {
+  value: Look;
+  level: Level | "";
+  key: string;
+  varied: boolean;
 }
 
 export interface Cell {
-  rect: [number, number, number, number];
-  kind: string;
-  geometry: string;
-  material: string;
-  offset: number;
-  thickness: number;
-  own: string[];
+  rect: [number, number, number, number] | null;
+  fields: Record<keyof Looks, LookState>;
+  /** The keys under which it can be edited, and what each means in words. */
+  keys: { key: string; means: string }[];
+  patterns: { x: string; y: string };
+  /** What each of these keys says, by level. */
+  set: Record<Level, Record<string, Looks & { variants?: VariantState[] }>>;
+  seed: number;
+}
+
+/** The table of a layer's pairs, row by row. */
+export interface Pairs {
+  layer: string;
+  columns: string[];
+  rows: string[];
+  cells: { material: string; geometry: string; key: string; level: Level | ""; shown: boolean }[];
 }
 
 export interface SelectionState {
@@ -115,7 +155,11 @@ export interface SelectionState {
   layer: string;
   x: string;
   y: string;
+  number: [number, number] | null;
+  /** Further pairs that are picked. */
+  more: [string, string][];
   cell: Cell | null;
+  pairs: Pairs | null;
 }
 
 export interface State {
@@ -126,7 +170,7 @@ export interface State {
   svg: string;
   theme: "light" | "dark";
   gallery: string[];
-  catalogue: { geometries: string[]; materials: string[] };
+  catalogue: { geometries: string[]; materials: string[]; swatches: Record<string, string> };
   trouble: string;
   ack: { client?: string; seq?: number };
 }
@@ -137,6 +181,8 @@ export type Reply = { client: string; seq: number } & (
   | { kind: "opened"; name: string }
   | { kind: "faults"; name: string; faults: Fault[] }
   | { kind: "refused"; faults: Fault[] }
+  | { kind: "added"; what: string; name: string }
+  | { kind: "renamed"; what: string; name: string; to: string }
 );
 
 /** The part of a widget model (Backbone's) that is used here. */

@@ -1,7 +1,7 @@
 // What the editors share: the shape of a part, sections, rows that answer to the selection.
 
-import { h, mark } from "../shared/dom.ts";
-import { button } from "../shared/fields.ts";
+import { focusMain, h, mark } from "../shared/dom.ts";
+import { button, type Field, nameField } from "../shared/fields.ts";
 import type { Store } from "../shared/store.ts";
 
 export interface Context {
@@ -47,4 +47,83 @@ function scrollWithin(row: HTMLElement): void {
 
 export function emptyNote(text: string): HTMLElement {
   return h("p", { class: "fnb-empty" }, text);
+}
+
+/** A colour for each symbol, the same in every part: neighbours in the design are far apart. */
+export function tint(store: Store, symbol: string): string {
+  const at = store.get("design").symbols.findIndex((other) => other.name === symbol);
+  return at < 0 ? "transparent" : hue(at);
+}
+
+/** A colour for each alignment group but the default one. */
+export function groupTint(store: Store, group: string): string {
+  const groups = store.get("design").groups.filter((other) => other !== "default");
+  const at = groups.indexOf(group);
+  return at < 0 ? "var(--fnb-line-strong)" : hue(at + 2);
+}
+
+/** By the golden angle, any number of hues are far apart from those before. */
+function hue(at: number): string {
+  return `hsl(${Math.round((at * 137.508 + 210) % 360)} 62% 52%)`;
+}
+
+/** A button whose name is edited in place: by a double click, or by F2. Enter takes it over, Escape gives it back. */
+export function renamed(
+  shown: HTMLButtonElement,
+  options: { label: string; value: () => string; commit: (name: string) => void },
+): Field {
+  const name = nameField({ ...options, next: () => shown });
+  const input = name.el as HTMLInputElement;
+  input.hidden = true;
+  const begin = () => {
+    shown.hidden = true;
+    input.hidden = false;
+    name.update();
+    input.focus();
+    input.select();
+  };
+  const end = () => {
+    input.hidden = true;
+    shown.hidden = false;
+  };
+  // Before its own listeners: a hidden button cannot take the focus.
+  input.addEventListener(
+    "keydown",
+    (event) => {
+      if (event.key === "Enter") shown.hidden = false;
+      if (event.key !== "Escape") return;
+      event.preventDefault();
+      event.stopPropagation();
+      input.value = options.value();
+      end();
+      shown.focus();
+    },
+    { capture: true },
+  );
+  input.addEventListener("blur", end);
+  shown.addEventListener("dblclick", begin);
+  shown.addEventListener("keydown", (event) => {
+    if (event.key !== "F2") return;
+    event.preventDefault();
+    begin();
+  });
+  return { el: h("span", { class: "fnb-renamed" }, shown, input), update: name.update };
+}
+
+/** When what this view has asked for is added, the focus goes there, as soon as it is shown. */
+export function focusAdded(store: Store, what: string, list: HTMLElement): () => void {
+  let name = "";
+  const look = () => {
+    const row = [...list.children].find((el) => name !== "" && el.getAttribute(`data-${what}`) === name);
+    if (!row) return;
+    name = "";
+    focusMain(row);
+    scrollWithin(row as HTMLElement);
+  };
+  store.onReply((reply) => {
+    if (reply.kind !== "added" || reply.what !== what) return;
+    name = reply.name;
+    look();
+  });
+  return look;
 }

@@ -1,7 +1,7 @@
 import { h, keyed, mark, type Row, setText } from "../shared/dom.ts";
 import { button, faultBox, formatNumber, numberField } from "../shared/fields.ts";
 import type { CounterState } from "../shared/types.ts";
-import { type Context, emptyNote, type MakePart } from "./common.ts";
+import { type Context, emptyNote, type MakePart, renamed } from "./common.ts";
 
 /** The table of counters. */
 export const counters: MakePart = (context) => {
@@ -47,7 +47,22 @@ function counterRow({ store }: Context, first: CounterState): Row<CounterState> 
     whole("max", "Greatest value", "∞"),
     whole("value", "Fixed value", "free"),
   ];
-  const solved = h("span", { class: "fnb-solved", role: "cell" });
+  const title = h(
+    "button",
+    { type: "button", class: "fnb-letter", "aria-label": `Counter ${name}`, title: "Double-click or F2 to rename" },
+    name,
+  );
+  const label = renamed(title, {
+    label: `Name of counter ${name}`,
+    value: () => counter.name,
+    commit: (to) => store.ask({ op: "rename", kind: "counter", name, to }),
+  });
+  const fresh = h("span", { class: "fnb-fresh", title: "It came by itself as you typed" }, "new");
+  const fix = h("button", { type: "button", class: "fnb-word" });
+  fix.addEventListener("click", () =>
+    store.set(["counters", name, "value"], counter.value === null ? counter.solved : null),
+  );
+  const solved = h("span", { class: "fnb-solved" });
   const faults = faultBox(store, () => ["min", "max", "value"].map((key) => ["counters", name, key]));
   const remove = button(
     `Remove the bounds of counter ${name}`,
@@ -58,9 +73,9 @@ function counterRow({ store }: Context, first: CounterState): Row<CounterState> 
   const el = h(
     "div",
     { class: "fnb-counter", role: "row", "data-counter": name },
-    h("span", { role: "cell", class: "fnb-letter" }, name),
+    h("span", { role: "cell", class: "fnb-counter-name" }, label.el, fresh),
     ...fields.map((field) => h("span", { role: "cell" }, field.el)),
-    solved,
+    h("span", { role: "cell", class: "fnb-counter-solved" }, solved, fix),
     remove,
     faults.el,
   );
@@ -68,7 +83,16 @@ function counterRow({ store }: Context, first: CounterState): Row<CounterState> 
     el,
     update(item) {
       counter = item;
-      for (const field of [...fields, faults]) field.update();
+      for (const field of [...fields, label, faults]) field.update();
+      fresh.hidden = !counter.fresh;
+      setText(fix, counter.value === null ? "fix" : "free");
+      mark(
+        fix,
+        "aria-label",
+        counter.value === null ? `Fix counter ${name} at ${counter.solved}` : `Let counter ${name} go free`,
+      );
+      fix.disabled = counter.value === null && counter.solved === null;
+      mark(el, "data-unused", !counter.used);
       setText(solved, formatNumber(counter.solved, 0));
       mark(el, "data-blamed", store.get("status").blame.counters.includes(name));
     },

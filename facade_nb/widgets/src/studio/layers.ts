@@ -1,24 +1,28 @@
-import { focused, h, keyed, mark, type Row } from "../shared/dom.ts";
-import { button, choiceField, type Field, faultBox, holdBack, nameField } from "../shared/fields.ts";
+import { h, keyed, mark, type Row } from "../shared/dom.ts";
+import { button, choiceField, type Field, faultBox, nameField } from "../shared/fields.ts";
 import { icon, setIcon } from "../shared/icons.ts";
-import { keyOf } from "../shared/store.ts";
 import { AXES, type Axis, type LayerState } from "../shared/types.ts";
-import { type Context, emptyNote, type MakePart, markPicked } from "./common.ts";
+import { type Context, emptyNote, focusAdded, type MakePart, markPicked, tint } from "./common.ts";
+import { groupField } from "./groups.ts";
 
 /** The stack, topmost layer first. */
 export const layers: MakePart = (context) => {
   const { store } = context;
   const list = h("div", { class: "fnb-layers", role: "list", "aria-label": "Layers, topmost first" });
-  const empty = emptyNote("No layers yet. Add a pattern for each direction, then a layer that uses them.");
+  const empty = emptyNote(
+    "No layers yet. A layer has a pattern for each direction; a new one makes them where there are none.",
+  );
   const show = keyed<LayerState>(
     list,
     (layer) => layer.name,
     (layer) => layerRow(context, list, layer),
   );
+  const added = focusAdded(store, "layer", list);
   store.watch(["design", "drafts", "selection"], () => {
     const all = store.get("design").layers;
     empty.hidden = all.length > 0;
     show(all);
+    added();
   });
   return h("div", {}, list, empty);
 };
@@ -52,7 +56,14 @@ function layerRow(context: Context, list: HTMLElement, first: LayerState): Row<L
   const up = button(`Move layer ${name} up`, "up", () => move(position() - 1));
   const down = button(`Move layer ${name} down`, "down", () => move(position() + 1));
   const remove = button(`Remove layer ${name}`, "close", () => store.ask({ op: "remove", kind: "layer", name }));
-  const tools = h("span", { class: "fnb-tools" }, up, down, remove);
+  const solo = button(`Show layer ${name} alone, or all again`, "solo", () => store.ask({ op: "solo", name }));
+  const copy = button(`Duplicate layer ${name}`, "copy", () => store.ask({ op: "duplicate", name }));
+  const unshaped = h(
+    "span",
+    { class: "fnb-fresh", title: "It draws nothing until a shape of it is chosen: click a cell in the table of pairs" },
+    "no shapes yet",
+  );
+  const tools = h("span", { class: "fnb-tools" }, solo, copy, up, down, remove);
   const sides = AXES.map((axis) => layerSide(context, axis, () => layer));
   const faults = faultBox(store, () =>
     AXES.flatMap((axis) => ["pattern", "group", "mask"].map((key) => ["layers", name, axis, key])).concat([
@@ -62,7 +73,7 @@ function layerRow(context: Context, list: HTMLElement, first: LayerState): Row<L
   const el = h(
     "div",
     { class: "fnb-layer", role: "listitem", "data-layer": name },
-    h("div", { class: "fnb-layer-head" }, grip, visible, title.el, tools),
+    h("div", { class: "fnb-layer-head" }, grip, visible, title.el, unshaped, tools),
     ...sides.map((side) => side.el),
     faults.el,
   );
@@ -86,6 +97,7 @@ function layerRow(context: Context, list: HTMLElement, first: LayerState): Row<L
       title.update();
       for (const side of sides) side.update();
       faults.update();
+      unshaped.hidden = !layer.unshaped;
       const at = position();
       up.disabled = at === 0;
       down.disabled = at === store.get("design").layers.length - 1;
@@ -116,25 +128,11 @@ function layerSide({ store }: Context, axis: Axis, layer: () => LayerState): Fie
     value: () => side().pattern,
     choices: () => store.get("design").patterns.map((other) => other.name),
   });
-  const options = h("datalist", { id: `fnb-groups-${Math.random().toString(36).slice(2)}` });
-  const group = h("input", {
-    type: "text",
-    class: "fnb-group",
-    "aria-label": `The ${direction} alignment group of ${name}`,
-    title: "Alignment group: only patterns of one group are aligned",
-    list: options.id,
-    spellcheck: "false",
-    autocomplete: "off",
-  });
-  const groupPath = ["layers", name, axis, "group"];
-  const commitGroup = () => {
-    if (group.value !== side().group) store.set(groupPath, group.value);
-  };
-  group.addEventListener("change", commitGroup);
-  holdBack(group, () => side().group);
-  group.addEventListener("keydown", (event) => {
-    // With a list of suggestions Enter closes the list, and no change is announced.
-    if (event.key === "Enter") commitGroup();
+  if (axis === "x") mark(pattern.el, "data-main", true);
+  const group = groupField(store, {
+    label: `The ${direction} alignment group of ${name}`,
+    path: ["layers", name, axis, "group"],
+    value: () => side().group,
   });
   const chips = h("span", { class: "fnb-chips", role: "group", "aria-label": `The ${direction} mask of ${name}` });
   const maskPath = ["layers", name, axis, "mask"];
@@ -157,34 +155,47 @@ function layerSide({ store }: Context, axis: Axis, layer: () => LayerState): Fie
         el: chip,
         update() {
           const on = mask === null || mask.includes(symbol);
+          chip.style.setProperty("--fnb-tint", tint(store, symbol));
           mark(chip, "aria-pressed", String(on));
           mark(chip, "title", on ? `${symbol} is visible; click to mask it` : `${symbol} is masked; click to show it`);
         },
       };
     },
   );
+  const only = h("select", {
+    class: "fnb-only",
+    "aria-label": `Only this symbol of the ${direction} pattern of ${name}`,
+    title: "Show only this symbol, or all",
+  });
+  only.addEventListener("change", () => {
+    mask = only.value === "*" ? null : [only.value];
+    store.set(maskPath, mask);
+    only.value = "";
+    showChips(side().letters);
+  });
+  let offered = "";
+  const showOnly = () => {
+    const letters = side().letters;
+    only.hidden = letters.length < 2;
+    if (offered === letters.join("\n")) return;
+    offered = letters.join("\n");
+    const choices = letters.map((symbol) => h("option", { value: symbol }, `only ${symbol}`));
+    only.replaceChildren(h("option", { value: "" }, "only…"), ...choices, h("option", { value: "*" }, "all of them"));
+  };
   const el = h(
     "div",
     { class: "fnb-side" },
     h("span", { class: "fnb-axis", title: direction }, axis),
     pattern.el,
-    group,
-    options,
-    chips,
+    group.el,
+    h("span", { class: "fnb-mask" }, chips, only),
   );
   return {
     el,
     update() {
       pattern.update();
-      const groups = store.get("design").groups;
-      if (
-        options.childElementCount !== groups.length ||
-        [...options.children].some((o, i) => o.getAttribute("value") !== groups[i])
-      )
-        options.replaceChildren(...groups.map((other) => h("option", { value: other })));
-      const draft = store.get("drafts").find((other) => keyOf(other.path) === keyOf(groupPath));
-      if (focused(group) !== group && !store.pending(groupPath)) group.value = String(draft?.value ?? side().group);
-      mark(group, "data-default", side().group === "default");
+      group.update();
+      showOnly();
       if (!store.pending(maskPath)) mask = side().mask;
       showChips(side().letters);
     },

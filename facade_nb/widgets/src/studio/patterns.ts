@@ -1,7 +1,7 @@
 import { h, keyed, mark, type Row } from "../shared/dom.ts";
 import { button, codeField, faultBox, nameField } from "../shared/fields.ts";
 import type { PatternState } from "../shared/types.ts";
-import { type Context, emptyNote, type MakePart, markPicked } from "./common.ts";
+import { type Context, emptyNote, focusAdded, type MakePart, markPicked } from "./common.ts";
 
 /** The patterns' texts. */
 export const patterns: MakePart = (context) => {
@@ -13,10 +13,12 @@ export const patterns: MakePart = (context) => {
     (pattern) => pattern.name,
     (pattern) => patternRow(context, pattern),
   );
+  const added = focusAdded(store, "pattern", list);
   store.watch(["design", "drafts", "selection", "status"], () => {
     const all = store.get("design").patterns;
     empty.hidden = all.length > 0;
     show(all);
+    added();
   });
   return h("div", {}, list, empty);
 };
@@ -29,8 +31,13 @@ function patternRow({ store }: Context, first: PatternState): Row<PatternState> 
     label: `Name of pattern ${name}`,
     value: () => pattern.name,
     commit: (to) => store.ask({ op: "rename", kind: "pattern", name, to }),
+    next: () => text.input,
   });
-  const text = codeField(store, { label: `Pattern ${name}`, path, value: () => pattern.text, placeholder: "A(BA)^k" });
+  // The empty word is an empty field; written out, it stays as it is written.
+  const value = () =>
+    pattern.text !== "ε" ? pattern.text : /^\s*ε?\s*$/.test(text.input.value) ? text.input.value : "";
+  const text = codeField(store, { label: `Pattern ${name}`, path, value, placeholder: "type, such as A(BA)^k" });
+  mark(text.input, "data-main", true);
   const faults = faultBox(store, () => [path], text.input);
   const remove = button(`Remove pattern ${name}`, "close", () => store.ask({ op: "remove", kind: "pattern", name }), {
     class: "fnb-button fnb-remove",

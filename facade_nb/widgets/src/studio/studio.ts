@@ -7,6 +7,7 @@ import { elevation } from "./elevation.ts";
 import { layers } from "./layers.ts";
 import { massing } from "./massing.ts";
 import { patterns } from "./patterns.ts";
+import { shapes } from "./shapes.ts";
 import { statusLine } from "./status.ts";
 import { symbols } from "./symbols.ts";
 import { toolbar } from "./toolbar.ts";
@@ -24,6 +25,7 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
     section("Canvas", canvas(context)),
     section("Patterns", patterns(context), { add: add("pattern") }),
     section("Layers", layers(context), { add: add("layer") }),
+    section("Shapes", shapes(context)),
     section("Symbols", symbols(context), { add: add("symbol") }),
     section("Counters", counters(context)),
   );

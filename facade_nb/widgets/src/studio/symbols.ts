@@ -1,14 +1,13 @@
 import { h, keyed, mark, type Row, setText } from "../shared/dom.ts";
 import { button, faultBox, formatNumber, numberField, toggleField } from "../shared/fields.ts";
-import { icon, setIcon } from "../shared/icons.ts";
-import type { SymbolState } from "../shared/types.ts";
-import { type Context, emptyNote, type MakePart, markPicked } from "./common.ts";
+import { AXES, type SymbolState } from "../shared/types.ts";
+import { type Context, emptyNote, focusAdded, type MakePart, markPicked, renamed, tint } from "./common.ts";
 
 const QUALIFIERS = {
-  opaque: "Opaque: hides what is behind it, and may stand where nothing is",
-  attached: "Attached: nothing is put between it and its neighbour",
-  unoccludable: "Unoccludable: nothing may cover it",
-  transparent: "Transparent: draws nothing and may be cut",
+  opaque: "Hides what is behind it, and may stand where nothing is",
+  attached: "Nothing is put between it and its neighbour",
+  unoccludable: "Nothing may cover it",
+  transparent: "Draws nothing and may be cut",
 } as const;
 type Qualifier = keyof typeof QUALIFIERS;
 
@@ -21,9 +20,7 @@ export const symbols: MakePart = (context) => {
   const head = h(
     "div",
     { class: "fnb-symbol fnb-head", role: "row" },
-    ...["Symbol", "Size", "Solved", "Min", "Max", "Qualifiers"].map((text) =>
-      h("span", { role: "columnheader" }, text),
-    ),
+    ...["Symbol", "Size", "Solved", "Min", "Max"].map((text) => h("span", { role: "columnheader" }, text)),
   );
   const table = h("div", { class: "fnb-symbols", role: "table", "aria-label": "Symbols" }, head, body);
   const empty = emptyNote("No symbols yet. They appear here when a pattern names them.");
@@ -32,24 +29,46 @@ export const symbols: MakePart = (context) => {
     (symbol) => symbol.name,
     (symbol) => symbolRow(context, symbol),
   );
+  const sweep = h("button", { type: "button", class: "fnb-fix fnb-sweep", hidden: true });
+  sweep.addEventListener("click", () => store.ask({ op: "sweep" }));
+  const added = focusAdded(store, "symbol", body);
   store.watch(["design", "drafts", "selection", "status"], () => {
     const all = store.get("design").symbols;
+    const unused = all.filter((symbol) => !symbol.used);
+    sweep.hidden = unused.length === 0;
+    setText(sweep, unused.length === 1 ? "Remove the unused symbol" : `Remove ${unused.length} unused symbols`);
+    mark(sweep, "title", unused.map((symbol) => symbol.name).join(", "));
     empty.hidden = all.length > 0;
     table.hidden = all.length === 0;
     show(all);
+    added();
   });
-  return h("div", {}, table, empty);
+  return h("div", {}, table, sweep, empty);
 };
 
 function symbolRow({ store }: Context, first: SymbolState): Row<SymbolState> {
   let symbol = first;
   const name = first.name;
   const at = (key: string) => ["symbols", name, key];
+  const dot = h("span", { class: "fnb-tint" });
   const title = h(
     "button",
-    { type: "button", class: "fnb-letter", "aria-label": `Pick symbol ${name}`, title: "Show where it stands" },
+    {
+      type: "button",
+      class: "fnb-letter",
+      "aria-label": `Pick symbol ${name}`,
+      title: "Click: show where it stands. Double-click or F2: rename it",
+    },
+    dot,
     name,
   );
+  const label = renamed(title, {
+    label: `Name of symbol ${name}`,
+    value: () => symbol.name,
+    commit: (to) => store.ask({ op: "rename", kind: "symbol", name, to }),
+  });
+  const fresh = h("span", { class: "fnb-fresh", title: "It came by itself as you typed" }, "new");
+  const unused = h("span", { class: "fnb-unused", title: "No pattern writes it" }, "unused");
   title.addEventListener("click", () => {
     const { x, y } = store.get("selection");
     const axis = symbol.axes === "y" ? "y" : "x";
@@ -63,7 +82,7 @@ function symbolRow({ store }: Context, first: SymbolState): Row<SymbolState> {
       placeholder,
       step: 0.1,
       min: 0.1,
-      start: () => symbol.solved[0] ?? symbol.size ?? 1,
+      start: () => symbol.solved.x ?? symbol.solved.y ?? symbol.size ?? 1,
     });
   const fields = [
     size("size", "Preferred size", "free"),
@@ -75,11 +94,11 @@ function symbolRow({ store }: Context, first: SymbolState): Row<SymbolState> {
       label: `${name} is ${key}`,
       title: QUALIFIERS[key],
       path: at(key),
-      icon: key,
+      word: key,
       value: () => symbol[key],
     }),
   );
-  const placement = h("button", { type: "button", class: "fnb-toggle fnb-placement" }, icon("center"));
+  const placement = h("button", { type: "button", class: "fnb-word fnb-placement" });
   placement.addEventListener("click", () => {
     const next = PLACEMENTS[(PLACEMENTS.indexOf(symbol.placement) + 1) % PLACEMENTS.length] ?? "center";
     store.set(at("placement"), next);
@@ -93,12 +112,13 @@ function symbolRow({ store }: Context, first: SymbolState): Row<SymbolState> {
   });
   const cell = (...children: HTMLElement[]) => h("span", { role: "cell" }, ...children);
   const [preferred, least, greatest] = fields.map((field) => cell(field.el));
-  const qualifiers = cell(...toggles.map((toggle) => toggle.el), placement, remove);
+  for (const field of fields.slice(0, 1)) mark(field.el, "data-main", true);
+  const qualifiers = cell(...toggles.map((toggle) => toggle.el), placement, unused, remove);
   qualifiers.className = "fnb-qualifiers";
   const el = h(
     "div",
     { class: "fnb-symbol", role: "row", "data-symbol": name },
-    h("span", { role: "cell", class: "fnb-symbol-name" }, title),
+    h("span", { role: "cell", class: "fnb-symbol-name" }, label.el, fresh),
     preferred,
     solved,
     least,
@@ -110,18 +130,53 @@ function symbolRow({ store }: Context, first: SymbolState): Row<SymbolState> {
     el,
     update(item) {
       symbol = item;
-      for (const field of [...fields, ...toggles, faults]) field.update();
-      setText(solved, symbol.solved.map((value) => formatNumber(value, 2)).join(" / "));
-      setIcon(placement, symbol.placement);
-      const label = `Placement of ${name}: ${symbol.placement}`;
-      mark(placement, "aria-label", label);
-      mark(placement, "title", symbol.opaque ? "Placement is for symbols that are not opaque" : label);
+      for (const field of [...fields, ...toggles, label, faults]) field.update();
+      dot.style.background = tint(store, name);
+      fresh.hidden = !symbol.fresh;
+      unused.hidden = symbol.used;
+      mark(el, "data-unused", !symbol.used);
+      showSolved(solved, symbol);
+      setText(placement, symbol.placement);
+      mark(placement, "aria-label", `Placement of ${name}: ${symbol.placement}`);
+      mark(
+        placement,
+        "title",
+        symbol.opaque
+          ? "Where it is placed in a wider column: for symbols that are not opaque"
+          : "Where it is placed in a wider column",
+      );
       placement.disabled = symbol.opaque || symbol.transparent;
-      remove.disabled = symbol.axes !== "";
-      remove.hidden = symbol.axes !== "";
+      remove.disabled = symbol.used;
+      remove.hidden = symbol.used;
       const { x, y } = store.get("selection");
       markPicked(el, x === name || y === name);
       mark(el, "data-blamed", store.get("status").blame.symbols.includes(name));
     },
   };
+}
+
+/** The size that it has, on each axis apart, and by how much it is not the preferred one. */
+function showSolved(el: HTMLElement, { solved, size, name }: SymbolState): void {
+  const axes = AXES.filter((axis) => solved[axis] !== undefined);
+  const parts = axes.map((axis) => {
+    const value = solved[axis] ?? 0;
+    const off = size === null ? 0 : value - size;
+    const sign = off > 0 ? "+" : "−";
+    const deviation = Math.abs(off) < 0.005 ? "" : ` ${sign}${Math.abs(off).toFixed(2)}`;
+    return { axis, value: formatNumber(value, 2), deviation };
+  });
+  const key = JSON.stringify(parts);
+  if (el.dataset.key === key) return;
+  el.dataset.key = key;
+  el.replaceChildren(
+    ...parts.map(({ axis, value, deviation }) =>
+      h(
+        "span",
+        { title: `${name} is ${value} m ${axis === "x" ? "wide" : "high"}` },
+        axes.length > 1 && h("i", {}, `${axis} `),
+        value,
+        deviation && h("span", { class: "fnb-deviation" }, deviation),
+      ),
+    ),
+  );
 }

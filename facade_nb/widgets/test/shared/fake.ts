@@ -110,11 +110,11 @@ export function fakeState(): State {
       solved: null,
     },
     drafts: [],
-    selection: { shape: null, layer: "", x: "", y: "", cell: null },
+    selection: { shape: null, layer: "", x: "", y: "", number: null, more: [], cell: null, pairs: null },
     svg: "",
     theme: "light",
     gallery: [],
-    catalogue: { geometries: [], materials: [] },
+    catalogue: { geometries: [], materials: [], swatches: {} },
     trouble: "",
     ack: {},
   };

@@ -1,0 +1,129 @@
+import { focused, focusMain, h, setText } from "../shared/dom.ts";
+import { button, type Field, formatNumber } from "../shared/fields.ts";
+import type { Store } from "../shared/store.ts";
+import { swatchField } from "../shared/swatches.ts";
+import type { Path, VariantState } from "../shared/types.ts";
+
+interface VariantsOptions {
+  label: string;
+  path: () => Path;
+  own: () => VariantState[];
+}
+
+type Loose = { [name: string]: unknown };
+
+const INHERITED = "as the shape";
+
+/** The variants of a shape: each with a weight and what it has of its own. Each instance takes one, by the seed. */
+export function variantsForm(store: Store, { label, path, own }: VariantsOptions): Field {
+  const count = h("span", { class: "fnb-count" });
+  const list = h("div", { class: "fnb-variants-list" });
+  const seed = h("input", {
+    type: "text",
+    inputmode: "numeric",
+    class: "fnb-number",
+    "aria-label": "Seed of the design, which chooses among variants",
+    spellcheck: "false",
+    autocomplete: "off",
+  });
+  onChange(seed, () => store.set(["seed"], seed.value));
+  const add = h("button", { type: "button", class: "fnb-fix" }, "Add a variant");
+  add.addEventListener("click", () => {
+    const { materials } = store.get("catalogue");
+    const taken = own().map((variant) => variant.material);
+    const material = materials.find((name) => !taken.includes(name));
+    store.set(path(), [...own(), { weight: 1, material }]);
+  });
+  const el = h(
+    "details",
+    { class: "fnb-variants" },
+    h("summary", {}, "Variants", count),
+    list,
+    h("div", { class: "fnb-variants-foot" }, add, h("label", {}, "seed", seed)),
+  );
+
+  const change = (at: number, name: string, value: unknown) => {
+    const next: Loose[] = own().map((variant) => ({ ...variant }));
+    const variant = next[at];
+    if (!variant) return;
+    variant[name] = value === "" || value === INHERITED ? null : value;
+    store.set(path(), next);
+  };
+  const row = (variant: VariantState, at: number): HTMLElement => {
+    const named = (name: string) => `${name} of variant ${at + 1} of ${label}`;
+    const text = (name: "weight" | "kind" | "offset" | "thickness", placeholder: string) => {
+      const value = variant[name];
+      const input = h("input", {
+        type: "text",
+        class: name === "kind" ? "fnb-kind" : "fnb-number",
+        "aria-label": named(name),
+        placeholder,
+        spellcheck: "false",
+        autocomplete: "off",
+      });
+      input.value = typeof value === "number" ? formatNumber(value) : (value ?? "");
+      onChange(input, () => change(at, name, input.value.trim()));
+      return h("label", {}, name, input);
+    };
+    const material = swatchField({
+      label: named("material"),
+      value: () => variant.material ?? INHERITED,
+      choices: () => [INHERITED, ...store.get("catalogue").materials],
+      colours: () => store.get("catalogue").swatches,
+      choose: (to) => change(at, "material", to),
+    });
+    material.update();
+    const geometry = h("select", { class: "fnb-select", "aria-label": named("geometry") });
+    for (const name of [INHERITED, ...store.get("catalogue").geometries])
+      geometry.append(h("option", { value: name }, name));
+    geometry.value = variant.geometry ?? INHERITED;
+    geometry.addEventListener("change", () => change(at, "geometry", geometry.value));
+    const remove = button(`Remove variant ${at + 1} of ${label}`, "close", () =>
+      store.set(
+        path(),
+        own().filter((_, i) => i !== at),
+      ),
+    );
+    return h(
+      "div",
+      { class: "fnb-variant" },
+      text("weight", "1"),
+      h("label", {}, "material", material.el),
+      h("label", {}, "geometry", geometry),
+      text("kind", "–"),
+      text("offset", "–"),
+      text("thickness", "–"),
+      remove,
+    );
+  };
+  let shown = "";
+  return {
+    el,
+    update() {
+      const variants = own();
+      setText(count, variants.length ? String(variants.length) : "");
+      const { cell } = store.get("selection");
+      if (focused(seed) !== seed) seed.value = String(cell?.seed ?? 0);
+      const key = JSON.stringify(variants);
+      if (key === shown) return;
+      shown = key;
+      const at = focused(list)?.getAttribute("aria-label");
+      const held = list.contains(focused(list));
+      list.replaceChildren(...variants.map(row));
+      if (!held) return;
+      const again = [...list.querySelectorAll<HTMLElement>("[aria-label]")].find(
+        (other) => other.getAttribute("aria-label") === at,
+      );
+      if (again) again.focus({ preventScroll: true });
+      else if (!focusMain(list)) add.focus({ preventScroll: true });
+    },
+  };
+}
+
+/** Tell what was typed when the field is left, or by Enter. */
+function onChange(input: HTMLInputElement, commit: () => void): void {
+  input.addEventListener("change", commit);
+  input.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") input.dispatchEvent(new Event("change"));
+  });
+}
