@@ -50,7 +50,7 @@ export function invitation(context: Context): HTMLElement {
   const typed = h("form", { class: "fnb-invite-row" }, pattern, begin);
   typed.addEventListener("submit", (event) => {
     event.preventDefault();
-    if (pattern.value.trim()) store.ask({ op: "begin", text: pattern.value });
+    if (pattern.value.trim()) store.ask({ op: "begin", text: pattern.value, width: width.value, height: height.value });
     else pattern.focus();
   });
   pattern.addEventListener("input", () => {
@@ -97,7 +97,7 @@ export function invitation(context: Context): HTMLElement {
         "div",
         { class: "fnb-invite-row" },
         ...buildings.map((building) => {
-          const open = h("button", { type: "button", class: "fnb-chip" }, building);
+          const open = h("button", { type: "button", class: "fnb-invite-chip" }, building);
           open.addEventListener("click", () => store.ask({ op: "survey", building }));
           return open;
         }),
