@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ipywidgets import Widget
 from traitlets import Dict, List, Unicode
 
 from ...design import Design
@@ -14,7 +15,7 @@ from ...design.model import AXES
 from ...render import elevation_svg, exploded_svg, naive_layout
 from ...solver import Layout
 from ...survey import Survey, compare
-from ..shared.bundled import ModelWire
+from ..shared.bundled import Message, ModelWire
 from .beginnings import surveyed
 from .exports import describe_exports
 from .facts import describe_facts, remedies
@@ -67,6 +68,13 @@ class Extras(ModelWire):
             clients.add(client)
         else:
             clients.discard(client)
+
+    def _receive(self, _: Widget, message: Message, buffers: list[Any]) -> None:
+        """A view that goes looks at nothing any more."""
+        if message.get("op") == "view" and not message["here"]:
+            for clients in self._wants.values():
+                clients.discard(message.get("client", ""))
+        super()._receive(_, message, buffers)
 
     def later(self, work: Callable[[], Json], tag: Json) -> Json | None:
         """The reply that `work` makes; where there is an event loop, it is made in a thread and sent then."""

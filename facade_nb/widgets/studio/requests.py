@@ -41,12 +41,18 @@ def _thumbnail(channel: Channel, message: Message) -> Reply:
 def _new(channel: Channel, message: Message) -> Reply:
     """An empty canvas of a size, as typed, with a first pattern."""
     model = channel.model
-    sized = Design(model.design.name)
-    for side in ("width", "height"):
-        sized = apply(sized, ("canvas", side), message[side])
+    sized = _sized(Design(model.design.name), message)
     name = "Untitled" if model.design.layers else model.design.name
     model.load(empty(name, sized.canvas.width, sized.canvas.height))
     return {"kind": "begun", "pattern": "P1"}
+
+
+def _sized(design: Design, message: Message) -> Design:
+    """A design with the canvas that was typed, if one was."""
+    for side in ("width", "height"):
+        if side in message:
+            design = apply(design, ("canvas", side), message[side])
+    return design
 
 
 def _begin(channel: Channel, message: Message) -> Reply:
@@ -54,7 +60,7 @@ def _begin(channel: Channel, message: Message) -> Reply:
     model = channel.model
     text = str(message["text"])
     try:
-        model.load(begun(Design(model.design.name, model.design.canvas), text))
+        model.load(begun(_sized(Design(model.design.name, model.design.canvas), message), text))
     except DesignError as error:
         return {"kind": "unbegun", "faults": describe_faults(error.faults)}
     return {"kind": "begun", "pattern": "across"}

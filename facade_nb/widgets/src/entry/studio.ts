@@ -20,6 +20,7 @@ import { counters } from "../studio/counters.ts";
 import { elevation } from "../studio/elevation.ts";
 import { inspector } from "../studio/inspector.ts";
 import { layers } from "../studio/layers.ts";
+import { link } from "../studio/links.ts";
 import { massing } from "../studio/massing.ts";
 import { notices } from "../studio/notices.ts";
 import { patterns } from "../studio/patterns.ts";
@@ -64,7 +65,19 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   const root = h("div", { class: `fnb fnb-part-${part}` });
   root.append(make({ store, signal, notify }, model), noticeArea);
   mark(root, "inert", store.kernel.presence === "saved");
-  absence(root, store.kernel, signal, { what: "façade", unsent: () => store.waits });
+  absence(root, store.kernel, signal, {
+    what: "façade",
+    unsent: () => store.waits,
+    after: () => {
+      const state = store.get("stage").keeping?.state ?? "off";
+      const kept =
+        state === "on" || state === "restored"
+          ? "Run the cell again: the design comes back."
+          : "Run the cell again to go on.";
+      return `${kept} Save writes it as a file, without a kernel too.`;
+    },
+  });
+  link(root, store.prefix, signal);
   keepFocus(root, signal);
   keepKeys(root, signal, (op) => store.ask({ op }));
   root.addEventListener("keydown", (event) => {

@@ -17,6 +17,8 @@ export interface Absence {
 interface Options {
   /** Which of the controls need a kernel; "" for none, and by default all that are not marked as `data-local`. */
   needs?: string;
+  /** What can be done when the kernel has gone. */
+  after?: () => string;
   /** Whether something was typed that Python has not got. */
   unsent?: () => boolean;
   /** What is seen here, such as "façade". */
@@ -90,7 +92,7 @@ function release(control: HTMLElement): void {
   delete control.dataset.changed;
 }
 
-function sentences(kernel: Kernel, { unsent, what, goesOn }: Options): [title: string, more: string] {
+function sentences(kernel: Kernel, { unsent, what, goesOn, after }: Options): [title: string, more: string] {
   const typed = unsent?.() ? " What was typed last has not reached it, and still stands in its field." : "";
   const on = goesOn ? ` ${goesOn}` : "";
   if (kernel.presence === "away")
@@ -100,6 +102,6 @@ function sentences(kernel: Kernel, { unsent, what, goesOn }: Options): [title: s
     ];
   return [
     `The kernel ${kernel.fate}.`,
-    `This is the ${what} as it was last, read only.${on}${typed} Run the cell again to go on.`,
+    `This is the ${what} as it was last, read only.${on}${typed} ${after?.() ?? "Run the cell again to go on."}`,
   ];
 }

@@ -1,6 +1,8 @@
 // The state of a model as Python describes it (facade_nb/widgets/studio/wire.py), and the little that is used of the widget
 // manager. Both are plain data: nothing here runs.
 
+import type { StageState } from "./stage.ts";
+
 export type Path = string[];
 export type Axis = "x" | "y";
 export const AXES: readonly Axis[] = ["x", "y"];
@@ -162,7 +164,7 @@ export interface SelectionState {
   pairs: Pairs | null;
 }
 
-export interface State {
+export interface State extends StageState {
   design: DesignState;
   status: StatusState;
   drafts: DraftState[];
@@ -177,7 +179,12 @@ export interface State {
 
 /** What Python sends besides the state. */
 export type Reply = { client: string; seq: number } & (
-  | { kind: "file"; name: string; text: string }
+  | { kind: "file"; name: string; text: string; media?: string; binary?: boolean }
+  | { kind: "python"; name: string; text: string }
+  | { kind: "thumbnail"; name: string; theme: string; svg: string }
+  | { kind: "begun"; pattern: string }
+  | { kind: "unbegun"; faults: Fault[] }
+  | { kind: "note"; text: string }
   | { kind: "opened"; name: string }
   | { kind: "faults"; name: string; faults: Fault[] }
   | { kind: "refused"; faults: Fault[] }

@@ -4,9 +4,27 @@ import { button, formatNumber } from "../shared/fields.ts";
 import type { MakePart } from "./common.ts";
 import { edge } from "./edge.ts";
 import { inspector } from "./inspector.ts";
+import { invitation } from "./invitation.ts";
+import { belongs, watchLinks } from "./links.ts";
+import {
+  dimensionsOf,
+  gridOf,
+  groupsOf,
+  lettersOf,
+  NEEDS_MARKS,
+  rectOf,
+  type Sheet,
+  transparentOf,
+  VIEWS,
+  type ViewOption,
+} from "./marks.ts";
+import { naiveView } from "./naive.ts";
+import { popover } from "./popover.ts";
 import { fullScreen } from "./screen.ts";
 import { type Camera, clear, fitted, navigate } from "./viewport.ts";
 
+/** Pixels at the left that chains of dimensions take. */
+const CHAINS = 30;
 const ARROWS: Record<string, [number, number]> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
@@ -20,7 +38,11 @@ export const elevation: MakePart = (context) => {
   const overlay = svg("svg", { class: "fnb-overlay", "aria-hidden": "true" });
   const hover = svg("rect", { class: "fnb-hover", visibility: "hidden" });
   const picks = svg("g");
-  overlay.append(picks, hover);
+  const lit = svg("g");
+  const under = svg("g");
+  const over = svg("g", { class: "fnb-marks" });
+  const naive = naiveView(() => ask("naive", naive.on));
+  overlay.append(under, picks, lit, hover, over, naive.flaws);
   const sheet = h("div", { class: "fnb-sheet" }, overlay as unknown as HTMLElement);
   const tag = h("span", { class: "fnb-tag", hidden: true }, "Last good layout");
   const empty = h("p", { class: "fnb-empty fnb-stage-note", hidden: true });
@@ -37,14 +59,26 @@ export const elevation: MakePart = (context) => {
     sheet,
     tag,
     tools,
+    naive.el,
     empty,
+    invitation(context),
   );
+  mark(naive.el, "data-local", true);
+  mark(naive.el, "data-beside", true);
   const el = h("div", { class: "fnb-elevation" }, stage, inspector(context));
 
   const ids = `fnb-${Math.random().toString(36).slice(2)}`;
   let drawing: Drawing | null = null;
   /** As it was zoomed and moved; null: fitted to the stage. */
   let free: Camera | null = null;
+  const on = new Set<ViewOption>(["holes", "survey"]);
+  const wanted = new Set<string>();
+  const ask = (what: string, want: boolean) => {
+    if (want === wanted.has(what)) return;
+    if (want) wanted.add(what);
+    else wanted.delete(what);
+    store.ask({ op: "want", what, on: want });
+  };
   /** While an edge is dragged: how large a metre is and where the façade's corner stands, so that both stay. */
   let held: Camera | null = null;
   /** How large the drawing was made when it was last made sharp. */
@@ -54,7 +88,7 @@ export const elevation: MakePart = (context) => {
     const room = { width: stage.clientWidth, height: stage.clientHeight };
     if (!drawing || !room.width || !room.height) return null;
     if (free) return free;
-    return held ? clear(held, room, drawing) : fitted(room, drawing);
+    return held ? clear(held, room, drawing) : fitted(room, drawing, on.has("dimensions") ? CHAINS : 0);
   };
   /** Show the drawing where the camera says; rough: only moved and stretched, so that no frame is missed. */
   const place = (rough = false) => {
@@ -67,6 +101,7 @@ export const elevation: MakePart = (context) => {
       sheet.style.width = `${drawing.width * scale}px`;
       sheet.style.height = `${drawing.height * scale}px`;
       for (const handle of handles) handle.place(drawing, scale);
+      showMarks();
     }
     const stretched = scale === sharp ? "" : ` scale(${scale / sharp})`;
     sheet.style.transform = `translate(${left}px, ${top}px)${stretched}`;
@@ -96,6 +131,34 @@ export const elevation: MakePart = (context) => {
     }),
   );
   sheet.append(...handles.map((handle) => handle.el));
+
+  const sheetOf = (): Sheet | null => {
+    const { solved } = store.get("status");
+    return drawing && solved ? { drawing, canvas: solved, scale: sharp } : null;
+  };
+  /** Draw what is switched on over the façade. Letters keep their size on the screen, so a zoom draws them anew. */
+  const showMarks = () => {
+    const own = sheetOf();
+    const marks = store.get("marks");
+    const { layers, groups } = store.get("design");
+    const show = (option: ViewOption, draw: (sheet: Sheet) => SVGElement[]) => (own && on.has(option) ? draw(own) : []);
+    under.replaceChildren(...show("groups", () => groupsOf(shapes(), layers, groups)));
+    over.replaceChildren(
+      ...show("grid", (sheet) => gridOf(sheet, marks, groups)),
+      ...show("transparent", (sheet) => transparentOf(sheet, marks)),
+      ...show("letters", (sheet) => lettersOf(sheet, shapes())),
+      ...show("dimensions", (sheet) => dimensionsOf(sheet, marks)),
+      ...show("survey", surveyed),
+    );
+    mark(stage, "data-holes", String(on.has("holes")));
+    naive.show(own, store.get("naive"));
+  };
+  const surveyed = (sheet: Sheet) =>
+    (store.get("survey").openings ?? []).map((rect) => {
+      const opening = rectOf(sheet, rect);
+      opening.setAttribute("class", "fnb-mark-survey");
+      return opening;
+    });
 
   const shapes = () => (drawing ? [...drawing.svg.querySelectorAll<SVGGElement>("[data-shape]")] : []);
   const showPicks = () => {
@@ -165,7 +228,34 @@ export const elevation: MakePart = (context) => {
     fit,
     taken: (target) => shapeAt(target) !== null,
   });
+  const switches = (Object.keys(VIEWS) as ViewOption[]).map((option) => {
+    const box = h("input", { type: "checkbox", checked: on.has(option), "data-option": option });
+    box.addEventListener("change", () => {
+      if (box.checked) on.add(option);
+      else on.delete(option);
+      ask(
+        "marks",
+        NEEDS_MARKS.some((each) => on.has(each)),
+      );
+      place();
+    });
+    const row = h("label", { class: "fnb-switch" }, box, VIEWS[option]);
+    if (option === "survey")
+      store.watch(["survey"], () => {
+        const { building, score } = store.get("survey");
+        row.hidden = !building;
+        mark(row, "title", `Openings of building ${building}: mean intersection over union ${score}`);
+      });
+    return row;
+  });
+  const compared = h("input", { type: "checkbox", "data-option": "naive" });
+  compared.addEventListener("change", () => naive.turn(compared.checked));
+  switches.push(h("label", { class: "fnb-switch fnb-switch-apart" }, compared, "Words side by side"));
+  const views = popover("What is shown", "tune", h("div", { class: "fnb-switches" }, ...switches), signal, {
+    local: true,
+  });
   tools.append(
+    views.el,
     button("Zoom out (−)", "minus", () => settle(() => zoom(0.8))),
     button("Zoom in (+)", "plus", () => settle(() => zoom(1.25))),
     button("Fit the façade into the view (0)", "fit", fit),
@@ -187,6 +277,17 @@ export const elevation: MakePart = (context) => {
     const next = neighbour(all, from, arrow[0], arrow[1]);
     if (next) pick(next);
   });
+
+  watchLinks(
+    store.prefix,
+    (pointed, from) => {
+      const here = from !== null && sheet.contains(from);
+      const marked = here ? [] : shapes().filter((el) => belongs(el.dataset, pointed));
+      lit.replaceChildren(...marked.map((el) => outline(boxOf(el), "fnb-lit")));
+    },
+    signal,
+  );
+  store.watch(["marks", "naive", "survey"], showMarks);
 
   const observer = new ResizeObserver(() => place());
   observer.observe(stage);

@@ -2,8 +2,11 @@ import { h, mark, setText } from "../shared/dom.ts";
 import { formatNumber } from "../shared/fields.ts";
 import type { Store } from "../shared/store.ts";
 import type { MakePart } from "./common.ts";
+import { details } from "./facts.ts";
 
 const PATIENCE = 1500;
+/** Milliseconds of solving after which it can be cancelled. */
+const LONG = 400;
 
 /** One line that says how things stand: solved, solving, at fault, or why there is no layout. */
 export const statusLine: MakePart = ({ store, signal }) => {
@@ -12,7 +15,10 @@ export const statusLine: MakePart = ({ store, signal }) => {
   const facts = h("span", { class: "fnb-facts" });
   const warnings = h("details", { class: "fnb-warnings", hidden: true });
   const changes = h("div", { class: "fnb-suggestions", role: "group", "aria-label": "Changes that would work" });
-  const line = h("div", { class: "fnb-status-line" }, dot, text, facts);
+  const cancel = h("button", { type: "button", class: "fnb-fix fnb-cancel", hidden: true }, "Cancel");
+  cancel.addEventListener("click", () => store.ask({ op: "stop" }));
+  const line = h("div", { class: "fnb-status-line" }, dot, text, cancel, facts, details(store));
+  let slow = 0;
   const el = h("div", { class: "fnb-status", role: "status", "aria-live": "polite" }, line, changes, warnings);
 
   let timer = 0;
@@ -23,16 +29,27 @@ export const statusLine: MakePart = ({ store, signal }) => {
     setText(facts, describeFacts(store));
     showSuggestions(changes, store);
     showWarnings(warnings, store);
+    // A solve that takes longer than a moment can be ended; what it has found by then is taken.
+    clearTimeout(slow);
+    const { busy } = store.get("status");
+    if (!busy || !store.live) cancel.hidden = true;
+    else if (cancel.hidden)
+      slow = window.setTimeout(() => {
+        cancel.hidden = false;
+      }, LONG);
     clearTimeout(timer);
     if (store.waiting && store.waiting < PATIENCE) timer = window.setTimeout(show, PATIENCE + 50 - store.waiting);
   };
-  store.watch(["status", "drafts"], show);
+  store.watch(["status", "drafts", "stage"], show);
   store.watchQueue(() => {
     clearTimeout(timer);
     if (!store.live || el.dataset.state === "waiting") show();
     else if (store.waiting) timer = window.setTimeout(show, PATIENCE);
   });
-  signal.addEventListener("abort", () => clearTimeout(timer));
+  signal.addEventListener("abort", () => {
+    clearTimeout(timer);
+    clearTimeout(slow);
+  });
   return el;
 };
 
@@ -94,12 +111,26 @@ function showSuggestions(el: HTMLElement, store: Store): void {
 
 function showWarnings(el: HTMLDetailsElement, store: Store): void {
   const warnings = store.get("status").solved?.warnings ?? [];
-  const key = warnings.join("\n");
+  const remedies = store.get("stage").remedies ?? [];
+  const key = JSON.stringify([warnings, remedies, store.live]);
   if (el.dataset.key === key) return;
   el.dataset.key = key;
   el.hidden = warnings.length === 0;
   el.replaceChildren(
     h("summary", {}, warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`),
-    h("ul", {}, ...warnings.map((warning) => h("li", {}, warning))),
+    h(
+      "ul",
+      {},
+      ...warnings.map((warning, i) => {
+        const own = store.live ? remedies.filter((one) => one.warning === i) : [];
+        return h("li", {}, warning, ...own.map((one) => remedyButton(store, one)));
+      }),
+    ),
   );
+}
+
+function remedyButton(store: Store, { warning, text }: { warning: number; text: string }): HTMLElement {
+  const fix = h("button", { type: "button", class: "fnb-fix" }, `Fix: ${text}`);
+  fix.addEventListener("click", () => store.ask({ op: "remedy", warning, text }));
+  return fix;
 }

@@ -1,9 +1,11 @@
 import { h, mark } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { canvas } from "./canvas.ts";
-import { type Context, section } from "./common.ts";
+import { type Context, type MakePart, section } from "./common.ts";
+import { compare } from "./compare.ts";
 import { counters } from "./counters.ts";
 import { elevation } from "./elevation.ts";
+import { exploded } from "./exploded.ts";
 import { layers } from "./layers.ts";
 import { massing } from "./massing.ts";
 import { patterns } from "./patterns.ts";
@@ -12,8 +14,10 @@ import { statusLine } from "./status.ts";
 import { symbols } from "./symbols.ts";
 import { toolbar } from "./toolbar.ts";
 
-const VIEWS = { elevation: "Elevation", both: "Both", massing: "3D" } as const;
+const VIEWS = { elevation: "Elevation", both: "Both", massing: "3D", exploded: "Layers", compare: "Compare" } as const;
 type View = keyof typeof VIEWS;
+/** Views that are made when they are first looked at. */
+const OTHERS: Partial<Record<View, MakePart>> = { exploded, compare };
 
 /** All parts together. */
 export function studio(context: Context, model: WidgetModel): HTMLElement {
@@ -33,6 +37,7 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
   const stage = h("div", { class: "fnb-stage" }, flat);
 
   let massingView: HTMLElement | null = null;
+  const others = new Map<string, HTMLElement>();
   const tabs = (Object.keys(VIEWS) as View[]).map((view) => {
     const tab = h("button", { type: "button", class: "fnb-tab", "data-local": true }, VIEWS[view]);
     tab.addEventListener("click", () => choose(view));
@@ -41,12 +46,21 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
   const choose = (view: View) => {
     for (const other of tabs) mark(other.tab, "aria-pressed", String(other.view === view));
     mark(stage, "data-view", view);
-    flat.hidden = view === "massing";
-    if (view !== "elevation" && !massingView) {
+    flat.hidden = view !== "elevation" && view !== "both";
+    if ((view === "massing" || view === "both") && !massingView) {
       massingView = massing(context, model, signal);
       stage.append(massingView);
     }
-    if (massingView) massingView.hidden = view === "elevation";
+    if (massingView) massingView.hidden = view !== "massing" && view !== "both";
+    for (const [name, make] of Object.entries(OTHERS)) {
+      let own = others.get(name);
+      if (!own && view === name) {
+        own = make(context);
+        others.set(name, own);
+        stage.append(own);
+      }
+      if (own) own.hidden = view !== name;
+    }
     if (model.get("view") !== view) {
       model.set("view", view);
       store.kernel.save(model);

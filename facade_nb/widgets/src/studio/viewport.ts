@@ -24,8 +24,8 @@ const STILL = 4;
 const SETTLED = 120;
 
 /** The camera that shows the whole drawing as large as it gets. */
-export function fitted(room: Room, drawing: Drawing): Camera {
-  const across = Math.max(1, room.width - 2 * PADDING.side);
+export function fitted(room: Room, drawing: Drawing, extra = 0): Camera {
+  const across = Math.max(1, room.width - 2 * (PADDING.side + extra));
   const up = Math.max(1, room.height - PADDING.top - PADDING.foot);
   const scale = Math.min(across / drawing.width, up / drawing.height);
   const [left, top] = [(room.width - drawing.width * scale) / 2, PADDING.top + (up - drawing.height * scale) / 2];

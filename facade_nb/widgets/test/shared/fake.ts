@@ -1,5 +1,6 @@
 // A widget model as the parts see it, without a manager: traits, events, and what was sent.
 
+import { emptyStage } from "../../src/shared/stage.ts";
 import type { Connection, State, WidgetManager, WidgetModel } from "../../src/shared/types.ts";
 
 type Listener = (...args: unknown[]) => void;
@@ -88,6 +89,7 @@ export class FakeConnection implements Connection {
 
 export function fakeState(): State {
   return {
+    ...emptyStage(),
     design: {
       name: "House",
       canvas: { width: 6, height: 3 },
