@@ -79,8 +79,10 @@ class Frame:
         }
 
 
-def visible(scene: Scene, through: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space."""
+def visible(scene: Scene, through: NDArray[np.float64], turning: bool = False) -> list[tuple[int, int]]:
+    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space: of those that turn to
+    whoever looks, or of the others.
+    """
     chunks = scene.chunks
     if not len(chunks):
         return []
@@ -89,6 +91,7 @@ def visible(scene: Scene, through: NDArray[np.float64]) -> list[tuple[int, int]]
     normals, offsets = planes[:, :3], planes[:, 3]
     farthest = np.where(normals[:, None] > 0, high[None], low[None])
     inside = ((farthest * normals[:, None]).sum(axis=2) + offsets[:, None] >= 0).all(axis=0)
+    inside &= scene.turning == turning
     runs: list[tuple[int, int]] = []
     for first, count in zip(chunks["first"][inside].tolist(), chunks["count"][inside].tolist(), strict=True):
         if runs and runs[-1][0] + runs[-1][1] == first:
