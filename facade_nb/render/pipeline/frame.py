@@ -79,9 +79,13 @@ class Frame:
         }
 
 
-def visible(scene: Scene, through: NDArray[np.float64], turning: bool = False) -> list[tuple[int, int]]:
-    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space: of those that turn to
-    whoever looks, or of the others.
+def visible(scene: Scene, through: NDArray[np.float64], turning: bool | None = None) -> list[tuple[int, int]]:
+    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space.
+
+    Parameters
+    ----------
+    turning
+        Whether those that turn to whoever looks are meant, or the others; None: all.
     """
     chunks = scene.chunks
     if not len(chunks):
@@ -91,7 +95,8 @@ def visible(scene: Scene, through: NDArray[np.float64], turning: bool = False) -
     normals, offsets = planes[:, :3], planes[:, 3]
     farthest = np.where(normals[:, None] > 0, high[None], low[None])
     inside = ((farthest * normals[:, None]).sum(axis=2) + offsets[:, None] >= 0).all(axis=0)
-    inside &= scene.turning == turning
+    if turning is not None:
+        inside &= scene.turning == turning
     runs: list[tuple[int, int]] = []
     for first, count in zip(chunks["first"][inside].tolist(), chunks["count"][inside].tolist(), strict=True):
         if runs and runs[-1][0] + runs[-1][1] == first:

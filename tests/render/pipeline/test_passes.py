@@ -200,7 +200,8 @@ class TestVisible:
         own = scene(2)
         own.vertices["normal"][60:75] = 0
         everything = np.diag([1e-3, 1e-3, 1e-3, 1.0])
-        assert visible(own, everything) == [(0, 60), (75, len(own.indices) - 75)]
+        assert visible(own, everything) == [(0, len(own.indices))]
+        assert visible(own, everything, turning=False) == [(0, 60), (75, len(own.indices) - 75)]
         assert visible(own, everything, turning=True) == [(60, 15)]
 
 
