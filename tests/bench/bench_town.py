@@ -152,7 +152,8 @@ def _instead(town: Town) -> None:
         tuple(map(int, own)): name for own, name in zip(town.grammar.encoding.positions, names, strict=True)
     }
     keys = np.column_stack([vertices["start"], vertices["size"], vertices["seed"], vertices["normal"]])
-    walls = np.unique(keys[np.abs(vertices["normal"][:, 1]) < 0.01], axis=0)
+    upright = (np.abs(vertices["normal"][:, 1]) < 0.01) & vertices["normal"].any(axis=1)  # others turn
+    walls = np.unique(keys[upright], axis=0)
     area = float((walls[:, 2] * walls[:, 3]).sum())
     print(f"\nInstead, for all {len(walls):,} walls ({area / 1e6:.2f} km²), reckoned from {SAMPLE} of them:")
     density = 100.0  # pixels a metre: a pixel of the close-up view covers about a centimetre

@@ -130,10 +130,10 @@ def apart(a: Any, b: Any) -> float:
 
 
 # In the street one looks along the ground, whose triangles are kilometres wide: rasterizers differ in how exactly they
-# tell where on it a pixel lies.
+# tell where on it a pixel lies. From afar a texel decides whether there is a leaf.
 @pytest.mark.parametrize(
     ("place", "hour", "agree"),
-    [("'street'", 11.0, 0.985), ("'distance'", 20.0, 0.995), ("'close-up'", 22.5, 0.995)],
+    [("'street'", 11.0, 0.98), ("'distance'", 20.0, 0.99), ("'close-up'", 22.5, 0.995)],
     ids=str,
 )
 def test_the_picture_is_that_of_the_pipeline_in_python(

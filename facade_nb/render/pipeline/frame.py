@@ -85,8 +85,14 @@ class Frame:
         }
 
 
-def visible(scene: Scene, through: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space."""
+def visible(scene: Scene, through: NDArray[np.float64], turning: bool | None = None) -> list[tuple[int, int]]:
+    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space.
+
+    Parameters
+    ----------
+    turning
+        Whether those that turn to whoever looks are meant, or the others; None: all.
+    """
     chunks = scene.chunks
     if not len(chunks):
         return []
@@ -95,6 +101,8 @@ def visible(scene: Scene, through: NDArray[np.float64]) -> list[tuple[int, int]]
     normals, offsets = planes[:, :3], planes[:, 3]
     farthest = np.where(normals[:, None] > 0, high[None], low[None])
     inside = ((farthest * normals[:, None]).sum(axis=2) + offsets[:, None] >= 0).all(axis=0)
+    if turning is not None:
+        inside &= scene.turning == turning
     runs: list[tuple[int, int]] = []
     for first, count in zip(chunks["first"][inside].tolist(), chunks["count"][inside].tolist(), strict=True):
         if runs and runs[-1][0] + runs[-1][1] == first:

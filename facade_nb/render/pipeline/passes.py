@@ -76,6 +76,10 @@ class Pass:
         ``mesh``: the scene's triangles, seen through the matrix `through`; ``screen``: every pixel.
     through
         The name of that matrix.
+    turning
+        Whether it draws those chunks of the mesh that turn to whoever looks, or the others.
+    adds
+        It draws over what is there; nothing is cleared.
     both
         Whether a triangle is drawn from behind, too: shadows of a mesh that is open are whole all the same.
     defines
@@ -100,6 +104,8 @@ class Pass:
     vertex: str = "whole.vert"
     draws: Literal["mesh", "screen"] = "screen"
     through: str = ""
+    turning: bool = False
+    adds: bool = False
     both: bool = False
     under: bool = False
     after: str = ""
@@ -137,8 +143,14 @@ PASSES: tuple[Pass, ...] = (
          "shadow.vert", "mesh", "sun_near", both=True, when="shadow"),
     Pass("shadow far", "shadow.frag", (), ("shadow_far",), "Draws what the sun sees of all.",
          "shadow.vert", "mesh", "sun_far", both=True, when="shadow"),
+    Pass("leaves near", "turning_shadow.frag", (), ("shadow_near",), "Adds trees, lamps, chimneys: what turns.",
+         "turning_shadow.vert", "mesh", "sun_near", turning=True, adds=True, both=True, when="shadow"),
+    Pass("leaves far", "turning_shadow.frag", (), ("shadow_far",), "Adds them to the other map.",
+         "turning_shadow.vert", "mesh", "sun_far", turning=True, adds=True, both=True, when="shadow"),
     Pass("G-buffer", "gbuffer.frag", (), (*_MESH, "depth"), "Draws the mesh, and notes what the grammar will ask.",
          "mesh.vert", "mesh", "camera"),
+    Pass("leaves", "turning.frag", (), (*_MESH, "depth"), "Adds what turns to the camera, but where it is open.",
+         "turning.vert", "mesh", "camera", turning=True, adds=True),
     Pass("grammar", "grammar.frag", _MESH, ("color", "normal", "specular"),
          "Evaluates the grammar once for each pixel that is seen.", defines=("MIPS", "EDGES", "DEEP"),
          options=("relief",)),

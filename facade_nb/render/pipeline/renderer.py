@@ -202,10 +202,11 @@ class Renderer:
                 else:
                     program[name].value = value
         if own.draws == "mesh":
-            target.clear(depth=1.0)
+            if not own.adds:
+                target.clear(depth=1.0)
             context.enable(context.DEPTH_TEST | (0 if own.both else context.CULL_FACE))
             context.front_face, context.cull_face = "ccw", "back"
-            for first, count in visible(self.scene, uniforms[own.through]):
+            for first, count in visible(self.scene, uniforms[own.through], own.turning):
                 mesh.render(context.TRIANGLES, vertices=count, first=first)
             if own.name in self._asked and not self._drew(own):
                 self._empty.add(own.name)

@@ -74,6 +74,14 @@ class Scene:
         return chunks
 
     @cached_property
+    def turning(self) -> NDArray[np.bool_]:
+        """(c,) which chunks turn to whoever looks: those whose first vertex has no normal."""
+        if not len(self.chunks):
+            return np.zeros(0, bool)
+        first = self.indices[self.chunks["first"]]
+        return np.asarray((self.vertices["normal"][first] == 0).all(axis=1))
+
+    @cached_property
     def box(self) -> NDArray[np.float64]:
         """Least and greatest coordinates (2, 3), metres; zeros where there is nothing."""
         if not len(self.chunks):

@@ -186,7 +186,7 @@ def _chunked(faces: Faces, plan: Plan, facades: int, houses: int, ground: int) -
         np.floor(np.stack(sums, axis=1) / count[:, None] / 1000 / CELL).astype(np.int64)
     )[piece]
     where = vertices["position"][ground:, ::2].astype(np.float64) * (1, -1)
-    key[ground:] = _code(np.floor(where / CELL).astype(np.int64))
+    key[ground:] = _TURNING + _code(np.floor(where / CELL).astype(np.int64))
     order = np.lexsort((owner, key))
     moved = np.empty(len(order), np.int64)
     moved[order] = np.arange(len(order))
@@ -210,6 +210,10 @@ def _chunked(faces: Faces, plan: Plan, facades: int, houses: int, ground: int) -
     chunks["high"] = np.maximum.reduceat(high, begin, axis=0)
     building_of = np.where(owner[first][by] < 0, int(NOBODY), owner[first][by]).astype(np.uint32)
     return Mesh(vertices, triangles.astype(np.uint32).ravel(), building_of, chunks, facades)
+
+
+_TURNING = 1 << 50
+"""Chunks of what turns to whoever looks come after all others: passes of their own draw them."""
 
 
 def _code(cell: Ints) -> Ints:

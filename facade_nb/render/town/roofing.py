@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from .chance import Floats, length
 from .faces import Faces
-from .overhangs import Hang, overhung
-from .overhangs import lowered as _lowered
+from .overhangs import Hang, lowered, overhung
 from .plan import FLAT, GABLE, HIP, MANSARD, SHED
 from .rings import Ints, after, areas, inset, offsets_of, ragged, ring_numbers, take_rings
 from .skeletons import shrink
@@ -190,7 +189,7 @@ def _hipped(faces: Faces, houses: Houses, own: Ints, front: Floats, rear: Floats
 
     roof = houses.start["roof"][own]
     over, tops = _least_over(houses)[own], at3(ridge, high)
-    eaves = [_lowered(at3(chain, low), tops, over) for chain in (front, rear)]
+    eaves = [lowered(at3(chain, low), tops, over) for chain in (front, rear)]
     both = over > 0
     for k in range(last):
         for chain, feet, (i, j) in ((front, eaves[0], (k, k + 1)), (rear, eaves[1], (k + 1, k))):

@@ -122,6 +122,7 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
             "needs": offsets,
             "blocks": numbers,
         },
+        "turning": int(chunks["first"][scene.turning].min(initial=len(scene.indices))),
         "box": scene.box.reshape(-1).tolist(),
         "views": {name: row(place) for name, place in model.views.items()},
         "eye": EYE,

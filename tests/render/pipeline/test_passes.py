@@ -164,6 +164,7 @@ def scene(number: int, count: int = 40) -> Scene:
     vertices = np.zeros(3 * count, VERTEX)
     spots = draw.uniform(-200, 200, (count, 1, 3)) + draw.uniform(-15, 15, (count, 3, 3))
     vertices["position"] = spots.reshape(-1, 3)
+    vertices["normal"] = (0, 0, 1)
     chunks = np.zeros(count, CHUNK)
     chunks["first"], chunks["count"] = 3 * np.arange(count), 3
     position = vertices["position"].reshape(count, 3, 3)
@@ -193,6 +194,15 @@ class TestVisible:
         own = scene(1)
         everything = np.diag([1e-3, 1e-3, 1e-3, 1.0])
         assert visible(own, everything) == [(0, len(own.indices))]
+        assert visible(own, everything, turning=True) == []
+
+    def test_what_turns_is_drawn_by_passes_of_its_own(self) -> None:
+        own = scene(2)
+        own.vertices["normal"][60:75] = 0
+        everything = np.diag([1e-3, 1e-3, 1e-3, 1.0])
+        assert visible(own, everything) == [(0, len(own.indices))]
+        assert visible(own, everything, turning=False) == [(0, 60), (75, len(own.indices) - 75)]
+        assert visible(own, everything, turning=True) == [(60, 15)]
 
 
 class TestSunlight:

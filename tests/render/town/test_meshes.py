@@ -180,6 +180,13 @@ def test_chunks_part_the_mesh(town: Town) -> None:
         assert (chunk["high"] - chunk["low"] <= high.max(axis=0) - low.min(axis=0) + 8).all()
     building = town.building_of
     assert set(building.tolist()) == {*range(len(town.plan)), int(NOBODY)}
+    # What turns has chunks of its own, the last.
+    turning = town.scene.turning
+    assert turning.any() and (np.diff(turning.astype(int)) >= 0).all()
+    of_triangle = np.repeat(turning, chunks["count"] // 3)
+    assert (
+        of_triangle == (town.vertices["normal"][town.indices.reshape(-1, 3)[:, 0]] == 0).all(axis=1)
+    ).all()
     # A building lies in one chunk, and its middle in that chunk's cell.
     of = np.repeat(np.arange(len(chunks)), chunks["count"] // 3)
     for one in range(0, len(town.plan), 7):

@@ -1,6 +1,5 @@
 // What the camera meets at each pixel, and nothing dear: place on the façade and its size; start rule and seed; normal and
 // how deep; tangent.
-#include "open.glsl"
 
 uniform vec3 forward;
 
@@ -10,7 +9,6 @@ flat in vec2 mesh_size;
 flat in vec4 mesh_rule;
 flat in vec3 mesh_normal;
 flat in vec3 mesh_tangent;
-flat in int mesh_turns;
 
 #ifdef BEHIND
 uniform highp sampler2D passed;  // up to where all is seen through, metres
@@ -22,11 +20,9 @@ layout(location = 2) out highp vec4 out_facing;
 layout(location = 3) out highp vec4 out_along;
 
 void main() {
-  vec2 covers = fwidth(mesh_place);
 #ifdef BEHIND
   if (dot(from_eye, forward) <= texelFetch(passed, ivec2(gl_FragCoord.xy), 0).r * 1.00002 + 1e-4) discard;
 #endif
-  if (mesh_turns == 1 && open(ivec2(mesh_rule.xy), mesh_place, mesh_size, max(covers.x, covers.y))) discard;
   out_place = vec4(mesh_place, mesh_size);
   out_rule = mesh_rule;
   // What hangs over is seen from below, too: there it looks down.

@@ -1,6 +1,5 @@
 // A vertex of a mesh that carries its façade (the texture paper's 4 and 6). All but the place is the same at each corner of
 // a triangle.
-#include "standing.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 place;
@@ -12,7 +11,7 @@ layout(location = 6) in vec3 tangent;
 
 uniform mat4 from_world;  // to clip space
 uniform vec3 eye;
-uniform vec3 across;
+uniform vec3 forward;
 
 out vec3 from_eye;
 out vec2 mesh_place;
@@ -20,16 +19,13 @@ flat out vec2 mesh_size;
 flat out vec4 mesh_rule;
 flat out vec3 mesh_normal;
 flat out vec3 mesh_tangent;
-flat out int mesh_turns;
 
 void main() {
-  Standing own = standing(position, place - 0.5 * size, normal, tangent, eye - position, across);
-  gl_Position = from_world * vec4(own.position, 1.0);
-  from_eye = own.position - eye;
+  gl_Position = from_world * vec4(position, 1.0);
+  from_eye = position - eye;
   mesh_place = place;
   mesh_size = size;
   mesh_rule = vec4(start, seed);
-  mesh_normal = own.normal;
-  mesh_tangent = own.tangent;
-  mesh_turns = turns(normal) ? 1 : 0;
+  mesh_normal = normal;
+  mesh_tangent = tangent;
 }

@@ -1,5 +1,5 @@
 // Whether what turns to the eye is open at a place: leaves have gaps. The alpha of the tile says so that is the uppermost
-// colour of its rule, or of the layers of its rule; what has no such tile is closed. Nothing of this runs for walls.
+// colour of its rule, or of the layers of its rule; what has no such tile is closed.
 
 uniform highp sampler2D grammar;
 uniform highp sampler2D atlas;

@@ -1,12 +1,3 @@
-// Depth alone, but where leaves are open.
-#include "open.glsl"
+// Depth alone.
 
-in vec2 mesh_place;
-flat in vec2 mesh_size;
-flat in vec2 mesh_start;
-flat in int mesh_turns;
-
-void main() {
-  vec2 covers = fwidth(mesh_place);
-  if (mesh_turns == 1 && open(ivec2(mesh_start), mesh_place, mesh_size, max(covers.x, covers.y))) discard;
-}
+void main() {}

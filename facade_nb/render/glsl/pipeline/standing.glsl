@@ -1,4 +1,4 @@
-// What has no normal turns to whoever looks: crowns of trees, trunks, lamp posts. All corners of such a quad have the place
+// What has no normal turns to whoever looks: crowns of trees, trunks, lamp posts, chimneys. All corners of such a quad have the place
 // of its middle; its tangent is the axis about which it turns, or nothing: then it turns all ways.
 
 struct Standing {

@@ -218,7 +218,8 @@ export function pipelineView(session: Session, model: WidgetModel, signal: Abort
       h(
         "div",
         { class: "fnb-pipe-writes" },
-        ...pass.writes.map((name) => thumb(session.pipeline?.buffer(name) as Buffer)),
+        // what a pass adds to is shown where it is first written
+        ...pass.writes.map((name) => (pass.adds ? mini(name) : thumb(session.pipeline?.buffer(name) as Buffer))),
       ),
     );
   };

@@ -13,6 +13,8 @@ export interface Source {
   attributes: Record<string, [count: number, offset: number]>;
   vertices: Uint8Array;
   indices: Uint8Array;
+  /** The first index of what turns to whoever looks: passes of their own draw that. */
+  turning: number;
   /** What shaders read beside buffers; in rows, which may come one after the other. */
   textures: Record<string, { image: Image; content: Uint8Array }>;
 }
@@ -56,6 +58,14 @@ export interface Shown {
   mode: number;
   low?: readonly number[];
   high?: readonly number[];
+}
+
+/** What of some runs lies before an index, or from it on. */
+export function halved(runs: readonly Pixels[], at: number, after: boolean): Pixels[] {
+  const [least, most] = after ? [at, Infinity] : [0, at];
+  return runs
+    .map(([first, count]): Pixels => [Math.max(first, least), Math.min(first + count, most) - Math.max(first, least)])
+    .filter(([, count]) => count > 0);
 }
 
 export class Pipeline {
@@ -165,10 +175,10 @@ export class Pipeline {
     if (pass.draws === "mesh") {
       gl.enable(gl.DEPTH_TEST);
       gl.depthFunc(gl.LESS);
-      if (piece.first ?? true) this.clear(gl, pass);
+      if ((piece.first ?? true) && !pass.adds) this.clear(gl, pass);
       if (!pass.both) gl.enable(gl.CULL_FACE);
       gl.bindVertexArray(this.array(gl, pass, program));
-      this.draw(gl, piece.runs ?? []);
+      this.draw(gl, halved(piece.runs ?? [], this.source.turning, !!pass.turning));
       gl.bindVertexArray(null);
       gl.disable(gl.CULL_FACE);
       gl.disable(gl.DEPTH_TEST);

@@ -213,6 +213,7 @@ export class Session extends Entering<Entered> {
       attributes: head.attributes,
       vertices: this.loading.content("vertices"),
       indices: this.loading.content("indices"),
+      turning: head.turning,
       textures: { ...textures, ...this.fitted.images },
     };
   }

@@ -25,6 +25,10 @@ export interface Pass {
   writes: string[];
   draws: "mesh" | "screen";
   through: string;
+  /** Whether it draws what turns to whoever looks, or all else of the mesh. */
+  turning?: boolean;
+  /** It draws over what is there; nothing is cleared. */
+  adds?: boolean;
   /** Whether a triangle is drawn from behind, too. */
   both?: boolean;
   when: string;
@@ -90,6 +94,8 @@ export interface Head {
   tile_bytes: number;
   grammar: Uint8Array;
   chunks: Chunks;
+  /** The first index of what turns to whoever looks. */
+  turning: number;
   box: number[];
   views: Record<string, Place>;
   /** Metres of the eye of one who walks. */
