@@ -31,7 +31,6 @@ from dataclasses import replace
 from facade_nb.render.developing import developed
 from facade_nb.render.texture.antialias import smoothed
 from facade_nb.render.texture.daytime import Daytime, light
-from facade_nb.render.texture.lit import Lit
 from facade_nb.render.texture.painters import PAINTERS
 TEXT = '''S -> Layer(Wall, Floors)
 Wall -> Mat(Color, Rep:brick, 0, 0, 0.5, 0.5)
@@ -46,8 +45,14 @@ Red -> Mat(Color, 0, 0.8, 0.1, 0.1, 1)
 Blue -> Mat(Color, 0, 0.1, 0.1, 0.8, 1)
 Green -> Mat(Color, Fit:window-green, 0, 0, 1, 1)
 Skip -> Skip(0)'''
-class Outdoors(Lit):
-    # As `Lit`, with the sky behind the façade, as the page has it.
+class Outdoors:
+    # Paints what another painter paints in the light of an hour, with the sky behind the façade, as the page has it.
+    def __init__(self, painter, daytime):
+        self.painter, self.daytime = painter, daytime
+    def paint(self, question, sight, mips=False, **_):
+        return self._lit(self.painter.paint(question, sight, mips=mips), sight.looks())
+    def paint_at(self, question, looks, mips=False, **_):
+        return self._lit(self.painter.paint_at(question, looks, mips=mips), looks)
     def _lit(self, shot, looks):
         day, rays = self.daytime, looks.rays
         height = looks.points[:, 1]

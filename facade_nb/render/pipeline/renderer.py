@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..texture.gl import GlPainter
 from ..texture.shaders import room, shader
-from ..texture.uploads import Upload, grammar_upload, tile_uploads
+from ..texture.uploads import Upload, grammar_upload
 from .frame import Frame, visible
 from .passes import BUFFERS, PASSES, Buffer, Pass, arranged
 from .scene import Scene
@@ -53,7 +53,7 @@ class Renderer:
         self._targets: dict[str, Any] = {}
         self._programs: dict[tuple[str, ...], Any] = {}
         self._meshes: dict[tuple[str, ...], Any] = {}
-        self._tiles: bool | None = None  # none yet, or whether heights are among them
+        self._tiles: dict[str, Any] = {}  # the painter's
         self._held: dict[str, Any] = {}
         self._maps: dict[str, bytes] = {}
         self._empty: set[str] = set()  # passes that others come after, and that have drawn nothing
@@ -85,14 +85,6 @@ class Renderer:
         image = context.texture(upload.size, upload.channels, upload.content, dtype=upload.kind, alignment=1)
         image.filter = (context.NEAREST, context.NEAREST)
         self._held[upload.name] = self._keep(image)
-
-    def _hold_tiles(self, relief: bool) -> None:
-        """The tiles, once they are needed; their heights too, once those are: all that is drawn stays as it was."""
-        if self._tiles is None or (relief and not self._tiles):
-            question = self.scene.relief_question if relief else self.scene.question
-            for upload in tile_uploads(question.atlas):
-                self._hold(upload)
-            self._tiles = relief
 
     def _make(self, key: tuple[str, ...], own: Pass) -> None:
         """The program of a pass, with what it draws; the key is its name and its options."""
@@ -143,7 +135,8 @@ class Renderer:
             if max(frame.pixels) > most or min(frame.pixels) < 1:
                 raise ValueError(f"pixels: expected from 1 to {most} across and up; found {frame.pixels}")
             self._make_room(frame.pixels)
-            self._hold_tiles(frame.looks.relief)
+            asked = self.scene.relief_question if frame.looks.relief else self.scene.question
+            self._tiles = self.painter.tiles(asked.atlas)
             uniforms = frame.uniforms()
             written: set[str] = set()
             self._empty.clear()
@@ -178,7 +171,7 @@ class Renderer:
         target.use()
         target.viewport = (0, 0, *target.size)
         for unit, (name, image) in enumerate(
-            {**self._held, **{n: self._images[n] for n in own.reads}}.items()
+            {**self._tiles, **self._held, **{n: self._images[n] for n in own.reads}}.items()
         ):
             if name in program:
                 image.use(unit)

@@ -197,8 +197,7 @@ def _light(
         facing[:, None] * floats(daytime.sun)
         + sky[:, None] * floats(daytime.sky)
         + ((0.5 - 0.5 * up) + 0.35 * low)[:, None] * floats(daytime.ground)
-        + (daytime.lamps * _STREET * np.exp(-np.maximum(heights - 2.5, 0) / 4.5))[:, None]
-        * floats(_LANTERN)
+        + (daytime.lamps * _STREET * np.exp(-np.maximum(heights - 2.5, 0) / 4.5))[:, None] * floats(_LANTERN)
     )
     lamp = np.clip(specular[:, :3] - outside[:, None], 0, 1) * np.float32(daytime.lamps * _LAMP)
     albedo = linear(np.clip(color[:, :3], 0, 1))

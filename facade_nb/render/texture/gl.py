@@ -153,7 +153,7 @@ class GlPainter:
 
             grammar = grammar_upload(question, wide="llvmpipe" in self.renderer)
             own = {upload.name: keep(_texture(context, upload)) for upload in (grammar, *data)}
-            for unit, (key, texture) in enumerate({**self._tiles(question.atlas), **own}.items()):
+            for unit, (key, texture) in enumerate({**self.tiles(question.atlas), **own}.items()):
                 texture.use(unit)
                 if key in program:
                     program[key].value = unit
@@ -170,8 +170,8 @@ class GlPainter:
             array.render(context.TRIANGLES, vertices=3)
             yield images
 
-    def _tiles(self, atlas: Atlas) -> dict[str, Any]:
-        """Textures of the noise and the tiles, kept for the atlases that were used last."""
+    def tiles(self, atlas: Atlas) -> dict[str, Any]:
+        """Textures of the noise and the tiles, kept for the atlases that were used last; within `entered`."""
         kept = self._atlases.pop(id(atlas), None)
         if kept is None:
             kept = (atlas, {upload.name: _texture(self._context, upload) for upload in tile_uploads(atlas)})

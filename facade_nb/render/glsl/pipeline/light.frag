@@ -1,17 +1,22 @@
 // Light that comes from each pixel, linear: sun, sky and what the ground throws back, lamps (NumPy: daytime.py).
 #include "light.glsl"
+#ifndef ALONE
 #include "sunlit.glsl"
+#endif
 #include "view.glsl"
 
 uniform highp sampler2D color;
 uniform highp sampler2D normal;
 uniform highp sampler2D specular;
 uniform highp sampler2D facing;
+#ifndef ALONE
 uniform highp sampler2D softened;
 uniform vec2 shades;  // 1: there are shadows; 1: there is occlusion
+#endif
 
 layout(location = 0) out highp vec4 out_light;
 
+#ifndef ALONE
 // Occlusion at a pixel, from those of four that are about as deep.
 float open_at(ivec2 at, float depth) {
   ivec2 most = textureSize(softened, 0) - 1;
@@ -29,6 +34,7 @@ float open_at(ivec2 at, float depth) {
   }
   return sum / weight;
 }
+#endif
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
@@ -36,11 +42,15 @@ void main() {
   out_light = vec4(0.0);
   if (face.w <= 0.0) return;
   vec3 ray = ray_at(gl_FragCoord.xy);
-  vec3 point = eye + face.w * ray;
+  vec3 point = eye + start_at(gl_FragCoord.xy) + face.w * ray;
   vec4 own = texelFetch(normal, at, 0);
+#ifdef ALONE
+  float sees = 1.0;
+#else
   float sees = shades.x > 0.0 && dot(face.xyz, towards) > 0.0 ? sunlit(point, face.xyz) : 1.0;
+#endif
   vec4 shine = texelFetch(specular, at, 0);
-#ifdef BEHIND
+#if defined(BEHIND) || defined(ALONE)
   float around = 1.0;  // occlusion is that of what stands in front
 #else
   float around = shades.y > 0.0 ? open_at(at, shine.a) : 1.0;
@@ -51,8 +61,15 @@ void main() {
     sees *= 3.0 - tint.a;
     tint.a = 1.0;
   }
+#ifdef ALONE
+  float covers = clamp(tint.a, 0.0, 1.0);  // at its outline a façade is as bright as inside, and covers less
+  tint.rgb /= max(covers, 1e-6);
+#endif
   vec3 lit = light(
     tint, vec4(0.5 * own.xyz + 0.5, 1.0), shine, ray, vec2(sees, around), point.y
   );
+#ifdef ALONE
+  lit *= covers;
+#endif
   out_light = vec4(lit, tint.a > 0.999 ? 1.0 : tint.a);
 }
