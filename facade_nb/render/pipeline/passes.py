@@ -236,7 +236,7 @@ THROUGH = 3
 
 _FACADE = {own.name: own for own in PASSES}
 FACADE: tuple[Pass, ...] = (
-    _FACADE["G-buffer"],
+    replace(_FACADE["G-buffer"], defines=("EXACT",)),
     replace(
         _FACADE["grammar"],
         defines=("MIPS", "EDGES", "DEEP", "OUTLINE"),
@@ -255,3 +255,25 @@ BARE: tuple[Pass, ...] = (
     *FACADE[2:],
 )
 """The same with one sample a pixel, and tiles in full size."""
+
+PAGE: tuple[Pass, ...] = (
+    FACADE[0],
+    replace(FACADE[1], defines=("MIPS", "DEEP", "OUTLINE", "SEEDS"), options=(), when="sharp"),
+    replace(
+        FACADE[1],
+        name="samples",
+        defines=("MIPS", "EDGES", "DEEP", "OUTLINE", "SAMPLES", "SEEDS"),
+        options=(),
+        when="smooth",
+    ),
+    FACADE[2],
+    replace(_FACADE["air"], defines=("ALONE",), when="lit"),
+    replace(_FACADE["tone"], when="lit"),
+)
+"""For a façade on a page, before the sky: one sample a pixel first (`sharp`), then more around splits (`smooth`)."""
+
+
+def used(passes: Sequence[Pass], buffers: Sequence[Buffer] = BUFFERS) -> tuple[Buffer, ...]:
+    """The buffers that passes read and write."""
+    names = {name for own in passes for name in (*own.reads, *own.writes)}
+    return tuple(own for own in buffers if own.name in names)

@@ -14,7 +14,7 @@ from ..texture.gl import GlPainter
 from ..texture.shaders import room, shader
 from ..texture.uploads import Upload, grammar_upload
 from .frame import Frame, visible
-from .passes import BUFFERS, PASSES, Buffer, Pass, arranged
+from .passes import BUFFERS, PASSES, Buffer, Pass, arranged, used
 from .scene import Scene
 from .vertices import VERTEX
 
@@ -218,10 +218,8 @@ class Renderer:
             self._sized.callback(made.release)
             return made
 
-        used = {name for own_pass in self.passes for name in (*own_pass.reads, *own_pass.writes)}
-        for name, own in self.buffers.items():
-            if name not in used:
-                continue
+        for own in used(self.passes, tuple(self.buffers.values())):
+            name = own.name
             size = own.size(pixels)
             if own.kind == "depth":
                 image = context.depth_texture(size)

@@ -1,8 +1,9 @@
 import { expect, test } from "vitest";
+import { lightAt } from "../../src/pipeline/camera.ts";
 import { timeOf } from "../../src/texture/controls.ts";
 import { marked, offsetOf } from "../../src/texture/editor.ts";
 import { coarser, rowsFor } from "../../src/texture/painting.ts";
-import { lightAt, seedOf } from "../../src/texture/renderer.ts";
+import { seedOf } from "../../src/texture/renderer.ts";
 import { type Look, meet, outline, project, sightOf } from "../../src/texture/sight.ts";
 import type { Pair, Triple } from "../../src/texture/types.ts";
 
