@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 
 from facade_nb.render import Grammar
+from facade_nb.render.pipeline.facade import alone, colours
 from facade_nb.render.texture.antialias import ANTIALIAS, smoothed
 from facade_nb.render.texture.evaluating import Question
 from facade_nb.render.texture.gl import GlPainter
@@ -119,6 +120,7 @@ def _antialiasing(questions: dict[str, Question], present: dict[str, Painter]) -
     cpu = present["cpu"]
     places = (np.arange(16) + 0.5) / 16
     for name, question in questions.items():
+        grammar = Grammar.parse(GRAMMARS[name])
         for view, sight in sights.items():
             shots = [
                 cpu.paint_at(question, sight.looks(None, (x, y))).surface.color
@@ -131,7 +133,11 @@ def _antialiasing(questions: dict[str, Question], present: dict[str, Painter]) -
             for how in ANTIALIAS:
                 error = 255 * (smoothed(cpu, question, sight, how) - truth)[:, :3]
                 spent = {
-                    one: timed(partial(smoothed, painter, question, sight, how))[1]
+                    one: timed(
+                        partial(_drawn, painter, grammar, sight, how)
+                        if isinstance(painter, GlPainter)
+                        else partial(smoothed, painter, question, sight, how)
+                    )[1]
                     for one, painter in present.items()
                 }
                 first = first or spent["cpu"]
@@ -139,6 +145,12 @@ def _antialiasing(questions: dict[str, Question], present: dict[str, Painter]) -
                 cells += [f"{spent['cpu']:.0f}", f"{spent['osmesa']:.0f}" if "osmesa" in spent else "–"]
                 cells.append(f"{spent['cpu'] / first:.1f}")
                 print(line_of(list(zip(cells, widths, strict=True))), flush=True)
+
+
+def _drawn(painter: GlPainter, grammar: Grammar, sight: Sight, how: str) -> None:
+    """A picture of the pipeline."""
+    for _ in colours(painter, alone(grammar, SIZE, (1.0, 2.0)), [sight], how):
+        pass
 
 
 def _memory() -> None:

@@ -27,11 +27,9 @@ from facade_nb import gallery
 from facade_nb.widgets import *
 import base64
 import numpy as np
-from dataclasses import replace
 from facade_nb.render.developing import developed
-from facade_nb.render.texture.antialias import smoothed
+from facade_nb.render.texture.antialias import averaged
 from facade_nb.render.texture.daytime import Daytime, light
-from facade_nb.render.texture.lit import Lit
 from facade_nb.render.texture.painters import PAINTERS
 TEXT = '''S -> Layer(Wall, Floors)
 Wall -> Mat(Color, Rep:brick, 0, 0, 0.5, 0.5)
@@ -46,26 +44,24 @@ Red -> Mat(Color, 0, 0.8, 0.1, 0.1, 1)
 Blue -> Mat(Color, 0, 0.1, 0.1, 0.8, 1)
 Green -> Mat(Color, Fit:window-green, 0, 0, 1, 1)
 Skip -> Skip(0)'''
-class Outdoors(Lit):
-    # As `Lit`, with the sky behind the façade, as the page has it.
-    def _lit(self, shot, looks):
-        day, rays = self.daytime, looks.rays
-        height = looks.points[:, 1]
-        seen = light(*shot.surface[:3], rays, day, np.ones(len(rays), np.float32), height)
-        seen += (1 - shot.surface.color[:, 3:].clip(0, 1)) * day.backdrop(rays)
-        color = np.concatenate([developed(seen, day.exposure), np.ones((len(rays), 1))], axis=1)
-        return replace(shot, surface=shot.surface._replace(color=color.astype(np.float32)))
+def outdoors(surface, looks, day):
+    # In the light of an hour, with the sky behind the façade, as the page has it.
+    color, normal, specular, _ = surface
+    alpha, height = color[:, 3:].clip(0, 1), looks.points[:, 1]
+    rays = np.float32([[0, 0, -1]]).repeat(len(color), 0) if looks.rays is None else looks.rays
+    straight = np.concatenate([color[:, :3] / alpha.clip(1e-6), alpha], axis=1)
+    seen = light(straight, normal, specular, rays, day, np.ones(len(rays), np.float32), height)
+    seen = alpha * seen + (1 - alpha) * day.backdrop(rays)
+    return np.concatenate([developed(seen, day.exposure), np.ones((len(rays), 1))], axis=1)
 def expected(view, pixels, antialias=None):
     # One sample a pixel, with tiles in the size that fits; or antialiased as offscreen pictures are.
     model, painter, sight = view.model, PAINTERS["cpu"], view.sight(pixels)
-    if model.lit:
-        painter = Outdoors(painter, Daytime.at(model.hour))
     question = model.grammar.question(model.size, model.seed)
-    color = (
-        painter.paint(question, sight, mips=True).surface.color
-        if antialias is None
-        else smoothed(painter, question, sight, antialias)
-    )
+    if antialias is None:
+        surface = painter.paint(question, sight, mips=True).surface
+    else:
+        surface = averaged(painter, question, sight, antialias).surface
+    color = outdoors(surface, sight.looks(), Daytime.at(model.hour)) if model.lit else surface.color
     return base64.b64encode((color * 255).round().astype(np.uint8).tobytes()).decode()
 """
 
@@ -318,7 +314,7 @@ def test_the_step_looked_at_is_in_sight(live: Live) -> None:
 
 
 LOSE = """() => {
-    const { canvas } = globalThis[Symbol.for("facade_nb.texture.renderer")];
+    const { canvas } = globalThis[Symbol.for("facade_nb.pipeline.context")];
     window.lost = false;
     canvas.addEventListener("webglcontextlost", () => { window.lost = true; }, { once: true });
     window.losing = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
@@ -344,12 +340,12 @@ def test_a_lost_context_comes_back(live: Live) -> None:
     assert np.array_equal(pixels(lab, 1), beside)
     # Once more, in the middle of drawing.
     lab.python("[setattr(view, 'flat', False)]")
-    lab.page.evaluate("() => globalThis[Symbol.for('facade_nb.texture.renderer')].lose()")
+    lab.page.evaluate("() => globalThis[Symbol.for('facade_nb.pipeline.context')].lose()")
     agreeing(lab, 2, 0.002)
 
 
 def test_ten_views_share_a_context(live: Live, lab: Notebook) -> None:
-    made = "() => globalThis[Symbol.for('facade_nb.texture.renderer')]?.made ?? 0"
+    made = "() => globalThis[Symbol.for('facade_nb.pipeline.context')]?.made ?? 0"
     before = lab.page.evaluate(made)
     code = """
         views = [TextureView(TEXT, seed=(k, 2 * k), lit=False, controls=False, antialias='none', flat=k % 2 > 0,
@@ -576,7 +572,7 @@ def test_sliders_and_buttons(live: Live) -> None:
 
 
 WITHOUT = """() => {
-    delete globalThis[Symbol.for("facade_nb.texture.renderer")];
+    delete globalThis[Symbol.for("facade_nb.pipeline.context")];
     window.getContextOnce ??= HTMLCanvasElement.prototype.getContext;
     HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
         return kind === "webgl2" ? null : window.getContextOnce.call(this, kind, ...rest);
@@ -584,7 +580,7 @@ WITHOUT = """() => {
 }"""
 WITH = """() => {
     HTMLCanvasElement.prototype.getContext = window.getContextOnce;
-    delete globalThis[Symbol.for("facade_nb.texture.renderer")];
+    delete globalThis[Symbol.for("facade_nb.pipeline.context")];
 }"""
 
 

@@ -49,7 +49,7 @@ READ = """canvas => {
     for (let at = 0; at < data.length; at += 8192) text += String.fromCharCode(...data.subarray(at, at + 8192));
     return [canvas.width, canvas.height, btoa(text)];
 }"""
-CONTEXT = 'globalThis[Symbol.for("facade_nb.town.context")]'
+CONTEXT = 'globalThis[Symbol.for("facade_nb.pipeline.context")]'
 SESSION = "window.jupyterapp.shell.currentWidget.sessionContext.session"
 
 
@@ -396,8 +396,8 @@ def test_without_webgl2_there_is_a_still_picture(town: Shown) -> None:
     page = town.page
     page.evaluate(
         """() => {
-            window.keptContext = globalThis[Symbol.for("facade_nb.town.context")];
-            delete globalThis[Symbol.for("facade_nb.town.context")];
+            window.keptContext = globalThis[Symbol.for("facade_nb.pipeline.context")];
+            delete globalThis[Symbol.for("facade_nb.pipeline.context")];
             window.getContextOnce ??= HTMLCanvasElement.prototype.getContext;
             HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
                 return kind === "webgl2" ? null : window.getContextOnce.call(this, kind, ...rest);
@@ -413,7 +413,7 @@ def test_without_webgl2_there_is_a_still_picture(town: Shown) -> None:
     page.evaluate(
         """() => {
             HTMLCanvasElement.prototype.getContext = window.getContextOnce;
-            globalThis[Symbol.for("facade_nb.town.context")] = window.keptContext;
+            globalThis[Symbol.for("facade_nb.pipeline.context")] = window.keptContext;
         }"""
     )
     town.lab.run("view")

@@ -30,6 +30,12 @@ class Looks:
         How far occlusion looks, metres.
     relief
         Whether tiles that have heights are seen with them (docs/texture.md, "Relief").
+    lit
+        Whether the light of the hour falls on it; else colours are as the grammar gives them.
+    samples
+        Whether pixels near a split, or a façade's end, are the mean of 16 points.
+    everywhere
+        Whether those far from any are, too.
     near
         Half the side of the fine map of shadows, metres; 0: as the height of the camera asks for.
     """
@@ -40,7 +46,15 @@ class Looks:
     haze: float = 2600.0
     reach: float = 2.2
     relief: bool = True
+    lit: bool = True
+    samples: bool = False
+    everywhere: bool = False
     near: float = 0.0
+
+    @property
+    def color_only(self) -> bool:
+        """Whether normals and specular values are passed over."""
+        return not self.lit
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +95,7 @@ class Frame:
             "window": (left, bottom, (right - left) / self.pixels[0], (top - bottom) / self.pixels[1]),
             "haze": looks.haze,
             "reach": looks.reach,
+            "parallel": float(frustum.parallel),
             "shades": shades,
         }
 

@@ -13,7 +13,9 @@ from typing import Any, Literal
 from ...design.errors import nearest
 
 __all__ = [
+    "BARE",
     "BUFFERS",
+    "FACADE",
     "PASSES",
     "THROUGH",
     "Buffer",
@@ -303,3 +305,41 @@ def seen_through(
 
 THROUGH = 3
 """How many façades, one behind the other, are looked through where they are transparent."""
+
+_FACADE = {own.name: own for own in PASSES}
+FACADE: tuple[Pass, ...] = (
+    _FACADE["G-buffer"],
+    replace(
+        _FACADE["grammar"],
+        defines=("MIPS", "EDGES", "DEEP", "OUTLINE"),
+        options=("relief", "samples", "everywhere", "color_only"),
+    ),
+    replace(
+        _FACADE["light"], reads=("color", "normal", "specular", "facing"), when="lit", defines=("ALONE",)
+    ),
+    replace(_FACADE["tone"], reads=("light",), defines=("ALONE", "air light"), when="lit"),
+)
+"""For a façade that stands alone before nothing: nothing shades it, and its splits are sampled in place of smoothed."""
+
+BARE: tuple[Pass, ...] = (
+    FACADE[0],
+    replace(FACADE[1], defines=("DEEP", "OUTLINE"), options=("relief", "color_only")),
+    *FACADE[2:],
+)
+"""The same with one sample a pixel, and tiles in full size."""
+
+PAGE: tuple[Pass, ...] = (
+    FACADE[0],
+    replace(FACADE[1], defines=("MIPS", "DEEP", "OUTLINE", "SEEDS"), options=(), when="sharp"),
+    replace(
+        FACADE[1],
+        name="samples",
+        defines=("MIPS", "EDGES", "DEEP", "OUTLINE", "SAMPLES", "SEEDS"),
+        options=(),
+        when="smooth",
+    ),
+    FACADE[2],
+    replace(_FACADE["air"], defines=("ALONE",), when="lit"),
+    replace(_FACADE["tone"], when="lit"),
+)
+"""For a façade on a page, before the sky: one sample a pixel first (`sharp`), then more around splits (`smooth`)."""

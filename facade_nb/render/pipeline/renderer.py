@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..texture.atlas import Atlas
 from ..texture.gl import GlPainter
 from ..texture.shaders import room, rooms_for, shader
-from ..texture.uploads import Upload, grammar_upload, tile_uploads
+from ..texture.uploads import Upload, grammar_upload
 from .frame import Frame, visible
 from .passes import BUFFERS, PASSES, Buffer, Pass, arranged, shared
 from .scene import Scene
@@ -61,7 +62,8 @@ class Renderer:
         self._targets: dict[str, Any] = {}
         self._programs: dict[tuple[str, ...], Any] = {}
         self._meshes: dict[tuple[str, ...], Any] = {}
-        self._tiles: bool | None = None  # none yet, or whether heights are among them
+        self._tiles: dict[str, Any] = {}  # the painter's
+        self._atlases: dict[bool, Atlas] = {}
         self._held: dict[str, Any] = {}
         self._maps: dict[str, bytes] = {}
         self._empty: set[str] = set()  # passes that others come after, and that have drawn nothing
@@ -95,14 +97,13 @@ class Renderer:
         image.repeat_x = image.repeat_y = False
         self._held[upload.name] = self._keep(image)
 
-    def _hold_tiles(self, relief: bool) -> None:
-        """The tiles, once they are needed; their heights too, once those are: all that is drawn stays as it was."""
-        if self._tiles is None or (relief and not self._tiles):
+    def _fitted(self, relief: bool) -> Atlas:
+        """The tiles as far as they fit; with their heights where relief is asked for."""
+        if relief not in self._atlases:
             question = self.scene.relief_question if relief else self.scene.question
             most = self._context.info["GL_MAX_TEXTURE_SIZE"]
-            for upload in tile_uploads(question.atlas.within(self._tile_bytes, most)):
-                self._hold(upload)
-            self._tiles = relief
+            self._atlases[relief] = question.atlas.within(self._tile_bytes, most)
+        return self._atlases[relief]
 
     def _make(self, key: tuple[str, ...], own: Pass) -> None:
         """The program of a pass, with what it draws; the key is its name and its options."""
@@ -154,7 +155,7 @@ class Renderer:
             if max(frame.pixels) > most or min(frame.pixels) < 1:
                 raise ValueError(f"pixels: expected from 1 to {most} across and up; found {frame.pixels}")
             self._make_room(frame.pixels, frozenset(wanted))
-            self._hold_tiles(frame.looks.relief)
+            self._tiles = self.painter.tiles(self._fitted(frame.looks.relief))
             uniforms = frame.uniforms()
             written: set[str] = set()
             self._empty.clear()
@@ -189,7 +190,7 @@ class Renderer:
         target.use()
         target.viewport = (0, 0, *target.size)
         for unit, (name, image) in enumerate(
-            {**self._held, **{n: self._images[n] for n in own.reads}}.items()
+            {**self._tiles, **self._held, **{n: self._images[n] for n in own.reads}}.items()
         ):
             if name in program:
                 image.use(unit)

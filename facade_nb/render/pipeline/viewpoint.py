@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import atan2, cos, degrees, hypot, isfinite, radians, sin, tan
 from typing import Any
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import View
+from ..texture.view import Sight
 
 __all__ = ["CameraPath", "Frustum", "Viewpoint"]
 
@@ -32,6 +33,8 @@ class Frustum:
         Left, bottom, right, top of the picture at unit distance.
     reach
         Nearest and farthest, metres.
+    parallel
+        Whether all rays run straight ahead, from the window's points, in place of coming from the eye.
     """
 
     eye: NDArray[np.float64]
@@ -40,11 +43,27 @@ class Frustum:
     ahead: NDArray[np.float64]
     window: tuple[float, float, float, float]
     reach: tuple[float, float]
+    parallel: bool = False
 
     @classmethod
     def of(cls, view: View) -> Frustum:
         """Of a camera with a shift lens."""
         return cls(view.eye, view.right, np.array([0.0, 1.0, 0.0]), view.ahead, view.window, view.reach)
+
+    @classmethod
+    def of_sight(cls, sight: Sight) -> Frustum:
+        """Of a view of a façade whose lower left corner is the origin; of the part that it is of a whole."""
+        step_x, step_y = map(float, sight.step)
+        left, bottom = (
+            a + b * c for a, b, c in zip(sight.window, sight.corner, (step_x, step_y), strict=False)
+        )
+        window = (left, bottom, left + sight.pixels[0] * step_x, bottom + sight.pixels[1] * step_y)
+        up = np.array([0.0, 1.0, 0.0])
+        right, ahead = np.array(sight.right, np.float64), np.array(sight.ahead, np.float64)
+        if sight.eye is None:
+            return cls(np.array([0.0, 0.0, 1.0]), right, up, ahead, window, (0.5, 2.0), True)
+        near = 0.5 * sight.eye[2] / (1 + max(map(abs, window)))
+        return cls(np.array(sight.eye, np.float64), right, up, ahead, window, (near, 1e9))
 
     @property
     def matrix(self) -> NDArray[np.float64]:
@@ -54,21 +73,31 @@ class Frustum:
         view[:3, 3] = -(view[:3, :3] * self.eye).sum(axis=1)
         l, b, r, t = self.window  # noqa: E741
         n, f = self.reach
-        lens = np.array(
-            [
-                [2 / (r - l), 0, -(r + l) / (r - l), 0],
-                [0, 2 / (t - b), -(t + b) / (t - b), 0],
-                [0, 0, (f + n) / (f - n), -2 * f * n / (f - n)],
-                [0, 0, 1, 0],
-            ]
-        )
+        if self.parallel:
+            lens = np.array(
+                [
+                    [2 / (r - l), 0, 0, -(r + l) / (r - l)],
+                    [0, 2 / (t - b), 0, -(t + b) / (t - b)],
+                    [0, 0, 2 / (f - n), -(f + n) / (f - n)],
+                    [0, 0, 0, 1],
+                ]
+            )
+        else:
+            lens = np.array(
+                [
+                    [2 / (r - l), 0, -(r + l) / (r - l), 0],
+                    [0, 2 / (t - b), -(t + b) / (t - b), 0],
+                    [0, 0, (f + n) / (f - n), -2 * f * n / (f - n)],
+                    [0, 0, 1, 0],
+                ]
+            )
         return np.asarray((lens[:, :, None] * view[None]).sum(axis=1))
 
     def crop(self, left: float, bottom: float, right: float, top: float) -> Frustum:
         """A part of the picture, in shares of its width and height from its lower left corner."""
         l, b, r, t = self.window  # noqa: E741
         window = (l + left * (r - l), b + bottom * (t - b), l + right * (r - l), b + top * (t - b))
-        return Frustum(self.eye, self.right, self.up, self.ahead, window, self.reach)
+        return replace(self, window=window)
 
     def planes(self) -> NDArray[np.float64]:
         """Left, right, lower, upper and near plane (5, 4): a point p is inside where n · p + d is above 0."""

@@ -10,16 +10,17 @@ since it begins where its neighbour ends. So the pixels near a boundary, and the
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...design.errors import nearest
-from .evaluating import Question
-from .shot import Painter
+from .evaluating import Question, Surface
+from .shot import Painter, Shot
 from .view import Looks, Sight
 
-__all__ = ["ANTIALIAS", "smoothed"]
+__all__ = ["ANTIALIAS", "averaged", "check_kind", "smoothed"]
 
 ANTIALIAS = ("none", "adaptive", "supersample")
 """One sample at the centre, tiles in full size; more samples near boundaries; 16 samples everywhere."""
@@ -42,19 +43,44 @@ def smoothed(
     ValueError
         If `how` is not one of `ANTIALIAS`.
     """
+    return averaged(painter, question, sight, how, color_only=True).surface.color
+
+
+def averaged(
+    painter: Painter, question: Question, sight: Sight, how: str = "adaptive", color_only: bool = False
+) -> Shot:
+    """What a view's pixels show, each the mean of its samples: colour, normal, specular value, and shade of relief.
+
+    Light is worked out from the means, so a picture at an hour costs no more samples. Rules are of no use there.
+    """
+    check_kind(how)
+    if how == "none":
+        return painter.paint(question, sight, color_only=color_only)
+    if how == "supersample":
+        return _mean(painter, question, sight, None, color_only)
+    shot = painter.paint(question, sight, mips=True, color_only=color_only)
+    chosen = np.flatnonzero((shot.margin < _REACH) | _outline(sight))
+    if not len(chosen):
+        return shot
+    finer = _mean(painter, question, sight, chosen, color_only)
+    surface = Surface(*(_put(*pair, chosen) for pair in zip(shot.surface, finer.surface, strict=True)))
+    shade = None
+    if shot.shade is not None and finer.shade is not None:
+        shade = _put(shot.shade, finer.shade, chosen)
+    return replace(shot, surface=surface, shade=shade)
+
+
+def _put(whole: NDArray[Any], part: NDArray[Any], chosen: NDArray[np.intp]) -> NDArray[Any]:
+    whole = whole.copy()
+    whole[chosen] = part
+    return whole
+
+
+def check_kind(how: str) -> None:
+    """Raise `ValueError` for what is not one of `ANTIALIAS`."""
     if how not in ANTIALIAS:
         known = ", ".join(ANTIALIAS)
         raise ValueError(f"antialias: expected one of {known}; found {how!r}{nearest(how, ANTIALIAS)}")
-    if how == "none":
-        return painter.paint(question, sight, color_only=True).surface.color
-    if how == "supersample":
-        return _mean(painter, question, sight, None)
-    shot = painter.paint(question, sight, mips=True, color_only=True)
-    color = shot.surface.color.copy()
-    chosen = np.flatnonzero((shot.margin < _REACH) | _outline(sight))
-    if len(chosen):
-        color[chosen] = _mean(painter, question, sight, chosen)
-    return color
 
 
 def _outline(sight: Sight) -> NDArray[np.bool_]:
@@ -75,16 +101,20 @@ def _outline(sight: Sight) -> NDArray[np.bool_]:
 
 
 def _mean(
-    painter: Painter, question: Question, sight: Sight, chosen: NDArray[np.intp] | None
-) -> NDArray[np.float32]:
+    painter: Painter, question: Question, sight: Sight, chosen: NDArray[np.intp] | None, color_only: bool
+) -> Shot:
     """Means of 16 samples in each pixel; each reads tiles in the size that fits a sixteenth of it."""
-    total: NDArray[np.float32] | None = None
+    shots = None
     for place in _PLACES:
         looks = _finer(sight.looks(chosen, place))
-        color = painter.paint_at(question, looks, mips=True, color_only=True).surface.color
-        total = color if total is None else total + color
-    assert total is not None
-    return total * np.float32(1 / len(_PLACES))
+        shot = painter.paint_at(question, looks, mips=True, color_only=color_only)
+        own = [*shot.surface[:3], *(() if shot.shade is None else (shot.shade,))]
+        shots = own if shots is None else [total + part for total, part in zip(shots, own, strict=True)]
+    assert shots is not None
+    color, normal, specular, *rest = (total * np.float32(1 / len(_PLACES)) for total in shots)
+    return replace(
+        shot, surface=Surface(color, normal, specular, shot.surface.rule), shade=rest[0] if rest else None
+    )
 
 
 def _finer(looks: Looks) -> Looks:

@@ -9,8 +9,8 @@ A grammar says all that light needs to know in its three channels, so one gramma
   a third. What a pane adds to the specular value is taken off the lamp.
 - Out of doors the specular value is the strength of the sun's highlight.
 
-Colours are composited as stored (sRGB); light is worked out in linear values. ``glsl/texture/lit.frag`` does the same
-as a second pass over what the evaluator has drawn.
+Colours are composited as stored (sRGB); light is worked out in linear values. ``glsl/texture/light.glsl`` is the same,
+for the light pass of the pipeline.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ class Daytime:
         )
 
     def uniforms(self) -> dict[str, float | tuple[float, ...]]:
-        """What ``glsl/texture/lit.frag`` is given, for a façade that looks south."""
+        """What the passes of the pipeline are given, for a façade that looks south."""
         return {
             "towards": self.towards,
             "sun": self.sun,

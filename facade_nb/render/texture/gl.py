@@ -23,7 +23,7 @@ from .evaluating import Question, Surface
 from .osmesa import OSMesaContext, find_osmesa
 from .shaders import room, rooms_for, shader
 from .shot import Shot, spread
-from .uploads import Upload, grammar_upload, sight_uniforms, tile_uploads, uniforms
+from .uploads import Upload, grammar_upload, tile_uploads, uniforms
 from .view import Looks, Sight
 
 __all__ = ["EGL", "OSMESA", "GlPainter"]
@@ -108,9 +108,7 @@ class GlPainter:
         count: bool = False,
     ) -> Shot:
         """Every pixel of a view at its centre; with `count`, how many texels each has read."""
-        defines = _defines(mips, color_only, count, question.relief)
-        with self._drawn(question, "sight.frag", defines, sight.pixels, sight_uniforms(sight), ()) as images:
-            return _shot(question, _read(images, color_only), sight.pixels, count, flip=True)
+        return self.paint_at(question, sight.looks(), mips=mips, color_only=color_only, count=count)
 
     def paint_at(
         self,
@@ -135,15 +133,14 @@ class GlPainter:
             for name, array in (("points", points), ("rays", rays))
         ]
         defines = _defines(mips, color_only, count, question.relief)
-        with self._drawn(question, "points.frag", defines, size, {"spread": looks.spread}, data) as images:
-            shot = _shot(question, _read(images, color_only), size, count, flip=False)
+        with self._drawn(question, defines, size, {"spread": looks.spread}, data) as images:
+            shot = _shot(question, _read(images, color_only), size, count)
         return spread(shot.first(number), looks.inside)
 
     @contextmanager
     def _drawn(
         self,
         question: Question,
-        name: str,
         defines: tuple[str, ...],
         size: tuple[int, int],
         given: dict[str, Any],
@@ -154,7 +151,7 @@ class GlPainter:
             most = context.info["GL_MAX_TEXTURE_SIZE"]
             if max(size) > most:
                 raise ValueError(f"pixels: {self.name} draws at most {most} across and up; found {size}")
-            program = self._program(name, question, defines)
+            program = self._program("points.frag", question, defines)
 
             def keep(made: Any) -> Any:
                 kept.callback(made.release)
@@ -162,7 +159,7 @@ class GlPainter:
 
             grammar = grammar_upload(question, wide="llvmpipe" in self.renderer)
             own = {upload.name: keep(_texture(context, upload)) for upload in (grammar, *data)}
-            for unit, (key, texture) in enumerate({**self._tiles(question.atlas), **own}.items()):
+            for unit, (key, texture) in enumerate({**self.tiles(question.atlas), **own}.items()):
                 texture.use(unit)
                 if key in program:
                     program[key].value = unit
@@ -179,8 +176,8 @@ class GlPainter:
             array.render(context.TRIANGLES, vertices=3)
             yield images
 
-    def _tiles(self, atlas: Atlas) -> dict[str, Any]:
-        """Textures of the noise and the tiles, kept for the atlases that were used last."""
+    def tiles(self, atlas: Atlas) -> dict[str, Any]:
+        """Textures of the noise and the tiles, kept for the atlases that were used last; within `entered`."""
         kept = self._atlases.pop(id(atlas), None)
         if kept is None:
             kept = (atlas, {upload.name: _texture(self._context, upload) for upload in tile_uploads(atlas)})
@@ -227,16 +224,13 @@ def _read(images: Sequence[Any], color_only: bool) -> list[bytes | None]:
     return [None if color_only and k in (1, 2) else image.read() for k, image in enumerate(images)]
 
 
-def _shot(
-    question: Question, images: list[bytes | None], size: tuple[int, int], count: bool, flip: bool
-) -> Shot:
-    """Pixels read back; with `flip`, rows from the top."""
+def _shot(question: Question, images: list[bytes | None], size: tuple[int, int], count: bool) -> Shot:
+    """Pixels read back."""
 
     def of(content: bytes | None, kind: Any) -> NDArray[Any]:
         if content is None:
             return np.zeros((size[0] * size[1], 4), kind)
-        values = np.frombuffer(content, kind).reshape(size[1], size[0], -1)
-        return np.ascontiguousarray(values[::-1] if flip else values).reshape(size[0] * size[1], -1)
+        return np.frombuffer(content, kind).reshape(size[0] * size[1], -1)
 
     color, normal, specular = (of(content, np.float32) for content in images[:3])
     numbers = of(images[3], np.int32)

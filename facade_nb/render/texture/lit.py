@@ -1,76 +1,36 @@
-"""A painter that also lights what another one paints, so that pictures at an hour are antialiased as all others."""
+"""The light of an hour on what a view's pixels show: what the pipeline's passes do for a façade alone, in NumPy."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
+from numpy.typing import NDArray
 
 from ..daylight import floats
 from ..developing import developed
+from .antialias import averaged
 from .daytime import Daytime, light
-from .evaluating import Question, Surface
-from .shot import Painter, Shot
-from .view import Looks, Sight
+from .evaluating import Question
+from .shot import Painter
+from .view import Sight
 
-__all__ = ["Lit"]
+__all__ = ["lit"]
 
 
-@dataclass(frozen=True, slots=True)
-class Lit:
-    """Paints colours in the light of an hour, ready to be shown; the façade stands alone and looks south.
+def lit(
+    painter: Painter, question: Question, sight: Sight, daytime: Daytime, how: str = "adaptive"
+) -> NDArray[np.float32]:
+    """Colours (n, 4), multiplied by alpha, of a view's pixels; the façade stands alone and looks south.
 
-    Attributes
-    ----------
-    painter
-        Evaluates the grammar.
-    daytime
-        The hour.
+    Light falls on the mean of a pixel's samples. At its outline a façade is as bright as inside, and covers less.
     """
-
-    painter: Painter
-    daytime: Daytime
-
-    @property
-    def name(self) -> str:
-        """That of the painter."""
-        return self.painter.name
-
-    @property
-    def why_not(self) -> str:
-        """That of the painter."""
-        return self.painter.why_not
-
-    @property
-    def available(self) -> bool:
-        """That of the painter."""
-        return self.painter.available
-
-    def paint(
-        self, question: Question, sight: Sight, *, mips: bool = False, color_only: bool = False
-    ) -> Shot:
-        """As `Painter.paint`; normal and specular are always read, since light needs them."""
-        return self._lit(self.painter.paint(self._asked(question), sight, mips=mips), sight.looks())
-
-    def paint_at(
-        self, question: Question, looks: Looks, *, mips: bool = False, color_only: bool = False
-    ) -> Shot:
-        """As `Painter.paint_at`."""
-        return self._lit(self.painter.paint_at(self._asked(question), looks, mips=mips), looks)
-
-    def _asked(self, question: Question) -> Question:
-        """With the sun, for the shadows of relief."""
-        return question._replace(sun=self.daytime.towards) if any(self.daytime.sun) else question
-
-    def _lit(self, shot: Shot, looks: Looks) -> Shot:
-        color, normal, specular, rule = shot.surface
-        count = len(color)
-        rays = np.broadcast_to(floats([0, 0, -1]), (count, 3)) if looks.rays is None else looks.rays
-        sunny = np.ones(count, np.float32) if shot.shade is None else 1 - shot.shade
-        lit = light(color, normal, specular, rays, self.daytime, sunny, looks.points[:, 1])
-        shown = developed(lit, self.daytime.exposure) * (color[:, 3:] > 0)
-        # Multiplied by alpha, as colours are; a highlight may not be more than that.
-        shown = np.minimum(shown, color[:, 3:])
-        return replace(
-            shot, surface=Surface(np.concatenate([shown, color[:, 3:]], axis=1), normal, specular, rule)
-        )
+    if any(daytime.sun):
+        question = question._replace(sun=daytime.towards)  # for the shadows of relief
+    shot, looks = averaged(painter, question, sight, how), sight.looks()
+    color, normal, specular, _ = shot.surface
+    alpha = color[:, 3:].clip(0, 1)
+    count = len(color)
+    rays = np.broadcast_to(floats([0, 0, -1]), (count, 3)) if looks.rays is None else looks.rays
+    sunny = np.ones(count, np.float32) if shot.shade is None else 1 - shot.shade
+    straight = np.concatenate([color[:, :3] / alpha.clip(1e-6), alpha], axis=1)
+    found = light(straight, normal, specular, rays, daytime, sunny, looks.points[:, 1])
+    return np.concatenate([developed(found, daytime.exposure) * alpha, alpha], axis=1)

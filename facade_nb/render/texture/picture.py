@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
@@ -11,11 +12,12 @@ from numpy.typing import NDArray
 
 from ...design.files import write_atomically
 from ..camera import Camera
-from .antialias import smoothed
+from .antialias import check_kind, smoothed
 from .atlas import Tiles
 from .daytime import Daytime
+from .gl import GlPainter
 from .grammar import Grammar
-from .lit import Lit
+from .lit import lit
 from .painters import choose_painter
 from .shot import Painter
 from .view import Sight
@@ -122,14 +124,29 @@ def texture_pixels(
     relief: bool = False,
 ) -> NDArray[np.uint8]:
     """As `render_texture`, but the pixels: (h, w, 4) uint8, row 0 at the top, colour not multiplied by alpha."""
+    from ..pipeline.facade import alone, colours
+
     sight = _sight(size, pixels, camera)
     question = grammar.question(size, seed, start, tiles, relief)
     painter: Painter = choose_painter(backend)
-    if hour is not None:
-        painter = Lit(painter, Daytime.at(hour))
+    daytime = None if hour is None else Daytime.at(hour)
+    check_kind(antialias)
     image = np.empty((sight.pixels[1], sight.pixels[0], 4), np.uint8)
-    for where, part in _parts(sight):
-        image[where] = _bytes(smoothed(painter, question, part, antialias)).reshape(*image[where].shape)
+    parts = list(_parts(sight))
+    if isinstance(painter, GlPainter):
+        own = grammar if tiles is None else replace(grammar, tiles=tiles)
+        scene = alone(own, question.size, seed, start)
+        drawn = colours(painter, scene, (part for _, part in parts), antialias, daytime, relief)
+        for (where, _), found in zip(parts, drawn, strict=True):
+            image[where] = (np.clip(found, 0, 1) * 255 + np.float32(0.5)).astype(np.uint8)
+        return image
+    for where, part in parts:
+        color = (
+            smoothed(painter, question, part, antialias)
+            if daytime is None
+            else lit(painter, question, part, daytime, antialias)
+        )
+        image[where] = _bytes(color).reshape(*image[where].shape)
     return image
 
 

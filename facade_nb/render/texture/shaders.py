@@ -42,7 +42,7 @@ def shader(
     bits: int = 16,
     defines: tuple[str, ...] = (),
 ) -> str:
-    """The source of a shader: ``sight.frag``, ``points.frag``, ``smooth.frag``, ``whole.vert``, or of a pass.
+    """The source of a shader: ``points.frag``, ``whole.vert``, or of a pass.
 
     Parameters
     ----------

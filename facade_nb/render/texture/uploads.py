@@ -12,14 +12,12 @@ from numpy.typing import NDArray
 from .atlas import Atlas
 from .evaluating import Question
 from .noise import Seed, noise_texture
-from .view import Sight
 
 __all__ = [
     "Upload",
     "grammar_upload",
     "noise_upload",
     "seeds_upload",
-    "sight_uniforms",
     "tile_uploads",
     "uniforms",
     "uploads",
@@ -103,18 +101,4 @@ def uniforms(question: Question) -> dict[str, Any]:
         "start_rule": question.records[question.start].place,
         "seed_whole": tuple(value % 2**32 for value in seed.whole),
         "seed_rest": seed.rest,
-    }
-
-
-def sight_uniforms(sight: Sight) -> dict[str, Any]:
-    """From where it is seen; for ``sight.frag``."""
-    left, bottom = (np.float32(v) for v in sight.window[:2])
-    step_x, step_y = sight.step
-    return {
-        "window": (float(left), float(bottom), float(step_x), float(step_y)),
-        "pixel_shift": (sight.corner[0] + 0.5, sight.corner[1] + 0.5),
-        "eye": (*(sight.eye or (0.0, 0.0, 0.0)), float(sight.eye is not None)),
-        "spread": 0.0 if sight.eye is None else float(min(step_x, step_y)),
-        "across": sight.right,
-        "forward": sight.ahead,
     }

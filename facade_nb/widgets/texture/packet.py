@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from ...render import Grammar
+from ...render.pipeline.passes import PAGE, Pass, used
+from ...render.pipeline.vertices import VERTEX
 from ...render.texture.daytime import Daytime
 from ...render.texture.noise import noise_texture
 from ...render.texture.operators import Operator
@@ -17,10 +20,24 @@ from ...render.texture.steps import Chosen, Divided, Entered, Layered, Painted, 
 from ..solver.packing import pack
 from .places import Plane
 
-__all__ = ["HOURS", "derivation", "grammar_table", "light_piece", "scene_piece", "step_text", "tiles_piece"]
+__all__ = [
+    "HOURS",
+    "attributes",
+    "derivation",
+    "grammar_table",
+    "light_piece",
+    "passes_of",
+    "scene_piece",
+    "shaders_of",
+    "step_text",
+    "tiles_piece",
+]
 
 HOURS = tuple(k / 4 for k in range(97))
 """The hours whose light the browser has; it mixes the two nearest."""
+
+
+_ASKING = [own for own in PAGE if own.fragment == "grammar.frag"]
 
 
 def scene_piece(grammar: Grammar) -> bytes:
@@ -41,8 +58,7 @@ def scene_piece(grammar: Grammar) -> bytes:
             "bits": grammar.encoding.bits,
             "texture": np.frombuffer(texture.tobytes(), np.uint8),
             "start": list(question.records[question.start].place),
-            "fragment": shader("sight.frag", "es", **needs, defines=("MIPS",)),
-            "smooth": shader("smooth.frag", "es", **needs, defines=("MIPS", "EDGES")),
+            "shaders": shaders_of(_ASKING, **needs),
             "report": grammar.report(),
             "table": grammar_table(grammar),
         }
@@ -69,18 +85,43 @@ def tiles_piece(grammar: Grammar) -> bytes:
 
 @lru_cache(maxsize=1)
 def light_piece() -> bytes:
-    """What is the same for all grammars: the light of the day, random numbers, the shaders of the second pass."""
+    """What is the same for all grammars: the light of the day, random numbers, the passes of the pipeline."""
     noise = noise_texture()
     return pack(
         {
-            "vertex": shader("whole.vert", "es"),
-            "lit": shader("lit.frag", "es"),
-            "plain": shader("plain.frag", "es"),
+            "passes": passes_of(PAGE),
+            "buffers": [asdict(own) for own in used(PAGE)],
+            "shaders": shaders_of([own for own in PAGE if own not in _ASKING]),
+            "stride": VERTEX.itemsize,
+            "attributes": attributes(),
             "hours": [Daytime.at(hour).uniforms() for hour in HOURS],
             "side": noise.shape[0],
             "noise": noise.reshape(-1),
         }
     )
+
+
+def passes_of(passes: Sequence[Pass]) -> list[dict[str, Any]]:
+    """Passes as the browser has them."""
+    return [{**asdict(own), "reads": list(own.reads), "writes": list(own.writes)} for own in passes]
+
+
+def shaders_of(passes: Sequence[Pass], **needs: int) -> dict[str, str]:
+    """The source of each shader of each pass, by the pass and which it is; `needs`: of the grammar (`shader`)."""
+    found = {}
+    for own in passes:
+        found[f"{own.name}:vertex"] = shader(own.vertex, "es")
+        found[f"{own.name}:fragment"] = shader(own.fragment, "es", **needs, defines=own.defines)
+    return found
+
+
+def attributes() -> dict[str, list[int]]:
+    """How many floats each attribute of a vertex has, and where it begins."""
+    fields: Any = VERTEX.fields
+    return {
+        name: [int(np.prod(VERTEX[name].shape, dtype=int)), int(fields[name][1])]
+        for name in VERTEX.names or ()
+    }
 
 
 def grammar_table(grammar: Grammar) -> list[dict[str, Any]]:

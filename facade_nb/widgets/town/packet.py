@@ -16,11 +16,11 @@ from ...render.pipeline.sunlight import MAPS
 from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
 from ...render.texture.daytime import Daytime
-from ...render.texture.shaders import room, rooms_for, shader
+from ...render.texture.shaders import room, rooms_for
 from ...render.texture.uploads import grammar_upload, noise_upload
 from ...render.town.plan import KINDS, ROOFS
 from ..solver.packing import pack
-from ..texture.packet import HOURS
+from ..texture.packet import HOURS, attributes, passes_of, shaders_of
 from .model import TownModel
 from .places import EYE, edges_of
 from .tiles import question_of
@@ -97,14 +97,14 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
     chunks, scene = model.source.chunks, model.scene
     offsets, numbers = needs_of(model)
     head: dict[str, Any] = {
-        "passes": [{**asdict(own), "reads": list(own.reads), "writes": list(own.writes)} for own in PASSES],
+        "passes": passes_of(PASSES),
         "buffers": [asdict(own) for own in BUFFERS],
         "shaders": _shaders(model),
         "hours": _hours(),
         "sunlight": {**MAPS, "side": SHADOW},
         "looks": {"haze": _LOOKS.haze, "reach": _LOOKS.reach},
         "stride": VERTEX.itemsize,
-        "attributes": {name: [int(np.prod(VERTEX[name].shape, dtype=int)), at] for name, at in _offsets()},
+        "attributes": attributes(),
         "block": BLOCK,
         "blobs": {
             name: {"bytes": len(own.content), "block": own.block or len(own.content), "version": own.version}
@@ -136,12 +136,6 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
     return pack(head)
 
 
-def _offsets() -> list[tuple[str, int]]:
-    """Where each attribute begins in a vertex."""
-    fields: Any = VERTEX.fields
-    return [(name, int(fields[name][1])) for name in VERTEX.names or ()]
-
-
 @lru_cache(maxsize=1)
 def _hours() -> list[dict[str, Any]]:
     return [Daytime.at(hour).uniforms() for hour in HOURS]
@@ -152,14 +146,7 @@ def _shaders(model: TownModel) -> dict[str, str]:
     question = question_of(model.grammar)
     frames, seeds = map(room, question.stacks)
     rooms = rooms_for(question.rooms)
-    bits = model.grammar.encoding.bits
-    found = {}
-    for own in PASSES:
-        found[f"{own.name}:vertex"] = shader(own.vertex, "es")
-        found[f"{own.name}:fragment"] = shader(
-            own.fragment, "es", frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=own.defines
-        )
-    return found
+    return shaders_of(PASSES, frames=frames, seeds=seeds, rooms=rooms, bits=model.grammar.encoding.bits)
 
 
 def _textures(model: TownModel) -> dict[str, Any]:

@@ -14,7 +14,19 @@ import pytest
 from facade_nb.render import Grammar
 from facade_nb.render.camera import Camera
 from facade_nb.render.pipeline.frame import visible
-from facade_nb.render.pipeline.passes import BUFFERS, PASSES, Buffer, Pass, arranged, without
+from facade_nb.render.pipeline.passes import (
+    BARE,
+    BUFFERS,
+    FACADE,
+    PAGE,
+    PASSES,
+    Buffer,
+    Pass,
+    arranged,
+    seen_through,
+    used,
+    without,
+)
 from facade_nb.render.pipeline.scene import CHUNK, Scene
 from facade_nb.render.pipeline.sunlight import sunlight
 from facade_nb.render.pipeline.vertices import VERTEX
@@ -68,15 +80,36 @@ class TestPasses:
         assert sizes["shadow_far"] == sizes["shadow_near"] == (2048, 2048)
 
     @pytest.mark.parametrize("profile", ["core", "es"])
-    @pytest.mark.parametrize("name", sorted({n for own in PASSES for n in (own.vertex, own.fragment)}))
-    def test_shaders_compile_for_desktops_and_browsers(self, name: str, profile: str) -> None:
+    def test_shaders_compile_for_desktops_and_browsers(self, profile: str) -> None:
+        """Those of every list of passes, with what each defines, and with all its options."""
         assert shutil.which("glslangValidator"), "apt-get install glslang-tools"
-        defines = next((own.defines for own in PASSES if own.fragment == name), ())
-        told = subprocess.run(
-            ["glslangValidator", "--stdin", "-S", name[-4:]],
-            input=shader(name, profile, defines=defines), text=True, capture_output=True,
-        )  # fmt: skip
-        assert told.returncode == 0, told.stdout
+        every = (*PASSES, *FACADE, *BARE, *PAGE, *seen_through(2)[0])
+        sources = {shader(own.vertex, profile): "vert" for own in every}
+        for own in every:
+            options = tuple(name.upper() for name in own.options if name != "color_only")
+            for defines in (own.defines, (*own.defines, *options), (*own.defines, "SEEDS")):
+                if own.fragment == "grammar.frag" or defines == own.defines:
+                    sources[shader(own.fragment, profile, defines=tuple(dict.fromkeys(defines)))] = "frag"
+        assert len(sources) > 20
+        for source, kind in sources.items():
+            told = subprocess.run(
+                ["glslangValidator", "--stdin", "-S", kind], input=source, text=True, capture_output=True
+            )
+            assert told.returncode == 0, told.stdout
+
+    def test_what_is_seen_through_writes_images_of_its_own(self) -> None:
+        passes, buffers = seen_through(2)
+        assert arranged(passes, buffers) == passes
+        assert [own.name for own in passes if own.name in {one.name for one in PASSES}] == [
+            own.name for own in PASSES
+        ]
+        behind = [own for own in passes if "BEHIND" in own.defines]
+        assert len(behind) == 6 and all(own.after or own.draws == "mesh" for own in behind)
+        written = {name for own in behind if not own.under for name in own.writes}
+        assert written and not written & {own.name for own in BUFFERS}
+        assert {own.name for own in used(FACADE)} == {
+            *("place", "rule", "facing", "along", "depth", "color", "normal", "specular", "light", "toned")
+        }
 
 
 class TestViewpoint:

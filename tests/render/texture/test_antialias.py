@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -10,6 +12,7 @@ from facade_nb.render import Grammar
 from facade_nb.render.texture.antialias import ANTIALIAS, smoothed
 from facade_nb.render.texture.evaluating import Question
 from facade_nb.render.texture.painters import PAINTERS
+from facade_nb.render.texture.shot import Shot
 from facade_nb.render.texture.view import Sight
 
 from .stand_in import stand_in
@@ -68,9 +71,9 @@ def test_only_pixels_near_a_boundary_are_sampled_again(monkeypatch: pytest.Monke
     asked, sight, numbers = question("S -> SplitX(Abs, 2.51, R, Rel, 1, G)"), SIGHTS["flat"], []
     real = antialias._mean
 
-    def spy(painter: object, question: object, sight: object, chosen: NDArray[np.intp]) -> Floats:
-        numbers.append(chosen)
-        return real(painter, question, sight, chosen)  # type: ignore[arg-type]
+    def spy(*given: Any) -> Shot:
+        numbers.append(given[3])
+        return real(*given)
 
     monkeypatch.setattr(antialias, "_mean", spy)
     color = smoothed(CPU, asked, sight).reshape(60, 75, 4)

@@ -27,11 +27,8 @@ from facade_nb.render.pipeline.viewpoint import Viewpoint
 from facade_nb.render.texture import Grammar
 from facade_nb.render.texture.daytime import Daytime, light
 from facade_nb.render.texture.facades import Facade, box
-from facade_nb.render.texture.osmesa import OSMesaContext
 from facade_nb.render.texture.photograph import Photo, flat, photograph, photographs, save_picture
 from facade_nb.render.texture.picture import texture_pixels
-from facade_nb.render.texture.shaders import shader
-from facade_nb.render.texture.view import Sight
 from facade_nb.render.tiles import TileSet
 from scripts.docs.exhibits import EXHIBITS, exhibit, layout_exhibit
 
@@ -210,76 +207,6 @@ def test_a_picture_at_an_hour_is_lit(tmp_path: Path) -> None:
     assert main(words.split()) == 0
     with pytest.raises(SystemExit):
         main(f"{words} --hour 25".split())
-
-
-@pytest.mark.parametrize("profile", ["core", "es"])
-def test_the_light_pass_compiles_as_desktop_gl_and_webgl2(profile: str) -> None:
-    done = subprocess.run(
-        ["glslangValidator", "--stdin", "-S", "frag"],
-        input=shader("lit.frag", profile),
-        text=True,
-        capture_output=True,
-    )
-    assert done.returncode == 0, done.stdout
-
-
-@pytest.mark.parametrize("hour", [6.0, 9.5, 13.0, 19.8, 21.0, 23.9])
-@pytest.mark.parametrize("eye", [None, (3.0, 1.7, 5.0)])
-def test_the_light_pass_is_what_numpy_does(hour: float, eye: tuple[float, float, float] | None) -> None:
-    """`lit.frag` on OSMesa, over random surfaces, against `light`, `backdrop` and `developed`."""
-    import moderngl
-
-    size, pixels = (6.0, 5.0), (48, 40)
-    sight = Sight.flat(size, pixels) if eye is None else Sight.from_eye(eye, (2.0, 2.5), size, pixels)
-    generator = np.random.default_rng(int(hour * 10))
-    channels = [generator.uniform(0, 1, (pixels[0] * pixels[1], 4)).astype(np.float32) for _ in range(3)]
-    for values in channels:
-        values[:, :3] *= values[:, 3:]
-        values[::7] = 0
-    daytime = Daytime.at(hour)
-    looks = sight.looks()
-    rays = (
-        np.broadcast_to(np.float32([0, 0, -1]), (len(looks.points), 3)) if looks.rays is None else looks.rays
-    )
-    heights = looks.points[:, 1]
-    wanted = light(*channels, rays, daytime, np.ones(len(rays), np.float32), heights)
-    wanted = wanted + (1 - channels[0][:, 3:]) * daytime.backdrop(rays)
-    wanted = developed(wanted, daytime.exposure)
-
-    with moderngl.create_context(require=330, context=OSMesaContext()) as context:
-        program = context.program(vertex_shader=shader("whole.vert"), fragment_shader=shader("lit.frag"))
-        for unit, (name, values) in enumerate(
-            zip(("seen_color", "seen_normal", "seen_specular"), channels, strict=True)
-        ):
-            image = np.ascontiguousarray(values.reshape(pixels[1], pixels[0], 4)[::-1])
-            texture = context.texture(pixels, 4, image.tobytes(), dtype="f4")
-            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-            texture.use(unit)
-            program[name].value = unit
-        left, bottom, right, top = sight.window
-        given = {
-            "window": (left, bottom, (right - left) / pixels[0], (top - bottom) / pixels[1]),
-            "eye": (*(sight.eye or (0.0, 0.0, 0.0)), float(sight.eye is not None)),
-            "across": sight.right,
-            "forward": sight.ahead,
-            **daytime.uniforms(),
-        }
-        for name, value in given.items():
-            if name in program:
-                program[name].value = value
-        image = context.texture(pixels, 4, dtype="f4")
-        target = context.framebuffer([image])
-        target.use()
-        target.viewport = (0, 0, *pixels)
-        context.vertex_array(program, []).render(context.TRIANGLES, vertices=3)
-        found = (
-            np.frombuffer(image.read(), np.float32)
-            .reshape(pixels[1], pixels[0], 4)[::-1]
-            .reshape(-1, 4)[:, :3]
-        )
-    before = (rays[:, 2] < -1e-3) & (np.abs(heights) < 60)
-    assert before.mean() > 0.9
-    assert np.abs(found - wanted)[before].max() < 2e-3
 
 
 @pytest.mark.parametrize("name", EXHIBITS)

@@ -276,9 +276,9 @@ class TestEvaluatorsAgree:
     @pytest.mark.parametrize(
         ("name", "defines"),
         [
-            ("sight.frag", ("RELIEF",)),
+            ("points.frag", ("RELIEF",)),
             ("points.frag", ("MIPS", "EDGES", "COLOR_ONLY", "COUNT_FETCHES", "RELIEF")),
-            ("smooth.frag", ("MIPS", "EDGES", "RELIEF")),
+            ("grammar.frag", ("MIPS", "EDGES", "DEEP", "OUTLINE", "SAMPLES", "RELIEF")),
             ("grammar.frag", ("MIPS", "EDGES", "DEEP", "RELIEF")),
             ("light.frag", ()),
         ],

@@ -17,6 +17,10 @@ void main() {
   vec3 ray = ray_at(gl_FragCoord.xy);
   float depth = drawn(facing, share).w;
   vec4 seen = drawn(light, share);
+#ifdef ALONE
+  out_air = vec4(seen.rgb + (1.0 - clamp(seen.a, 0.0, 1.0)) * clear_sky(normalize(ray)), 1.0);
+  return;
+#endif
   if (depth <= 0.0) {
     out_air = vec4(sky_along(ray), 0.0);
     return;

@@ -1,10 +1,9 @@
 // What the camera meets at each pixel, and nothing dear: place on the façade and its size; start rule and seed; normal and
 // how deep; tangent.
+#include "view.glsl"
 
-uniform vec3 forward;
-
-in vec3 from_eye;
-in vec2 mesh_place;
+flat in vec3 mesh_corner;
+flat in vec2 mesh_place;
 flat in vec2 mesh_size;
 flat in vec4 mesh_rule;
 flat in vec3 mesh_normal;
@@ -20,13 +19,19 @@ layout(location = 2) out highp vec4 out_facing;
 layout(location = 3) out highp vec4 out_along;
 
 void main() {
+  vec3 ray = ray_at(gl_FragCoord.xy);
+  vec3 corner = mesh_corner - start_at(gl_FragCoord.xy);
+  float against = dot(ray, mesh_normal);  // below 0: it is seen from its front
+  float depth = dot(corner, mesh_normal) / (against > 0.0 ? max(against, 1e-9) : min(against, -1e-9));
 #ifdef BEHIND
-  if (dot(from_eye, forward) <= texelFetch(passed, ivec2(gl_FragCoord.xy), 0).r * 1.00002 + 1e-4) discard;
+  if (depth <= texelFetch(passed, ivec2(gl_FragCoord.xy), 0).r * 1.00002 + 1e-4) discard;
 #endif
-  out_place = vec4(mesh_place, mesh_size);
+  vec3 off = depth * ray - corner;
+  vec2 place = mesh_place + vec2(dot(off, mesh_tangent), dot(off, cross(mesh_normal, mesh_tangent)));
+  out_place = vec4(place, mesh_size);
   out_rule = mesh_rule;
   // What hangs over is seen from below, too: there it looks down.
-  float side = dot(from_eye, mesh_normal) > 0.0 ? -1.0 : 1.0;
-  out_facing = vec4(side * mesh_normal, dot(from_eye, forward));  // 0: there is nothing
+  float side = against > 0.0 ? -1.0 : 1.0;
+  out_facing = vec4(side * mesh_normal, depth);  // 0: there is nothing
   out_along = vec4(side * mesh_tangent, 0.0);
 }

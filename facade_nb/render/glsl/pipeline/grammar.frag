@@ -3,6 +3,7 @@
 #include "pixel.glsl"
 #include "view.glsl"
 #include "seed.glsl"
+#include "beside.glsl"
 
 uniform highp sampler2D place;
 uniform highp sampler2D rule;
@@ -37,23 +38,65 @@ void main() {
   vec4 of_rule = drawn(rule, share);
   vec3 tangent = drawn(along, share).xyz;
   vec3 up = cross(face.xyz, tangent);
-  vec3 ray = ray_at(gl_FragCoord.xy);
-  vec3 own = vec3(dot(ray, tangent), dot(ray, up), dot(ray, face.xyz));
-  float spread = min(window.z, window.w);
+  float extent = min(window.z, window.w);
 #ifdef RELIEF
+  float lost = 0.0;  // of the sun, behind relief
   sunward = vec3(dot(towards, tangent), dot(towards, up), sun.r + sun.g > 0.0 ? dot(towards, face.xyz) : 0.0);
 #endif
   Seed seed = seed_of(of_rule.zw);
-  Surface found = evaluate(Question(
-    ivec2(of_rule.xy), on.zw, clamp(on.xy, vec2(0.0), on.zw), own, seed.whole, seed.rest, face.w * spread, spread
-  ));
-  out_color = found.color;
+  Surface found = Surface(vec4(0.0), vec4(0.0), vec4(0.0), ivec2(-1));
+#ifdef SAMPLES
+  bool edge = outline(face, tangent, up, on);
+  Surface one = found;
+  for (int k = -1; k < 16; ++k) {  // all samples go through one call, since compilers copy the evaluator into each
+    Spot spot = beside(k < 0 ? gl_FragCoord.xy : floor(gl_FragCoord.xy) + sample_place(k), face, tangent, up, on.xy);
+    float size = extent * (k < 0 ? 1.0 : SHARE) * mix(spot.depth, 1.0, parallel);
+    float spread = extent * (k < 0 ? 1.0 : SHARE) * (1.0 - parallel);
+    one = Surface(vec4(0.0), vec4(0.0), vec4(0.0), ivec2(-1));
+    margin = 1e9;
 #ifdef RELIEF
-  if (found.color.a >= OPAQUE && shadow > 0.0) out_color.a = 2.0 + min(shadow, 1.0);
+    shadow = 0.0;
+#endif
+    if (within(spot, on.zw)) {
+      one = evaluate(Question(ivec2(of_rule.xy), on.zw, spot.at, spot.own, seed.whole, seed.rest, size, spread));
+    }
+    if (k >= 0) {
+      found.color += one.color / 16.0;
+      found.normal += one.normal / 16.0;
+      found.specular += one.specular / 16.0;
+#ifdef RELIEF
+      lost += shadow / 16.0;
+#endif
+#ifndef EVERYWHERE
+    } else if (!edge && margin >= NEAR_SPLIT) {
+      found = one;
+#ifdef RELIEF
+      lost = shadow;
+#endif
+      break;
+#endif
+    }
+  }
+#else
+  Spot spot = beside(gl_FragCoord.xy, face, tangent, up, on.xy);
+#ifdef OUTLINE
+  if (!within(spot, on.zw)) return;
+#endif
+  found = evaluate(Question(
+    ivec2(of_rule.xy), on.zw, clamp(on.xy, vec2(0.0), on.zw), spot.own, seed.whole, seed.rest,
+    extent * mix(face.w, 1.0, parallel), extent * (1.0 - parallel)
+  ));
+#ifdef RELIEF
+  lost = shadow;
+#endif
+#endif
+  out_color = found.color;
+#if defined(RELIEF) && !defined(COLOR_ONLY)
+  if (found.color.a >= OPAQUE && lost > 0.0) out_color.a = 2.0 + min(lost, 1.0);
 #endif
   vec3 turned = 2.0 * (found.normal.xyz + (1.0 - found.normal.a) * vec3(0.5, 0.5, 1.0)) - 1.0;
   out_normal = vec4(turned.x * tangent + turned.y * up + turned.z * face.xyz, min(margin, 9.0));
-  out_specular = vec4(found.specular.rgb, found.color.a > 0.0 ? deep / spread : NOTHING);
+  out_specular = vec4(found.specular.rgb, found.color.a > 0.0 ? (1.0 - parallel) * deep / extent : NOTHING);
 #ifdef COUNT_FETCHES
   out_color = vec4(float(fetches));  // in place of what is seen, for a bench
 #endif

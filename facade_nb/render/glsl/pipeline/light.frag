@@ -1,6 +1,8 @@
 // Light that comes from each pixel, linear: sun, sky and what the ground throws back, lamps (NumPy: daytime.py).
 #include "light.glsl"
+#ifndef ALONE
 #include "sunlit.glsl"
+#endif
 #include "pixel.glsl"
 #include "view.glsl"
 
@@ -8,11 +10,14 @@ uniform highp sampler2D color;
 uniform highp sampler2D normal;
 uniform highp sampler2D specular;
 uniform highp sampler2D facing;
+#ifndef ALONE
 uniform highp sampler2D softened;
 uniform vec2 shades;  // 1: there are shadows; 1: there is occlusion
+#endif
 
 layout(location = 0) out highp vec4 out_light;
 
+#ifndef ALONE
 // Occlusion at a pixel, from those of four that are about as deep.
 float open_at(ivec2 at, float depth) {
   vec2 share = share_of(softened);
@@ -30,6 +35,7 @@ float open_at(ivec2 at, float depth) {
   }
   return sum / weight;
 }
+#endif
 
 void main() {
   vec2 share = share_of(facing);
@@ -37,11 +43,15 @@ void main() {
   out_light = vec4(0.0);
   if (face.w <= 0.0) return;
   vec3 ray = ray_at(gl_FragCoord.xy);
-  vec3 point = eye + face.w * ray;
+  vec3 point = eye + start_at(gl_FragCoord.xy) + face.w * ray;
   vec4 own = drawn(normal, share);
+#ifdef ALONE
+  float sees = 1.0;
+#else
   float sees = shades.x > 0.0 && dot(face.xyz, towards) > 0.0 ? sunlit(point, face.xyz) : 1.0;
+#endif
   vec4 shine = drawn(specular, share);
-#ifdef BEHIND
+#if defined(BEHIND) || defined(ALONE)
   float around = 1.0;  // occlusion is that of what stands in front
 #else
   float around = shades.y > 0.0 ? open_at(ivec2(gl_FragCoord.xy), face.w + shine.a) : 1.0;
@@ -52,8 +62,15 @@ void main() {
     sees *= 3.0 - tint.a;
     tint.a = 1.0;
   }
+#ifdef ALONE
+  float covers = clamp(tint.a, 0.0, 1.0);  // at its outline a façade is as bright as inside, and covers less
+  tint.rgb /= max(covers, 1e-6);
+#endif
   vec3 lit = light(
     tint, vec4(0.5 * own.xyz + 0.5, 1.0), shine, ray, vec2(sees, around), point.y
   );
+#ifdef ALONE
+  lit *= covers;
+#endif
   out_light = vec4(lit, tint.a > 0.999 ? 1.0 : tint.a);
 }

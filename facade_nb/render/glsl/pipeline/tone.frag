@@ -9,6 +9,9 @@ layout(location = 0) out highp vec4 out_toned;
 
 void main() {
   vec4 seen = drawn(air, share_of(air));
+#ifdef ALONE
+  seen.rgb /= max(seen.a, 1e-6);
+#endif
   vec3 shown = clamp(developed(seen.rgb, exposure), 0.0, 1.0);
   out_toned = vec4(shown, dot(shown, vec3(0.299, 0.587, 0.114)));  // and how bright
 }

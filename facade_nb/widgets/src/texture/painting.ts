@@ -1,13 +1,15 @@
 // When a picture is drawn, and how finely: coarse while it moves, sharp when it rests, then smooth, in bands of rows between
 // which the page can do other things. Anything that changes begins anew.
 
+import { context } from "../pipeline/context.ts";
 import { mark } from "../shared/dom.ts";
-import { type Job, renderer } from "./renderer.ts";
+import { draw, type Job, smoothReady } from "./renderer.ts";
 
 const BUDGET = 45; // milliseconds of a frame while it moves, and of a band of the sharp picture
 const IDLE = 30; // milliseconds of a band of the smooth one
 const RESTED = 160; // milliseconds after which it is drawn sharply
 const COARSEST = 12;
+const STEPS = [1, 1.5, 2, 3, 4, 6, 8, COARSEST]; // few, so that few sizes of images are made
 
 /** How coarse the next frame should be: 1 is sharp. From the time that the last one took, of so many pixels. */
 export function coarser(milliseconds: number, pixels: number, full: number): number {
@@ -33,8 +35,7 @@ export function painting(
   moved: () => void,
   failed: (message: string) => void,
 ): Painting {
-  const painter = renderer();
-  const paper = canvas.getContext("2d", { willReadFrequently: painter.software }) as CanvasRenderingContext2D;
+  const paper = canvas.getContext("2d", { willReadFrequently: context().software }) as CanvasRenderingContext2D;
   let coarse = 1;
   let timer = 0;
   let frame = 0;
@@ -52,9 +53,10 @@ export function painting(
     const now = job();
     if (!now || !canvas.width) return;
     const full = canvas.width * canvas.height;
+    coarse = STEPS.find((own) => own >= coarse - 0.01) ?? COARSEST;
     const [width, height] = [Math.ceil(canvas.width / coarse), Math.ceil(canvas.height / coarse)];
     const began = performance.now();
-    if (!painter.draw(now, paper, width, height)) return;
+    if (!draw(now, paper, width, height)) return;
     mark(canvas, "data-coarse", coarse.toFixed(2));
     coarse = coarser(performance.now() - began, width * height, full);
   };
@@ -63,13 +65,13 @@ export function painting(
     attempt(() => {
       const now = job();
       if (!now || !canvas.width) return;
-      if (how === "smooth" && !painter.smoothReady(now)) {
+      if (how === "smooth" && !smoothReady(now)) {
         timer = window.setTimeout(() => bands(how, low), 40);
         return;
       }
       const high = Math.min(canvas.height, low + rows[how]);
       const began = performance.now();
-      if (!painter.draw(now, paper, canvas.width, canvas.height, low, high, how === "smooth")) return;
+      if (!draw(now, paper, canvas.width, canvas.height, low, high, how === "smooth")) return;
       rows[how] = rowsFor(how === "smooth" ? IDLE : BUDGET, high - low, performance.now() - began);
       if (high < canvas.height) timer = window.setTimeout(() => bands(how, high), 0);
       else {

@@ -1,10 +1,12 @@
 // The façade, drawn by the page's one renderer and copied into a canvas of its own; where a page cannot draw, a still one.
 
+import { lightAt } from "../pipeline/camera.ts";
+import { context } from "../pipeline/context.ts";
 import { h, mark, setText, svg } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { buttons, sliders } from "./controls.ts";
 import { painting } from "./painting.ts";
-import { type Job, lightAt, renderer } from "./renderer.ts";
+import { type Job, watch } from "./renderer.ts";
 import { drawScopes } from "./scopes.ts";
 import type { Session } from "./session.ts";
 import { sightOf } from "./sight.ts";
@@ -18,7 +20,7 @@ const WATCHED = ["turn", "rise", "distance", "target", "flat", "antialias"];
 export function picture(session: Session, model: WidgetModel, signal: AbortSignal): HTMLElement {
   const root = h("section", { class: "fnb-tex-picture", "aria-label": "Façade" });
   const controlled = model.get<boolean>("controls");
-  const whyNot = renderer().whyNot;
+  const { whyNot } = context();
   if (whyNot) {
     root.append(stillPicture(session, whyNot, signal));
     if (controlled) root.append(sliders(session, signal));
@@ -47,7 +49,7 @@ function stage(canvas: HTMLCanvasElement, session: Session, model: WidgetModel, 
     const { scene, tiles, common } = session;
     if (!scene || !tiles || !common) return null;
     const light = session.lit ? lightAt(common.hours, session.hour) : null;
-    return { common, scene, tiles, sight: sight(), size: session.size, seed: session.seed, light };
+    return { owner: session, common, scene, tiles, sight: sight(), size: session.size, seed: session.seed, light };
   };
   const say = () => {
     const text = failure || (!session.scene ? nothing(session) : session.faults.length ? STALE : "");
@@ -99,7 +101,7 @@ function stage(canvas: HTMLCanvasElement, session: Session, model: WidgetModel, 
 
   const watching = new ResizeObserver(update);
   watching.observe(made);
-  renderer().watch(paint.redraw, signal);
+  watch(paint.redraw, signal);
   for (const name of WATCHED) model.on(`change:${name}`, paint.redraw);
   signal.addEventListener("abort", () => {
     watching.disconnect();

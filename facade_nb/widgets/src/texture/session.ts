@@ -4,7 +4,7 @@ import { Entering } from "../shared/entering.ts";
 import { oneFor } from "../shared/one.ts";
 import type { Fault } from "../shared/types.ts";
 import { type Bytes, byteLength, bytesOf, unpack } from "../solver/packing.ts";
-import { renderer } from "./renderer.ts";
+import { release } from "./renderer.ts";
 import type { Common, Pair, Scene, Step, Tiles, Triple } from "./types.ts";
 
 const PLAIN = [
@@ -105,7 +105,7 @@ export class Session extends Entering<Entered> {
   }
 
   protected override end(): void {
-    for (const own of [this.scene, this.tiles]) if (own) renderer().release(own);
+    release(this);
     this.scene = this.tiles = this.common = null;
     super.end();
   }
@@ -121,11 +121,6 @@ export class Session extends Entering<Entered> {
       this.piece<Common>("light"),
     ]);
     if (turn !== this.unpacking || this.views.size === 0 || !scene || !tiles || !common) return;
-    for (const [old, now] of [
-      [this.scene, scene],
-      [this.tiles, tiles],
-    ] as const)
-      if (old && old !== now) renderer().release(old);
     this.scene = scene;
     this.tiles = tiles;
     this.common = common;

@@ -1,5 +1,8 @@
 // What facade_nb/widgets/texture/packet.py packs.
 
+import type { Light } from "../pipeline/camera.ts";
+import type { Buffer, Pass } from "../pipeline/types.ts";
+
 export type Pair = [number, number];
 export type Triple = [number, number, number];
 
@@ -13,16 +16,15 @@ export interface TableRule {
   pixels: TablePixel[];
 }
 
-/** A grammar: its texture to the bit, and the shader that is large enough for it. */
+/** A grammar: its texture to the bit, and the shaders that are large enough for it. */
 export interface Scene {
   width: number;
   height: number;
   bits: 16 | 32;
   texture: Uint8Array;
   start: Pair;
-  fragment: string;
-  /** As `fragment` and the light together, with more samples at boundaries. */
-  smooth: string;
+  /** Of the passes that evaluate it. */
+  shaders: Record<string, string>;
   report: string;
   table: TableRule[];
 }
@@ -36,13 +38,15 @@ export interface Tiles {
   table: Float32Array;
 }
 
-export type Light = Record<string, number | number[]>;
+export type { Light } from "../pipeline/camera.ts";
 
 /** What is the same for all grammars. */
 export interface Common {
-  vertex: string;
-  lit: string;
-  plain: string;
+  passes: Pass[];
+  buffers: Buffer[];
+  shaders: Record<string, string>;
+  stride: number;
+  attributes: Record<string, [count: number, offset: number]>;
   hours: Light[];
   side: number;
   noise: Float32Array;

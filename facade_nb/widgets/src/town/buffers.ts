@@ -1,10 +1,10 @@
 // The pipeline in the open: a row for each pass, with what it reads on its left and what it writes on its right; one of the
 // buffers large, with the values under the pointer.
 
+import { context } from "../pipeline/context.ts";
+import type { Shown } from "../pipeline/pipeline.ts";
 import { h, mark, setText } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
-import { context } from "./context.ts";
-import type { Shown } from "./pipeline.ts";
 import type { Session } from "./session.ts";
 import { type Stage, stage } from "./stage.ts";
 import { stillPicture } from "./still.ts";
@@ -30,9 +30,9 @@ const LOOKS: Record<string, Shown> = {
   softened: { mode: 3, low: [0], high: [1] },
   light: { mode: 1, low: [0, 0, 0, 0], high: [1.6, 1.6, 1.6, 1] },
   air: { mode: 1, low: [0, 0, 0, 0], high: [1.6, 1.6, 1.6, 1] },
-  toned: { mode: 0 },
-  picture: { mode: 0 },
-  marked: { mode: 0 },
+  toned: { mode: 6 },
+  picture: { mode: 6 },
+  marked: { mode: 6 },
 };
 
 /** Between which values a buffer is shown: nearly all of its own. */

@@ -1,22 +1,12 @@
 // What shaders are told of one picture, as Python has it (render/pipeline/frame.py, viewpoint.py, sunlight.py).
 
-import { lightAt } from "../texture/renderer.ts";
+import { cameraValues, dot, type Frustum, lightAt, type Matrix } from "../pipeline/camera.ts";
 import type { Chunks, Head, Light, Pixels, Place, Values, Vector } from "./types.ts";
 
-export type Matrix = Float64Array; // 4 × 4, row by row
-
-export interface Frustum {
-  eye: Vector;
-  right: Vector;
-  up: Vector;
-  ahead: Vector;
-  window: [left: number, bottom: number, right: number, top: number];
-  reach: [near: number, far: number];
-}
+export { dot, type Frustum, type Matrix, matrixOf } from "../pipeline/camera.ts";
 
 const RADIAN = Math.PI / 180;
 
-export const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a: Vector, b: Vector): Vector => [
   a[1] * b[2] - a[2] * b[1],
   a[2] * b[0] - a[0] * b[2],
@@ -45,24 +35,6 @@ export function cropped(frustum: Frustum, left: number, bottom: number, right: n
     ...frustum,
     window: [l + left * (r - l), b + bottom * (t - b), l + right * (r - l), b + top * (t - b)],
   };
-}
-
-/** From the world to clip space. */
-export function matrixOf({ eye, right, up, ahead, window: [l, b, r, t], reach: [n, f] }: Frustum): Matrix {
-  const view = [right, up, ahead].map((axis) => [...axis, -dot(axis, eye)]);
-  view.push([0, 0, 0, 1]);
-  const lens = [
-    [2 / (r - l), 0, -(r + l) / (r - l), 0],
-    [0, 2 / (t - b), -(t + b) / (t - b), 0],
-    [0, 0, (f + n) / (f - n), (-2 * f * n) / (f - n)],
-    [0, 0, 1, 0],
-  ];
-  const made = new Float64Array(16);
-  for (let i = 0; i < 4; i += 1)
-    for (let j = 0; j < 4; j += 1)
-      for (let k = 0; k < 4; k += 1)
-        made[4 * i + j] = (made[4 * i + j] as number) + (lens[i]?.[k] as number) * (view[k]?.[j] as number);
-  return made;
 }
 
 export interface Sunlight {
@@ -151,18 +123,12 @@ export function uniformsOf(
   looks: Looks,
   sun: Sunlight = sunlightOf(light.towards as Vector, frustum, head.box, head.sunlight),
 ): Values {
-  const [left, bottom, right, top] = frustum.window;
   return {
     ...light,
-    camera: matrixOf(frustum),
+    ...cameraValues(frustum, pixels),
     sun_near: sun.near,
     sun_far: sun.far,
     sun_texel: sun.texels,
-    eye: frustum.eye,
-    across: frustum.right,
-    upward: frustum.up,
-    forward: frustum.ahead,
-    window: [left, bottom, (right - left) / pixels[0], (top - bottom) / pixels[1]],
     haze: head.looks.haze,
     reach: head.looks.reach,
     shades: [Number(looks.shadow && isDay(light)), Number(looks.occlusion)],

@@ -1,12 +1,12 @@
 // When a picture is drawn, and how finely: coarse while one moves, as the time of frames allows; at rest finer, in pieces
 // between which the page can do other things. Anything that changes begins anew.
 
+import { context } from "../pipeline/context.ts";
+import type { Shown } from "../pipeline/pipeline.ts";
 import { mark } from "../shared/dom.ts";
 import { rowsFor } from "../texture/painting.ts";
-import { context } from "./context.ts";
 import { fading } from "./fading.ts";
 import { frustumOf, type Sunlight, sunlightOf } from "./frame.ts";
-import type { Shown } from "./pipeline.ts";
 import type { Session } from "./session.ts";
 import type { Pass, Pixels, Values, Vector } from "./types.ts";
 

@@ -1,16 +1,16 @@
 // What the views of one town on a page share: the town as far as it has come, where one stands, what is entered.
 
+import { context } from "../pipeline/context.ts";
+import { Pipeline, type Source } from "../pipeline/pipeline.ts";
 import { Entering } from "../shared/entering.ts";
 import { oneFor } from "../shared/one.ts";
 import type { Fault } from "../shared/types.ts";
 import { type Bytes, byteLength, bytesOf, unpack } from "../solver/packing.ts";
 import { CHOSEN, MARKED, SHADER } from "./chosen.ts";
-import { context } from "./context.ts";
 import { Detail } from "./detail.ts";
 import { Fitted } from "./fitted.ts";
 import { cropped, daylight, frustumOf, isDay, type Sunlight, uniformsOf, visible } from "./frame.ts";
 import { Loading, type Reply } from "./loading.ts";
-import { Pipeline, type Source } from "./pipeline.ts";
 import { COARSE, sideNeeded, type TileReply } from "./tiles.ts";
 import type { Head, Light, Pass, Pixels, Place, Stop, Values, Vector } from "./types.ts";
 import { Walls } from "./walls.ts";

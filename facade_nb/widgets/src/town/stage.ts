@@ -1,12 +1,12 @@
 // The canvas that the town is seen in, with what is told over it.
 
+import { context } from "../pipeline/context.ts";
+import type { Shown } from "../pipeline/pipeline.ts";
 import { h, mark, setText } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { timeOf } from "../texture/controls.ts";
-import { context } from "./context.ts";
 import { type Flying, flying } from "./flying.ts";
 import { type Painting, painting, type Told } from "./painting.ts";
-import type { Shown } from "./pipeline.ts";
 import type { Session } from "./session.ts";
 
 const TALLEST = 640; // pixels of the page

@@ -1,47 +1,12 @@
 // What facade_nb/widgets/town/packet.py packs.
 
+import type { Buffer, Image, Pass } from "../pipeline/types.ts";
+
+export type { Buffer, Image, Pass, Pixels, Value, Values } from "../pipeline/types.ts";
+
 export type Vector = [number, number, number];
 /** x, y, z in metres; yaw, pitch, angle in degrees (Python: Viewpoint). */
 export type Place = [x: number, y: number, z: number, yaw: number, pitch: number, angle: number];
-export type Pixels = [width: number, height: number];
-/** One number, some, or a matrix row by row (16). */
-export type Value = number | readonly number[] | Float64Array;
-export type Values = Record<string, Value>;
-
-export interface Buffer {
-  name: string;
-  channels: number;
-  kind: "f1" | "f2" | "f4" | "i4" | "depth";
-  tells: string;
-  side: number;
-  part: number;
-}
-
-export interface Pass {
-  name: string;
-  vertex: string;
-  fragment: string;
-  reads: string[];
-  writes: string[];
-  draws: "mesh" | "screen";
-  through: string;
-  /** Whether it draws what turns to whoever looks, or all else of the mesh. */
-  turning?: boolean;
-  /** It draws over what is there; nothing is cleared. */
-  adds?: boolean;
-  /** Whether a triangle is drawn from behind, too. */
-  both?: boolean;
-  when: string;
-  tells: string;
-}
-
-/** A texture that shaders read, under the name of their sampler. */
-export interface Image {
-  size: Pixels;
-  channels: number;
-  kind: "f1" | "f2" | "f4";
-}
-
 export interface Chunks {
   first: Int32Array;
   count: Int32Array;

@@ -1,9 +1,9 @@
 // The town: picture, controls, the building that is chosen, and the grammar of its style.
 
+import { context } from "../pipeline/context.ts";
 import { h, mark } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { editor } from "../texture/editor.ts";
-import { context } from "./context.ts";
 import { type Controls, controls } from "./controls.ts";
 import { inspector } from "./inspector.ts";
 import type { Session } from "./session.ts";

@@ -1,8 +1,9 @@
 import { expect, test } from "vitest";
+import { lightAt } from "../../src/pipeline/camera.ts";
 import { timeOf } from "../../src/texture/controls.ts";
 import { marked, offsetOf } from "../../src/texture/editor.ts";
 import { coarser, rowsFor } from "../../src/texture/painting.ts";
-import { lightAt, seedOf } from "../../src/texture/renderer.ts";
+import { cornersOf, frustumOf, seedOf, seedTable } from "../../src/texture/renderer.ts";
 import { type Look, meet, outline, project, sightOf } from "../../src/texture/sight.ts";
 import type { Pair, Triple } from "../../src/texture/types.ts";
 
@@ -82,6 +83,20 @@ test("light is mixed between the hours told", () => {
   ];
   expect(lightAt(hours, 12)).toEqual({ sun: [1, 2, 2], exposure: 1.5 });
   expect(lightAt(hours, 24)).toEqual(hours[1]);
+});
+
+test("a façade's rectangle and seed are what Python gives the pipeline", () => {
+  // seeds_upload([Seed.of((1e12 + 0.3, -7.7))]), and a corner of alone(…, (3, 2))
+  const table = Array.from(seedTable([1e12 + 0.3, -7.7]));
+  expect(table.slice(0, 4)).toEqual([10564, 19, 65535, 65043]);
+  expect(table[4]).toBeCloseTo(0.203125, 6);
+  expect(table[5]).toBeCloseTo(0.2, 6);
+  const corners = Array.from(cornersOf([3, 2], [4, 1]));
+  expect(corners.length).toBe(4 * 17);
+  expect(corners.slice(34, 51)).toEqual([6, 5, 0, 6, 5, 3, 2, 4, 1, 0, 0, 0, 0, 1, 1, 0, 0]);
+  const flat = frustumOf(sightOf({ ...LOOK, flat: true }, [12, 9], 1.5));
+  expect(flat.parallel).toBe(true);
+  expect(frustumOf(sightOf(LOOK, [12, 9], 1.5)).reach[0]).toBeGreaterThan(0);
 });
 
 test("a slow picture becomes coarser, a fast one sharp", () => {

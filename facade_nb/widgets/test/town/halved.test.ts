@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { halved } from "../../src/town/pipeline.ts";
+import { halved } from "../../src/pipeline/pipeline.ts";
 
 test("runs are parted where what turns begins", () => {
   const runs: [number, number][] = [

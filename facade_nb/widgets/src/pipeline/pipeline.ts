@@ -14,7 +14,7 @@ export interface Source {
   vertices: Uint8Array;
   indices: Uint8Array;
   /** The first index of what turns to whoever looks: passes of their own draw that. */
-  turning: number;
+  turning?: number;
   /** What shaders read beside buffers; in rows, which may come one after the other. */
   textures: Record<string, { image: Image; content: Uint8Array }>;
 }
@@ -33,7 +33,7 @@ uniform highp SAMPLER source;
 uniform vec2 scale;
 uniform vec4 low;
 uniform vec4 high;
-uniform int mode;  // 0: as it is; 1: between low and high; 2: a colour for each value; 3: one channel, as grey; 4: a net of metres; 5: a depth
+uniform int mode;  // 0: as it is; 1: between low and high; 2: a colour for each value; 3: one channel, as grey; 4: a net of metres; 5: a depth; 6: opaque
 layout(location = 0) out vec4 color;
 vec3 hue(float h) { return 0.55 + 0.35 * cos(6.2831853 * (h + vec3(0.0, 0.33, 0.67))); }
 void main() {
@@ -46,6 +46,7 @@ void main() {
     : vec4(hue(fract(dot(own, vec4(0.137, 0.731, 0.0713, 0.0917)))), 1.0);
   if (mode == 3) color = vec4(vec3(part.r), 1.0);
   if (mode == 4) color = own.z <= 0.0 ? vec4(0.0, 0.0, 0.0, 1.0) : vec4(fract(own.xy / high.xy), 0.35, 1.0);
+  if (mode == 6) color = vec4(own.rgb, 1.0);
   if (mode == 5) color = vec4(own.r >= 1.0 ? vec3(0.0) : vec3(1.0 + log2(1.0 - own.r) / 14.0), 1.0);
 }
 `;
@@ -69,7 +70,6 @@ export function halved(runs: readonly Pixels[], at: number, after: boolean): Pix
 }
 
 export class Pipeline {
-  private programs = new Map<string, Program>();
   private arrays = new Map<string, WebGLVertexArrayObject>();
   private mesh: { vertices: WebGLBuffer; indices: WebGLBuffer } | null = null;
   private held = new Map<string, Held>();
@@ -80,14 +80,16 @@ export class Pipeline {
   /** Parts of the mesh and rows of textures that the card has not got yet. */
   private due: { name: string; at: number; end: number }[] = [];
   private version = 0;
+  private of: unknown = null;
   private made = 0;
 
   constructor(private source: Source) {}
 
   private gl(): WebGL2RenderingContext {
     const gl = context().get();
-    if (this.made !== context().made) {
+    if (this.of !== context() || this.made !== context().made) {
       this.forget();
+      this.of = context();
       this.made = context().made;
     }
     return gl;
@@ -95,7 +97,6 @@ export class Pipeline {
 
   /** What was made in a context that is lost. */
   private forget(): void {
-    this.programs.clear();
     this.arrays.clear();
     this.mesh = null;
     for (const map of [this.held, this.images, this.frames, this.kept]) map.clear();
@@ -136,11 +137,11 @@ export class Pipeline {
     if (["vertices", "indices", "atlas", "tile_table"].includes(name)) this.version += 1; // leaves are open where tiles are
   }
 
-  /** Whether all shaders are there; those that are not are compiled beside the page, where the browser can do so. */
-  ready(): boolean {
+  /** Whether the shaders are there; those that are not are compiled beside the page, where the browser can do so. */
+  ready(passes: Pass[] = this.passes): boolean {
     const gl = this.gl();
     if (gl.isContextLost()) return false;
-    return this.passes.map((pass) => ready(gl, this.program(gl, pass))).every(Boolean);
+    return passes.map((pass) => ready(gl, this.program(gl, pass))).every(Boolean);
   }
 
   /** Whether a pass need not run: its maps depend on one matrix, the mesh and its leaves, and these are as they were. */
@@ -155,7 +156,7 @@ export class Pipeline {
   }
 
   /**
-   * Run a pass: of the mesh some runs of indices, of the screen the rows from low to high. `first`: it is its first piece.
+   * Run a pass: of the mesh some runs of indices, in the rows from low to high. `first`: it is its first piece.
    */
   run(
     pass: Pass,
@@ -172,24 +173,22 @@ export class Pipeline {
     const given = pass.through ? { ...values, from_world: values[pass.through] as Float64Array } : values;
     const program = this.program(gl, pass);
     use(gl, program, given, (name) => this.texture(gl, pass, name, pixels));
+    const [low, high] = piece.rows ?? [0, size[1]];
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(0, low, size[0], high - low);
     if (pass.draws === "mesh") {
       gl.enable(gl.DEPTH_TEST);
       gl.depthFunc(gl.LESS);
       if ((piece.first ?? true) && !pass.adds) this.clear(gl, pass);
       if (!pass.both) gl.enable(gl.CULL_FACE);
       gl.bindVertexArray(this.array(gl, pass, program));
-      this.draw(gl, halved(piece.runs ?? [], this.source.turning, !!pass.turning));
+      this.draw(gl, halved(piece.runs ?? [], this.source.turning ?? Number.POSITIVE_INFINITY, !!pass.turning));
       gl.bindVertexArray(null);
       gl.disable(gl.CULL_FACE);
       gl.disable(gl.DEPTH_TEST);
       this.kept.set(pass.name, this.keyOf(pass, values));
-    } else {
-      const [low, high] = piece.rows ?? [0, size[1]];
-      gl.enable(gl.SCISSOR_TEST);
-      gl.scissor(0, low, size[0], high - low);
-      gl.drawArrays(gl.TRIANGLES, 0, 3);
-      gl.disable(gl.SCISSOR_TEST);
-    }
+    } else gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.disable(gl.SCISSOR_TEST);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   }
 
@@ -214,7 +213,7 @@ export class Pipeline {
     name: string,
     pixels: Pixels,
     to: CanvasRenderingContext2D,
-    shown: Shown = { mode: 0 },
+    shown: Shown = { mode: 6 },
     rows: Pixels | null = null,
     [wide, tall]: Pixels = pixels,
   ): boolean {
@@ -237,6 +236,7 @@ export class Pipeline {
     if (gl.isContextLost()) return false;
     const [w, h] = [to.canvas.width, to.canvas.height];
     const [y0, y1] = [((tall - high) / tall) * h, ((tall - low) / tall) * h];
+    to.clearRect(0, y0, w, y1 - y0);
     to.drawImage(canvas, 0, canvas.height - high, wide, high - low, 0, y0, w, y1 - y0);
     return true;
   }
@@ -268,10 +268,6 @@ export class Pipeline {
       for (const { texture } of [...this.held.values(), ...this.images.values()]) gl.deleteTexture(texture);
       for (const frame of this.frames.values()) gl.deleteFramebuffer(frame);
       for (const array of this.arrays.values()) gl.deleteVertexArray(array);
-      for (const { program, shaders } of this.programs.values()) {
-        for (const shader of shaders) gl.deleteShader(shader);
-        gl.deleteProgram(program);
-      }
       if (this.mesh) for (const own of Object.values(this.mesh)) gl.deleteBuffer(own);
     }
     this.forget();
@@ -295,10 +291,11 @@ export class Pipeline {
   }
 
   private named(gl: WebGL2RenderingContext, key: string, vertex: string, fragment: string): Program {
-    let found = this.programs.get(key);
+    const { programs } = context();
+    let found = programs.get(key);
     if (!found) {
       found = begin(gl, vertex, fragment);
-      this.programs.set(key, found);
+      programs.set(key, found);
     }
     return found;
   }

@@ -1,4 +1,7 @@
-// The only WebGL2 context that towns have on a page. What a lost one held is made again.
+// The only WebGL2 context that pictures have on a page: each is drawn in it, and copied into a canvas of its own. So there
+// are never more than browsers allow, and no view goes blank. What a lost one held is made again.
+
+import type { Program } from "./programs.ts";
 
 export class Context {
   readonly canvas = document.createElement("canvas");
@@ -6,6 +9,8 @@ export class Context {
   private readonly watchers = new Set<(lost: boolean) => void>();
   /** How many contexts there have been: what was made in an earlier one is gone. */
   made = 0;
+  /** By their sources; all pictures of a page share them. */
+  readonly programs = new Map<string, Program>();
 
   constructor() {
     this.canvas.addEventListener("webglcontextlost", (event) => {
@@ -14,6 +19,7 @@ export class Context {
     });
     this.canvas.addEventListener("webglcontextrestored", () => {
       this.made += 1;
+      this.programs.clear();
       this.tell(false);
     });
   }
@@ -31,8 +37,8 @@ export class Context {
   /** It, made when first asked for. Throws where there can be none. */
   get(): WebGL2RenderingContext {
     if (!this.gl) {
-      this.gl = this.canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false });
-      if (!this.gl) throw new Error("This browser offers no WebGL2, with which the town is drawn.");
+      this.gl = this.canvas.getContext("webgl2", { antialias: false, depth: false, alpha: true });
+      if (!this.gl) throw new Error("This browser offers no WebGL2, with which pictures are drawn.");
       this.made += 1;
     }
     if (!this.gl.isContextLost() && !this.gl.getExtension("EXT_color_buffer_float"))
@@ -90,7 +96,7 @@ export class Context {
   }
 }
 
-const KEY = Symbol.for("facade_nb.town.context");
+const KEY = Symbol.for("facade_nb.pipeline.context");
 const shared = globalThis as { [KEY]?: Context };
 
 /** The page's. */
