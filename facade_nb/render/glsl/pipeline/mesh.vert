@@ -1,5 +1,5 @@
-// A vertex of a mesh that carries its façade (the texture paper's 4 and 6). All but the place is the same at each corner of
-// a triangle.
+// A vertex of a mesh that carries its façade (the texture paper's 4 and 6). What goes on is that of one corner of a triangle:
+// where on the façade a pixel lies follows from its ray. Cards differ in how exactly they interpolate along large triangles.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 place;
@@ -11,10 +11,9 @@ layout(location = 6) in vec3 tangent;
 
 uniform mat4 from_world;  // to clip space
 uniform vec3 eye;
-uniform vec3 forward;
 
-out vec3 from_eye;
-out vec2 mesh_place;
+flat out vec3 mesh_corner;  // from the eye
+flat out vec2 mesh_place;   // of that corner
 flat out vec2 mesh_size;
 flat out vec4 mesh_rule;
 flat out vec3 mesh_normal;
@@ -22,7 +21,7 @@ flat out vec3 mesh_tangent;
 
 void main() {
   gl_Position = from_world * vec4(position, 1.0);
-  from_eye = position - eye;
+  mesh_corner = position - eye;
   mesh_place = place;
   mesh_size = size;
   mesh_rule = vec4(start, seed);
