@@ -343,3 +343,9 @@ PAGE: tuple[Pass, ...] = (
     replace(_FACADE["tone"], when="lit"),
 )
 """For a façade on a page, before the sky: one sample a pixel first (`sharp`), then more around splits (`smooth`)."""
+
+
+def used(passes: Sequence[Pass], buffers: Sequence[Buffer] = BUFFERS) -> tuple[Buffer, ...]:
+    """The buffers that passes read and write."""
+    names = {name for own in passes for name in (*own.reads, *own.writes)}
+    return tuple(own for own in buffers if own.name in names)
