@@ -134,8 +134,9 @@ def main(buildings: int = 20_000) -> None:
             ("no tile drawn yet", COLD),
         ):
             lab.run(before.format(buildings=buildings))
-            took = page.evaluate(RUN, SHOWN.format(view="distance"))
-            print(f"{name:24} {took['kernel']:7.0f} {took['first']:7.0f} {took['sharp']:7.0f}", flush=True)
+            took = show(page, "distance")
+            figures = " ".join(f"{took[key]:7.0f}" for key in ("kernel", "first", "sharp"))
+            print(f"{name:24} {figures} {took['cpu']:7.1f}", flush=True)
         print(f"{'in motion':24} {'frame':>7} {'p95':>7} {'coarse':>7}")
         for view in ("distance", "street", "close-up"):
             for keys in (["KeyW"], ["ArrowRight"]):

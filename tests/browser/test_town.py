@@ -149,7 +149,9 @@ def test_the_sky_is_above_and_the_town_below(town: Shown) -> None:
     assert sky[2] > sky[0] + 8
     assert sky.sum() > ground.sum() + 60
     assert float(town.canvas.get_attribute("data-loaded") or 0) == 1
-    expect(town.page.locator(".fnb-town-view .fnb-town-told")).to_contain_text(re.compile(r"\d m?s · \d+ × \d+"))
+    expect(town.page.locator(".fnb-town-view .fnb-town-told")).to_contain_text(
+        re.compile(r"\d m?s · \d+ × \d+")
+    )
 
 
 def test_keys_fly(town: Shown) -> None:

@@ -16,6 +16,7 @@ __all__ = [
     "BARE",
     "BUFFERS",
     "FACADE",
+    "PAGE",
     "PASSES",
     "THROUGH",
     "Buffer",
@@ -24,6 +25,7 @@ __all__ = [
     "image_bytes",
     "seen_through",
     "shared",
+    "used",
     "without",
 ]
 

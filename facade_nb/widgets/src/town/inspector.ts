@@ -3,7 +3,7 @@
 import { h, mark, setText } from "../shared/dom.ts";
 import type { Session } from "./session.ts";
 
-const metres = (value: number) => `${value.toFixed(1)} m`;
+const metres = (value: number) => `${value.toFixed(1)}\u00a0m`;
 
 const heightOf = (eaves: number, rise: number) =>
   rise > 0.05 ? `${metres(eaves + rise)}, walls ${metres(eaves)}` : metres(eaves);
@@ -63,7 +63,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
       ["Storeys", String(at(town.storeys))],
       ["Height", heightOf(at(town.eaves), at(town.rise))],
       ["Roof", town.roofs[at(town.roof)] ?? ""],
-      ["Seed", `${(town.seed[2 * own] as number) / 64}, ${(town.seed[2 * own + 1] as number) / 64} m`],
+      ["Seed", `${(town.seed[2 * own] as number) / 64}, ${(town.seed[2 * own + 1] as number) / 64}\u00a0m`],
     ];
     const key = JSON.stringify(facts);
     if (list.dataset.key !== key) {

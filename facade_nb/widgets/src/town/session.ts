@@ -96,6 +96,11 @@ export class Session extends Entering<Entered> {
     return own?.[1] ?? this.head?.town?.style[building] ?? 0;
   }
 
+  /** Say to all views that something has changed. */
+  override tell(): void {
+    super.tell();
+  }
+
   override hold(update: () => void, signal: AbortSignal): void {
     super.hold(update, signal);
     update();
@@ -219,14 +224,15 @@ export class Session extends Entering<Entered> {
   }
 
   /** Give the card finer tiles where the view needs them and they have come; `moving`: one size up at a time. */
-  arrange(moving = false): void {
+  arrange(moving = false): boolean {
     const { head, pipeline, loading, fitted } = this;
-    if (!head || !pipeline) return;
+    if (!head || !pipeline) return false;
     loading.needed = sideNeeded(this.place, this.wide, head.chunks.low, head.chunks.high);
     const bounds = { bytes: head.tile_bytes, most: context().largest };
-    if (!fitted.fit(loading.tiles, loading.needed, bounds, moving)) return;
+    if (!fitted.fit(loading.tiles, loading.needed, bounds, moving)) return false;
     pipeline.replace(this.source(head));
     this.finer += 1;
+    return true;
   }
 
   /** A block of something large has come. */

@@ -81,8 +81,9 @@ export function stage(session: Session, model: WidgetModel, options: Options, si
   /** What has come of the same town. */
   const more = () => [session.finer, Math.floor(session.loading.part * STEPS)].join();
   const rested = () => {
-    session.arrange();
+    const changed = session.arrange();
     come = more();
+    if (changed) session.tell(); // other views of it
   };
   const paint = painting(canvas, session, { ...options, told: tell, failed, rested, stated: () => state() });
   const fly = flying(canvas, session, options, signal);
