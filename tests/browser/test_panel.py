@@ -134,7 +134,7 @@ def test_names_are_edited_in_place(show: Show) -> None:
     group.press("F2")
     keys.type("front")
     keys.press("Enter")
-    studio.expect_python("{l.x.group for l in model.design.layers}.issubset({'front'})", True)
+    studio.expect_python("{l.y.group for l in model.design.layers} == {'front'}", True)
     for _ in range(3):
         keys.press("ControlOrMeta+z")
     expect(studio.field("Pattern Bx")).to_have_value("A(BA)^k")

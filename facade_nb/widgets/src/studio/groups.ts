@@ -42,6 +42,7 @@ export function groupField(store: Store, options: { label: string; path: Path; v
   const commit = () => {
     const name = input.value.trim();
     if (!name || input.readOnly || name === options.value()) return;
+    input.value = ""; // once: leaving the field commits, too
     if (renaming) store.ask({ op: "rename", kind: "group", name: options.value(), to: name });
     else store.set(options.path, name);
   };
