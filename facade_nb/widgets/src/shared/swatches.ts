@@ -74,7 +74,9 @@ export function swatchField(options: SwatchOptions): Field {
   };
   open.addEventListener("click", () => (popup.hidden ? show() : close(true)));
   own.addEventListener("keydown", (event) => {
-    if (event.key === "Enter" && own.value.trim()) choose(own.value.trim());
+    if (event.key !== "Enter" || !own.value.trim()) return;
+    event.preventDefault();
+    choose(own.value.trim());
   });
   popup.addEventListener("keydown", (event) => {
     if (event.key === "Escape") {

@@ -59,6 +59,7 @@ export function groupField(store: Store, options: { label: string; path: Path; v
   holdBack(input, () => (renaming ? options.value() : ""));
   input.addEventListener("keydown", (event) => {
     if (event.key === "Enter") {
+      event.preventDefault(); // the list that gets the focus is not to be opened
       commit();
       end(true);
     }
