@@ -146,7 +146,7 @@ def test_names_are_edited_in_place(show: Show) -> None:
     keys.press("ControlOrMeta+a")
     keys.type("B")
     keys.press("Enter")
-    expect(page.locator(".fnb-notice")).to_contain_text("'B' is taken")
+    expect(page.locator(".fnb-notices > .fnb-notice")).to_contain_text("'B' is taken")
 
 
 def test_one_instance_has_a_look_of_its_own_and_tells_where_each_value_comes_from(show: Show) -> None:
