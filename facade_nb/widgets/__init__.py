@@ -22,6 +22,7 @@ from .studio.parts import (
     LayerEditor,
     Part,
     PatternEditor,
+    ShapeEditor,
     SymbolEditor,
     Toolbar,
 )
@@ -51,6 +52,7 @@ __all__ = [
     "PlayerView",
     "QualifiersView",
     "Selection",
+    "ShapeEditor",
     "SizingView",
     "SolverView",
     "Studio",

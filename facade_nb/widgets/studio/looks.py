@@ -43,7 +43,7 @@ def describe_cell(model: FacadeModel) -> Json | None:
         "keys": keys,
         "patterns": {"x": layer.x.pattern, "y": layer.y.pattern},
         "set": {
-            level: {key: _shape(shapes[key]) for key in keys if key in shapes}
+            level: {own["key"]: _shape(shapes[own["key"]]) for own in keys if own["key"] in shapes}
             for level, shapes in owners.items()
         },
         "seed": design.seed,

@@ -25,6 +25,7 @@ __all__ = [
     "LayerEditor",
     "Part",
     "PatternEditor",
+    "ShapeEditor",
     "SymbolEditor",
     "Toolbar",
     "picture",
@@ -121,6 +122,12 @@ class LayerEditor(Part):
     """The stack, topmost first: order, visibility, and each axis's pattern, group and mask."""
 
     _shows = "layers"
+
+
+class ShapeEditor(Part):
+    """The table of pairs of the picked layer, and the looks of the pair that is picked, at every level."""
+
+    _shows = "shapes"
 
 
 class CanvasEditor(Part):

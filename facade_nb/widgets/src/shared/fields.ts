@@ -126,6 +126,7 @@ export function nameField(options: {
   input.addEventListener("blur", commit);
   input.addEventListener("keydown", (event) => {
     if (event.key !== "Enter") return;
+    event.preventDefault(); // what gets the focus is not to be pressed, too
     const next = options.next?.();
     if (next) next.focus();
     else commit(); // left to nobody, the focus would fall to the host

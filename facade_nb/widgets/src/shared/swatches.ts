@@ -26,11 +26,11 @@ export function swatchField(options: SwatchOptions): Field {
     dot,
     name,
   );
-  const list = h("div", { class: "fnb-swatches", role: "listbox", "aria-label": options.label });
+  const list = h("div", { class: "fnb-swatches", role: "listbox", "aria-label": "Materials" });
   const own = h("input", {
     type: "text",
     class: "fnb-swatch-own",
-    "aria-label": `${options.label}: a colour or a rule`,
+    "aria-label": "A colour or a rule of a grammar",
     placeholder: "#c8b9a0",
     spellcheck: "false",
     autocomplete: "off",
@@ -74,7 +74,9 @@ export function swatchField(options: SwatchOptions): Field {
   };
   open.addEventListener("click", () => (popup.hidden ? show() : close(true)));
   own.addEventListener("keydown", (event) => {
-    if (event.key === "Enter" && own.value.trim()) choose(own.value.trim());
+    if (event.key !== "Enter" || !own.value.trim()) return;
+    event.preventDefault();
+    choose(own.value.trim());
   });
   popup.addEventListener("keydown", (event) => {
     if (event.key === "Escape") {

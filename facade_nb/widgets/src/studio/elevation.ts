@@ -162,13 +162,14 @@ export const elevation: MakePart = (context) => {
 
   const shapes = () => (drawing ? [...drawing.svg.querySelectorAll<SVGGElement>("[data-shape]")] : []);
   const showPicks = () => {
-    const { shape, layer, x, y } = store.get("selection");
+    const { shape, layer, x, y, more } = store.get("selection");
+    const pairs = layer !== "" && x !== "" && y !== "" ? [[x, y], ...more] : [];
     const alike = (el: SVGGElement) =>
-      shape === null
-        ? (layer !== "" && el.dataset.layer === layer) ||
+      pairs.length > 0
+        ? el.dataset.layer === layer && pairs.some((pair) => el.dataset.x === pair[0] && el.dataset.y === pair[1])
+        : (layer !== "" && el.dataset.layer === layer) ||
           (x !== "" && el.dataset.x === x) ||
-          (y !== "" && el.dataset.y === y)
-        : el.dataset.layer === layer && el.dataset.x === x && el.dataset.y === y;
+          (y !== "" && el.dataset.y === y);
     picks.replaceChildren(
       ...shapes()
         .filter(alike)

@@ -42,6 +42,7 @@ export function groupField(store: Store, options: { label: string; path: Path; v
   const commit = () => {
     const name = input.value.trim();
     if (!name || input.readOnly || name === options.value()) return;
+    input.value = ""; // once: leaving the field commits, too
     if (renaming) store.ask({ op: "rename", kind: "group", name: options.value(), to: name });
     else store.set(options.path, name);
   };
@@ -58,6 +59,7 @@ export function groupField(store: Store, options: { label: string; path: Path; v
   holdBack(input, () => (renaming ? options.value() : ""));
   input.addEventListener("keydown", (event) => {
     if (event.key === "Enter") {
+      event.preventDefault(); // the list that gets the focus is not to be opened
       commit();
       end(true);
     }

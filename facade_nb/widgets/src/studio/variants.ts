@@ -27,12 +27,19 @@ export function variantsForm(store: Store, { label, path, own }: VariantsOptions
     autocomplete: "off",
   });
   onChange(seed, () => store.set(["seed"], seed.value));
+  let sent: Loose[] = [];
+  /** The variants with what was changed and is not answered yet. */
+  const current = (): Loose[] => (store.pending(path()) ? sent : own().map((variant) => ({ ...variant })));
+  const send = (next: Loose[]) => {
+    sent = next;
+    store.set(path(), next);
+  };
   const add = h("button", { type: "button", class: "fnb-fix" }, "Add a variant");
   add.addEventListener("click", () => {
     const { materials } = store.get("catalogue");
-    const taken = own().map((variant) => variant.material);
+    const taken = current().map((variant) => variant.material);
     const material = materials.find((name) => !taken.includes(name));
-    store.set(path(), [...own(), { weight: 1, material }]);
+    send([...current(), { weight: 1, material }]);
   });
   const el = h(
     "details",
@@ -43,11 +50,10 @@ export function variantsForm(store: Store, { label, path, own }: VariantsOptions
   );
 
   const change = (at: number, name: string, value: unknown) => {
-    const next: Loose[] = own().map((variant) => ({ ...variant }));
-    const variant = next[at];
-    if (!variant) return;
-    variant[name] = value === "" || value === INHERITED ? null : value;
-    store.set(path(), next);
+    const next = [...current()];
+    if (!next[at]) return;
+    next[at] = { ...next[at], [name]: value === "" || value === INHERITED ? null : value };
+    send(next);
   };
   const row = (variant: VariantState, at: number): HTMLElement => {
     const named = (name: string) => `${name} of variant ${at + 1} of ${label}`;
@@ -79,10 +85,7 @@ export function variantsForm(store: Store, { label, path, own }: VariantsOptions
     geometry.value = variant.geometry ?? INHERITED;
     geometry.addEventListener("change", () => change(at, "geometry", geometry.value));
     const remove = button(`Remove variant ${at + 1} of ${label}`, "close", () =>
-      store.set(
-        path(),
-        own().filter((_, i) => i !== at),
-      ),
+      send(current().filter((_, i) => i !== at)),
     );
     return h(
       "div",

@@ -2,14 +2,24 @@ import { describe, expect, it } from "vitest";
 import { focusMain, h, keyed } from "../../src/shared/dom.ts";
 import { scrub, scrubbed } from "../../src/shared/scrub.ts";
 import { keepFocus } from "../../src/shared/staying.ts";
+import { Store } from "../../src/shared/store.ts";
 import { colourOf, swatchField } from "../../src/shared/swatches.ts";
 import type { Cell, SelectionState } from "../../src/shared/types.ts";
-import { keyIn, originOf, ownerOf, pairsOf } from "../../src/studio/inspector.ts";
+import { inspector, keyIn, originOf, ownerOf, pairsOf } from "../../src/studio/inspector.ts";
+import { shapes } from "../../src/studio/shapes.ts";
+import { FakeModel, fakeState } from "../shared/fake.ts";
 
 const look = { value: "brick", level: "layer", key: "B *", varied: false } as const;
 const cell = (x: string, y: string): Cell => ({
   rect: [0, 0, 1, 2],
-  fields: { kind: look, geometry: look, material: look, offset: look, thickness: look, visible: look },
+  fields: {
+    kind: look,
+    geometry: look,
+    material: look,
+    offset: { ...look, value: 0.1 },
+    thickness: { ...look, value: 0.2 },
+    visible: { ...look, value: true },
+  },
   keys: [
     { key: `${x}[2] ${y}[1]`, means: "this one" },
     { key: `${x} ${y}`, means: `all ${x} ${y}` },
@@ -168,5 +178,66 @@ describe("materials", () => {
     expect(chosen).toEqual(["stone"]);
     expect(document.activeElement).toBe(field.el.querySelector("button"));
     field.el.remove();
+  });
+});
+
+describe("the inspector", () => {
+  const state = fakeState();
+  const model = new FakeModel({ ...state, selection: selection() });
+  const end = new AbortController();
+  const store = new Store(model, end.signal);
+  const el = inspector({ store, signal: end.signal, notify: () => {} });
+  document.body.append(el);
+  const named = (label: string) => el.querySelector(`[aria-label="${label}"]`) as HTMLElement;
+
+  it("has a field for each value of the cell, with who says it", () => {
+    expect(el.querySelectorAll(".fnb-look")).toHaveLength(6);
+    expect(el.querySelector("[data-look=material] .fnb-origin")?.textContent).toBe("B * in base");
+    (named("B Q of base is visible") as HTMLButtonElement).click();
+    expect(model.asked.at(-1)).toMatchObject({ path: ["layers", "base", "shapes", "B Q", "visible"], value: false });
+  });
+
+  it("edits where it is told to", () => {
+    const keys = named("Which shapes are edited") as HTMLSelectElement;
+    keys.value = "B[2] Q[1]";
+    keys.dispatchEvent(new Event("change"));
+    const level = named("Whose shapes are edited") as HTMLSelectElement;
+    level.value = "y";
+    level.dispatchEvent(new Event("change"));
+    model.set({ ack: { client: store.client, seq: model.asked.at(-1)?.seq } });
+    (named("B Q of base is visible") as HTMLButtonElement).click();
+    expect(model.asked.at(-1)?.path).toEqual(["patterns", "By", "shapes", "B[2] Q[1]", "visible"]);
+  });
+
+  it("goes with the selection", async () => {
+    model.set({ selection: { ...selection(), cell: null } });
+    await Promise.resolve();
+    expect(el.childElementCount).toBe(0);
+    end.abort();
+    el.remove();
+  });
+});
+
+describe("the table of pairs", () => {
+  it("has the first row at the bottom, and picks a pair, or more with Shift", () => {
+    const one = { material: "brick", geometry: "box", key: "B *", level: "design" as const, shown: true };
+    const pairs = {
+      layer: "base",
+      columns: ["A", "B"],
+      rows: ["P", "Q"],
+      cells: [one, one, one, { ...one, shown: false }],
+    };
+    const picked = { ...selection(), x: "A", y: "P", pairs };
+    const model = new FakeModel({ ...fakeState(), selection: picked });
+    const end = new AbortController();
+    const store = new Store(model, end.signal);
+    const el = shapes({ store, signal: end.signal, notify: () => {} });
+    const cells = [...el.querySelectorAll<HTMLElement>(".fnb-pair-cell")];
+    expect(cells.map((cell) => cell.dataset.pair)).toEqual(["A Q", "B Q", "A P", "B P"]);
+    expect(cells[1]?.hasAttribute("data-shown")).toBe(false);
+    expect(cells[2]?.getAttribute("aria-pressed")).toBe("true");
+    cells[1]?.dispatchEvent(new MouseEvent("click", { shiftKey: true }));
+    expect(model.asked.at(-1)).toMatchObject({ op: "select", layer: "base", x: "A", y: "P", more: [["B", "Q"]] });
+    end.abort();
   });
 });
