@@ -99,8 +99,8 @@ class Keeper:
     ----------
     state
         ``on``; ``restored``: a kernel that has gone had kept this design, and it was brought back; ``offered``:
-        something else was kept, and can be brought back; ``elsewhere``: another kernel keeps it there, and nothing is written;
-        ``failed``: it cannot be written.
+        something else was kept, and can be brought back; ``elsewhere``: another kernel keeps it there, and nothing
+        is written; ``failed``: it cannot be written.
     """
 
     def __init__(self, model: FacadeModel, path: Path) -> None:

@@ -37,8 +37,8 @@ export const elevation: MakePart = (context) => {
   const { store, signal } = context;
   const overlay = svg("svg", { class: "fnb-overlay", "aria-hidden": "true" });
   const hover = svg("rect", { class: "fnb-hover", visibility: "hidden" });
-  const picks = svg("g");
-  const lit = svg("g");
+  const picks = svg("g", { class: "fnb-outlines" });
+  const lit = svg("g", { class: "fnb-outlines" });
   const under = svg("g");
   const over = svg("g", { class: "fnb-marks" });
   const naive = naiveView(() => ask("naive", naive.on));

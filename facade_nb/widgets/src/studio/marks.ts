@@ -91,7 +91,8 @@ export function transparentOf(sheet: Sheet, marks: Marks): SVGElement[] {
         cell.setAttribute("class", "fnb-mark-clear");
         drawn.push(cell);
         const words = clearX && clearY ? `${x} ${y}` : clearX ? x : y;
-        const [cx, cy] = at(sheet, (left + right) / 2, (bottom + top) / 2);
+        // In the upper part of the cell: in its middle other layers write theirs.
+        const [cx, cy] = at(sheet, (left + right) / 2, bottom + 0.82 * (top - bottom));
         const size = Math.min(11 / sheet.scale, ((right - left) * sheet.drawing.scale) / (0.7 * words.length));
         if (size * sheet.scale >= 5) drawn.push(text(cx, cy, size, words, "fnb-mark-clear-letter"));
       }
