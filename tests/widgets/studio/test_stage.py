@@ -280,7 +280,7 @@ def walled(patterns: dict[str, Any], *, masked: bool = False) -> Design:
     [
         (walled({"a": {"text": "ABA", "hidden": ["B"]}}), "show B in pattern a"),
         (walled({"a": "ABA B", "c": "e d e; d := C"}, masked=True), "show P in layer columns"),
-        (walled({"a": "ABA", "c": "e^k m; m := B"}), "let k be at most 16"),
+        (walled({"a": "ABA", "c": "e^k m; m := B"}), "let k be at most 1"),
     ],
 )
 def test_a_warning_is_fixed_by_one_press(design: Design, text: str) -> None:
