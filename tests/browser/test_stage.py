@@ -161,7 +161,7 @@ def test_nothing_is_asked_of_python_while_the_hand_moves(studio: Notebook) -> No
 
 def test_what_is_pointed_at_is_marked_wherever_it_is_shown(studio: Notebook) -> None:
     page = studio.page
-    page.locator(".fnb-elevation [data-layer=door] rect.cell").hover()
+    page.locator(".fnb-elevation [data-layer=door]").hover()
     expect(page.locator(".fnb-symbol[data-symbol=D][data-lit]")).to_have_count(1)
     expect(page.locator(".fnb-layer[data-layer=door][data-lit]")).to_have_count(1)
     expect(page.locator(".fnb-symbol[data-symbol=A][data-lit]")).to_have_count(0)
@@ -219,7 +219,7 @@ def test_layers_are_drawn_apart_and_picked_there(studio: Notebook, out: Path) ->
     page = studio.page
     page.locator(".fnb-tab", has_text="Layers").click()
     expect(page.locator(".fnb-exploded [data-sheet]")).to_have_count(4)
-    page.locator(".fnb-exploded [data-layer=door] rect.cell").click()
+    page.locator(".fnb-exploded [data-layer=door]").click()
     expect(page.locator(".fnb-exploded [data-shape][data-picked]")).to_have_count(1)
     studio.expect_python("model.selection.layer", "door")
     page.locator(".fnb-studio").screenshot(path=out / "stage-layers.png")

@@ -28,7 +28,7 @@ class Line:
         self.model = model or FacadeModel(house())
         self.channel = Channel.of(self.model)
         self.replies: list[dict[str, Any]] = []
-        self.channel.send = self.replies.append  # type: ignore[method-assign, assignment]
+        self.channel.send = self.replies.append
         self.seq = 0
 
     def ask(self, op: str, **arguments: Any) -> dict[str, Any]:
@@ -235,7 +235,12 @@ def test_a_solve_that_is_cancelled_gives_the_best_so_far() -> None:
         return layout
 
     model = FacadeModel.__new__(FacadeModel)
-    stopper = threading.Thread(target=lambda: (begun.wait(), model.stop()))
+
+    def stop() -> None:
+        begun.wait()
+        model.stop()
+
+    stopper = threading.Thread(target=stop)
     stopper.start()
     model.__init__(house(), solve=slowly)  # type: ignore[misc]  # without a loop it returns when the solve has ended
     stopper.join()

@@ -232,7 +232,7 @@ function told(changes: Partial<State> = {}) {
   document.body.append(el);
   const reply = (content: Record<string, unknown>, seq = 1) =>
     channel.emit("msg:custom", { client: store.client, seq, ...content });
-  const notice = () => el.querySelector<HTMLElement>(".fnb-notice:not(.fnb-kept)");
+  const notice = () => el.querySelector<HTMLElement>(".fnb-notice");
   return { channel, store, el, reply, notice };
 }
 
