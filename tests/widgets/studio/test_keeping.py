@@ -123,10 +123,13 @@ def test_another_kernel_that_lives_is_not_overwritten_until_one_says_so(file: Pa
 
 
 def test_a_kernel_that_comes_later_is_noticed(file: Path) -> None:
-    keeper = edited(file)
+    told: list[str] = []
+    keeper = Keeper(FacadeModel(house()), file, lambda: told.append(keeper.state))
+    keeper.model.edit(WIDER)
     written_by(file, pid=os.getppid())
     keeper.model.edit(WIDE)
     assert keeper.state == "elsewhere"
+    assert told == ["elsewhere"]
     kept = Kept.read(file)
     assert kept is not None and kept.design == WIDER
 
