@@ -124,7 +124,7 @@ def _misaligned(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
             for stop, places in _stops(group, lines[axis]).items():
                 low, high = min(places), max(places)
                 if high - low > _NEAR:
-                    text = f"Group {name!r} on {axis}: boundaries that meet at {stop:.2f} m are {high - low:.2f} m apart"
+                    text = f"Group {name!r} on {axis}: what meets at {stop:.2f} m is {high - low:.2f} m apart"
                     yield Flaw("misalignment", _band(layout, axis, low, high), text)
 
 

@@ -71,9 +71,9 @@ def survey_of(building: str) -> tuple[Design, Survey]:
         survey = load_survey(building)
     except SurveyError as error:
         raise DesignError(Fault("", str(error))) from None
-    own = [name for name in gallery.names() if name.endswith(f"-{building}")]
-    if own:
-        return gallery.load(own[0]), survey
+    own = f"ingolstadt-{building}"  # as the gallery names designs of surveyed buildings
+    if own in gallery.names():
+        return gallery.load(own), survey
     size = [round(side + _ROOM, 1) for side in (survey.width, survey.height)]
     return empty(f"Building {building}", *size), survey
 

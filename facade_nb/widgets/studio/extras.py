@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -84,7 +85,10 @@ class Extras(ModelWire):
             return work()
 
         async def send() -> None:
-            self.send({**await loop.run_in_executor(None, work), **tag})
+            try:
+                self.send({**await loop.run_in_executor(None, work), **tag})
+            except Exception:  # as in `Channel._answer`: shown under the widget, not lost in a log
+                self.trouble = traceback.format_exc()
 
         task = loop.create_task(send())
         self._tasks.add(task)
@@ -93,19 +97,27 @@ class Extras(ModelWire):
 
     _tasks: set[asyncio.Task[None]] = set()  # noqa: RUF012  (a loop keeps no task alive by itself)
 
+    def tell_stage(self) -> None:
+        """Send what is to be said of the stage: it has changed by itself."""
+        if not self._asleep:
+            self.stage = self._stage()
+
+    def _stage(self) -> Json:
+        model = self.model
+        return {
+            "facts": describe_facts(model.layout),
+            "remedies": [{"warning": one.warning, "text": one.text} for one in remedies(model)],
+            "limit": model.time_limit,
+            "keeping": self.keeper.describe() if self.keeper is not None else {"state": "off"},
+        }
+
     def _describe_extras(self, theme: str) -> None:
         """Bring the traits up to date; each costs something only where its cause has changed."""
         model = self.model
         design, layout = model.design, model.layout
         if self._changed("document", design):
             self.document = model.save()
-        keeping = self.keeper.describe() if self.keeper is not None else {"state": "off"}
-        self.stage = {
-            "facts": describe_facts(layout),
-            "remedies": [{"warning": one.warning, "text": one.text} for one in remedies(model)],
-            "limit": model.time_limit,
-            "keeping": keeping,
-        }
+        self.stage = self._stage()
         if self._changed("marks", layout, self._wanted("marks")):
             self.marks = _marks(layout) if layout is not None and self._wanted("marks") else {}
         if self._changed("naive", layout, self._wanted("naive")):

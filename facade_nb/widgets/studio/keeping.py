@@ -9,7 +9,7 @@ import re
 import secrets
 import socket
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -99,13 +99,14 @@ class Keeper:
     ----------
     state
         ``on``; ``restored``: a kernel that has gone had kept this design, and it was brought back; ``offered``:
-        something else was kept, and can be brought back; ``elsewhere``: another kernel keeps it there, and nothing is written;
-        ``failed``: it cannot be written.
+        something else was kept, and can be brought back; ``elsewhere``: another kernel keeps it there, and nothing
+        is written; ``failed``: it cannot be written.
     """
 
-    def __init__(self, model: FacadeModel, path: Path) -> None:
+    def __init__(self, model: FacadeModel, path: Path, told: Callable[[], None] = lambda: None) -> None:
         self.model = model
         self.path = path
+        self._told = told
         self.state: State = "on"
         self.reason = ""
         self._origin = self._last = model.design
@@ -178,6 +179,12 @@ class Keeper:
 
     def write(self) -> None:
         """Write the file now, unless it is another kernel's."""
+        before = self.state
+        self._write()
+        if self.state != before:
+            self._told()
+
+    def _write(self) -> None:
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None

@@ -103,7 +103,7 @@ class Studio(MassingView):
         if name is not None:
             place = (place[0] if place else "designs", name)
         if place is not None:
-            self.channel.keeper = Keeper(self.model, kept_path(*place))
+            self.channel.keeper = Keeper(self.model, kept_path(*place), self.channel.tell_stage)
             self.model.wait(FIRST)
             self.channel.publish()
 

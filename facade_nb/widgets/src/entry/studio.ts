@@ -65,6 +65,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   const root = h("div", { class: `fnb fnb-part-${part}` });
   root.append(make({ store, signal, notify }, model), noticeArea);
   mark(root, "inert", store.kernel.presence === "saved");
+  const saves = part === "studio" || part === "toolbar";
   absence(root, store.kernel, signal, {
     what: "façade",
     unsent: () => store.waits,
@@ -74,7 +75,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
         state === "on" || state === "restored"
           ? "Run the cell again: the design comes back."
           : "Run the cell again to go on.";
-      return `${kept} Save writes it as a file, without a kernel too.`;
+      return saves ? `${kept} Save writes it as a file, without a kernel too.` : kept;
     },
   });
   link(root, store.prefix, signal);

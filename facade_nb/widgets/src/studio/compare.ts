@@ -5,6 +5,8 @@ import type { MakePart } from "./common.ts";
 import { factsTable } from "./facts.ts";
 
 const NOW = "now";
+/** The event that tells a view that it is looked at. */
+export const SHOWN = "fnb-shown";
 
 /** Two snapshots side by side, or one and the design as it is now. */
 export const compare: MakePart = ({ store }) => {
@@ -45,6 +47,7 @@ export const compare: MakePart = ({ store }) => {
   );
   let listed = "";
   const list = () => {
+    if (el.hidden) return;
     const all = store.get("snapshots");
     const names = [...all.map((one) => [String(one.number), `Snapshot ${one.number}`]), [NOW, "Now"]] as [
       string,
@@ -77,6 +80,7 @@ export const compare: MakePart = ({ store }) => {
       side.back.disabled = side.forget.disabled = !chosen;
     }
   };
+  el.addEventListener(SHOWN, list);
   store.watch(["snapshots", "svg", "stage", "design"], list);
   return el;
 };

@@ -10,6 +10,7 @@ import {
   dimensionsOf,
   gridOf,
   groupsOf,
+  legendOf,
   lettersOf,
   NEEDS_MARKS,
   rectOf,
@@ -37,8 +38,8 @@ export const elevation: MakePart = (context) => {
   const { store, signal } = context;
   const overlay = svg("svg", { class: "fnb-overlay", "aria-hidden": "true" });
   const hover = svg("rect", { class: "fnb-hover", visibility: "hidden" });
-  const picks = svg("g");
-  const lit = svg("g");
+  const picks = svg("g", { class: "fnb-outlines" });
+  const lit = svg("g", { class: "fnb-outlines" });
   const under = svg("g");
   const over = svg("g", { class: "fnb-marks" });
   const naive = naiveView(() => ask("naive", naive.on));
@@ -53,12 +54,14 @@ export const elevation: MakePart = (context) => {
     "data-local": true,
     "data-beside": true,
   });
+  const legend = h("div", { class: "fnb-mark-legend", role: "note", "aria-label": "Groups", hidden: true });
   const stage = h(
     "div",
     { class: "fnb-paper", tabindex: 0, role: "group", "aria-label": "Elevation: arrow keys go from shape to shape" },
     sheet,
     tag,
     tools,
+    legend,
     naive.el,
     empty,
     invitation(context),
@@ -151,6 +154,9 @@ export const elevation: MakePart = (context) => {
       ...show("survey", surveyed),
     );
     mark(stage, "data-holes", String(on.has("holes")));
+    const used = groups.filter((group) => layers.some(({ x, y }) => x.group === group || y.group === group));
+    legend.replaceChildren(...(on.has("groups") || on.has("grid") ? legendOf(groups, used) : []));
+    legend.hidden = legend.childElementCount === 0;
     naive.show(own, store.get("naive"));
   };
   const surveyed = (sheet: Sheet) =>

@@ -43,7 +43,6 @@ export const exploded: MakePart = ({ store, signal }) => {
     if (shape) store.ask({ op: "select", shape: Number(shape) });
     else store.ask(layer ? { op: "select", layer } : { op: "select" });
   });
-  store.ask({ op: "want", what: "exploded", on: true });
   signal.addEventListener("abort", () => {
     shown = "";
   });

@@ -1,8 +1,8 @@
 // What is drawn over the façade: alignment grid, letters, transparent letters, groups, dimension chains, the survey. All of
 // it is made here from numbers, so that switching one on or off asks for no new picture.
 
-import { svg } from "../shared/dom.ts";
-import { boxOf, type Drawing } from "../shared/drawing.ts";
+import { h, svg } from "../shared/dom.ts";
+import { type Box, boxOf, type Drawing } from "../shared/drawing.ts";
 import type { MarkedGroup, Marks, Rect } from "../shared/stage.ts";
 import { AXES, type Axis, type LayerState } from "../shared/types.ts";
 
@@ -68,8 +68,15 @@ export function gridOf(sheet: Sheet, marks: Marks, groups: string[]): SVGElement
 
 /** The two symbols of each cell, where there is room for them. */
 export function lettersOf(sheet: Sheet, shapes: Element[]): SVGElement[] {
-  return shapes.slice(0, MOST).flatMap((shape) => {
-    const box = boxOf(shape);
+  const boxes = shapes.slice(0, MOST).map(boxOf);
+  // Where a shape of a higher layer stands in the middle, the letters are its.
+  const hidden = (box: Box, i: number) => {
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    return boxes.some((own, k) => k > i && x > own.x && x < own.x + own.width && y > own.y && y < own.y + own.height);
+  };
+  return boxes.flatMap((box, i) => {
+    const shape = shapes[i];
+    if (!shape || hidden(box, i)) return [];
     const words = `${shape.getAttribute("data-x")} ${shape.getAttribute("data-y")}`;
     const size = Math.min(13 / sheet.scale, box.height * 0.6, box.width / (0.62 * words.length));
     if (size * sheet.scale < 5) return [];
@@ -91,7 +98,8 @@ export function transparentOf(sheet: Sheet, marks: Marks): SVGElement[] {
         cell.setAttribute("class", "fnb-mark-clear");
         drawn.push(cell);
         const words = clearX && clearY ? `${x} ${y}` : clearX ? x : y;
-        const [cx, cy] = at(sheet, (left + right) / 2, (bottom + top) / 2);
+        // In the upper part of the cell: in its middle other layers write theirs.
+        const [cx, cy] = at(sheet, (left + right) / 2, bottom + 0.82 * (top - bottom));
         const size = Math.min(11 / sheet.scale, ((right - left) * sheet.drawing.scale) / (0.7 * words.length));
         if (size * sheet.scale >= 5) drawn.push(text(cx, cy, size, words, "fnb-mark-clear-letter"));
       }
@@ -115,6 +123,11 @@ export function groupsOf(shapes: Element[], layers: LayerState[], groups: string
     });
     return [tint, line];
   });
+}
+
+/** Which colour is which group's, for those that are in use. */
+export function legendOf(groups: string[], used: string[]): HTMLElement[] {
+  return used.map((group) => h("span", { class: `fnb-mark-key fnb-hue-${hueOf(groups, group)}` }, group));
 }
 
 /** Chains of dimensions at the foot and at the left: columns where there is room for their figures, then the whole. */

@@ -5,11 +5,11 @@ import { boxOf, type Drawing } from "../shared/drawing.ts";
 import type { Flaw, Rect, StageState } from "../shared/stage.ts";
 import { rectOf, type Sheet } from "./marks.ts";
 
-const KINDS: Record<Flaw["kind"], string> = {
-  misalignment: "misaligned",
-  occlusion: "covered",
-  hole: "hole",
-  beyond: "too long",
+const KINDS: Record<Flaw["kind"], [one: string, many: string]> = {
+  misalignment: ["boundary apart", "boundaries apart"],
+  occlusion: ["place covered", "places covered"],
+  hole: ["hole", "holes"],
+  beyond: ["word too long", "words too long"],
 };
 /** Flaws that are drawn at most. */
 const MOST = 300;
@@ -71,6 +71,8 @@ export function naiveView(changed: () => void): NaiveView {
     const own = sheet.drawing.svg;
     const moves = on && t < 1 && naive.shapes !== undefined;
     mark(own, "data-naive", moves);
+    // What is picked is outlined where it is aligned.
+    if (flaws.ownerSVGElement) mark(flaws.ownerSVGElement, "data-naive", moves);
     for (const shape of own.querySelectorAll<SVGGElement>("[data-shape]")) {
       const from = moves ? naive.shapes?.[Number(shape.dataset.shape)] : undefined;
       if (!from) {
@@ -125,7 +127,7 @@ export function naiveView(changed: () => void): NaiveView {
 export function summary(flaws: Flaw[], t: number): string {
   if (t === 1) return "Aligned: as it is solved";
   if (flaws.length === 0) return "Nothing is wrong side by side";
-  const counts = new Map<string, number>();
-  for (const { kind } of flaws) counts.set(KINDS[kind], (counts.get(KINDS[kind]) ?? 0) + 1);
-  return [...counts].map(([kind, count]) => `${count} ${kind}`).join(", ");
+  const counts = new Map<Flaw["kind"], number>();
+  for (const { kind } of flaws) counts.set(kind, (counts.get(kind) ?? 0) + 1);
+  return [...counts].map(([kind, count]) => `${count} ${KINDS[kind][count === 1 ? 0 : 1]}`).join(", ");
 }

@@ -152,7 +152,7 @@ function keeping(store: Store): HTMLElement {
   const answers = h("span", { class: "fnb-suggestions" });
   const el = h(
     "div",
-    { class: "fnb-notice fnb-kept", role: "status", hidden: true },
+    { class: "fnb-kept", role: "status", hidden: true },
     h("div", { class: "fnb-notice-body" }, text, answers),
   );
   let shown = "";

@@ -2,7 +2,7 @@ import { h, mark } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { canvas } from "./canvas.ts";
 import { type Context, type MakePart, section } from "./common.ts";
-import { compare } from "./compare.ts";
+import { compare, SHOWN } from "./compare.ts";
 import { counters } from "./counters.ts";
 import { elevation } from "./elevation.ts";
 import { exploded } from "./exploded.ts";
@@ -38,6 +38,7 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
 
   let massingView: HTMLElement | null = null;
   const others = new Map<string, HTMLElement>();
+  let apart = false;
   const tabs = (Object.keys(VIEWS) as View[]).map((view) => {
     const tab = h("button", { type: "button", class: "fnb-tab", "data-local": true }, VIEWS[view]);
     tab.addEventListener("click", () => choose(view));
@@ -52,6 +53,10 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
       stage.append(massingView);
     }
     if (massingView) massingView.hidden = view !== "massing" && view !== "both";
+    if ((view === "exploded") !== apart) {
+      apart = !apart;
+      store.ask({ op: "want", what: "exploded", on: apart });
+    }
     for (const [name, make] of Object.entries(OTHERS)) {
       let own = others.get(name);
       if (!own && view === name) {
@@ -59,7 +64,9 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
         others.set(name, own);
         stage.append(own);
       }
-      if (own) own.hidden = view !== name;
+      if (!own) continue;
+      own.hidden = view !== name;
+      if (!own.hidden) own.dispatchEvent(new Event(SHOWN));
     }
     if (model.get("view") !== view) {
       model.set("view", view);

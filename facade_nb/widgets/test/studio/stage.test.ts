@@ -188,7 +188,7 @@ test("flaws are counted by kind", () => {
     { kind: "hole", rect, text: "" },
     { kind: "occlusion", rect, text: "" },
   ] as const;
-  expect(summary([...flaws], 0)).toBe("2 hole, 1 covered");
+  expect(summary([...flaws], 0)).toBe("2 holes, 1 place covered");
   expect(summary([...flaws], 1)).toContain("Aligned");
   expect(summary([], 0)).toContain("Nothing is wrong");
 });
@@ -232,7 +232,7 @@ function told(changes: Partial<State> = {}) {
   document.body.append(el);
   const reply = (content: Record<string, unknown>, seq = 1) =>
     channel.emit("msg:custom", { client: store.client, seq, ...content });
-  const notice = () => el.querySelector<HTMLElement>(".fnb-notice:not(.fnb-kept)");
+  const notice = () => el.querySelector<HTMLElement>(".fnb-notice");
   return { channel, store, el, reply, notice };
 }
 
