@@ -17,12 +17,12 @@ uniform vec3 sun;
 
 layout(location = 0) out highp vec4 out_color;     // alpha: 2 and how much of the sun the relief takes, where it takes any
 layout(location = 1) out highp vec4 out_normal;    // of length 1 out of doors, 0 in a room; how near a boundary is, in pixels
-layout(location = 2) out highp vec4 out_specular;  // and how far the pixel lies behind its wall; NOTHING where there is nothing
+layout(location = 2) out highp vec4 out_specular;  // and how far the pixel lies behind its wall; NOWHERE where there is nothing
 #ifdef PICK
 layout(location = 3) out highp ivec4 out_terminal;
 #endif
 
-const highp float NOTHING = -6e4;  // before the camera, where no pixel lies
+const highp float NOWHERE = -6e4;  // before the camera, where no pixel lies
 
 void main() {
   vec2 share = share_of(facing);
@@ -96,7 +96,7 @@ void main() {
 #endif
   vec3 turned = 2.0 * (found.normal.xyz + (1.0 - found.normal.a) * vec3(0.5, 0.5, 1.0)) - 1.0;
   out_normal = vec4(turned.x * tangent + turned.y * up + turned.z * face.xyz, min(margin, 9.0));
-  out_specular = vec4(found.specular.rgb, found.color.a > 0.0 ? (1.0 - parallel) * deep / extent : NOTHING);
+  out_specular = vec4(found.specular.rgb, found.color.a > 0.0 ? (1.0 - parallel) * deep / extent : NOWHERE);
 #ifdef COUNT_FETCHES
   out_color = vec4(float(fetches));  // in place of what is seen, for a bench
 #endif
