@@ -118,7 +118,7 @@ class Pass:
     options: tuple[str, ...] = ()
 
 
-SHADOW = 2048
+SHADOW = 1728
 """Texels of each side of a map of shadows."""
 
 BUFFERS: tuple[Buffer, ...] = (

@@ -11,7 +11,7 @@ from facade_nb import gallery
 from facade_nb.render import Grammar
 from facade_nb.render.pipeline.device import choose_device
 from facade_nb.render.pipeline.frame import Frame
-from facade_nb.render.pipeline.passes import BUFFERS, PASSES, Buffer, Pass, image_bytes, shared, without
+from facade_nb.render.pipeline.passes import BUFFERS, PASSES, SHADOW, Buffer, Pass, image_bytes, shared, without
 from facade_nb.render.pipeline.renderer import renderer_of
 from facade_nb.render.pipeline.scene import Scene
 from facade_nb.render.pipeline.viewpoint import Viewpoint
@@ -85,7 +85,7 @@ def test_a_picture_is_the_same_whatever_else_is_read() -> None:
 
 
 def test_bytes_of_a_pixel() -> None:
-    maps = 2 * 2048 * 2048 * 4
+    maps = 2 * SHADOW * SHADOW * 4
     assert image_bytes(PIXELS) == maps + 94 * 1024 * 768
     assert image_bytes(PIXELS, whole=ALL) == maps + 110 * 1024 * 768
 

@@ -20,6 +20,7 @@ from facade_nb.render.pipeline.passes import (
     FACADE,
     PAGE,
     PASSES,
+    SHADOW,
     Buffer,
     Pass,
     arranged,
@@ -77,7 +78,7 @@ class TestPasses:
     def test_sizes_of_buffers(self) -> None:
         sizes = {own.name: own.size((101, 60)) for own in BUFFERS}
         assert sizes["color"] == (101, 60) and sizes["softened"] == (51, 30)
-        assert sizes["shadow_far"] == sizes["shadow_near"] == (2048, 2048)
+        assert sizes["shadow_far"] == sizes["shadow_near"] == (SHADOW, SHADOW)
 
     @pytest.mark.parametrize("profile", ["core", "es"])
     def test_shaders_compile_for_desktops_and_browsers(self, profile: str) -> None:

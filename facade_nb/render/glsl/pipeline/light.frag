@@ -1,9 +1,9 @@
 // Light that comes from each pixel, linear: sun, sky and what the ground throws back, lamps (NumPy: daytime.py).
 #include "light.glsl"
+#include "pixel.glsl"
 #ifndef ALONE
 #include "sunlit.glsl"
 #endif
-#include "pixel.glsl"
 #include "view.glsl"
 
 uniform highp sampler2D color;
