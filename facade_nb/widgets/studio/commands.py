@@ -127,9 +127,9 @@ def _add_layer(design: Design) -> tuple[Design, str]:
             design = with_pattern(design, own, "ε")
     top = layers_from_top(design)[:1]
     name = _free((), [layer.name for layer in design.layers], "layer ")
-    depth = {"depth": top[0].depth} if top else {}
+    depth = top[0].depth if top else 0
     shapes = {"* *": {"visible": False}}
-    return add_layer(design, name, x, y, shapes=shapes, **depth), name
+    return add_layer(design, name, x, y, depth=depth, shapes=shapes), name
 
 
 def _newest(design: Design) -> tuple[str, str]:

@@ -115,7 +115,8 @@ def _write(design: Design, name: str, text: str, known: Newcomers) -> tuple[Desi
                 mask = kept(place, side.mask or ())
                 # Where all that was to be seen is typed away, what is typed instead is seen.
                 shown = mask if mask or not lists.get(place) else None
-                layer = replace(layer, **{axis: replace(side, mask=shown)})
+                side = replace(side, mask=shown)
+                layer = replace(layer, x=side) if axis == "x" else replace(layer, y=side)
         layers.append(layer)
     pattern = PatternDef(name, text, hidden, before.shapes)
     changed = replace(design, patterns={**design.patterns, name: pattern}, layers=tuple(layers))
@@ -162,8 +163,8 @@ def _keep_named(design: Design, known: Iterable[str], symbols: dict[str, Symbol]
     if not gone:
         return
     known = gone | written | set(symbols)
-    owners = (design, *design.patterns.values(), *design.layers)
-    for key in (key for owner in owners for key in owner.shapes):
+    owners = [design.shapes, *(own.shapes for own in (*design.patterns.values(), *design.layers))]
+    for key in (key for shapes in owners for key in shapes):
         for pair in meanings(key, known):
             for name, _ in pair:
                 if name in gone:

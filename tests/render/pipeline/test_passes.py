@@ -265,7 +265,7 @@ class TestSunlight:
         steps = []
         for x in np.linspace(10, 11, 7):
             frustum = Viewpoint((x, 1.7, 20.0)).frustum((64, 48))
-            steps.append((sunlight((0.36, 0.8, 0.48), frustum, box).near @ [0, 0, 0, 1])[:2] * 1024)
+            steps.append((sunlight((0.36, 0.8, 0.48), frustum, box).near @ [0, 0, 0, 1])[:2] * SHADOW / 2)
         moved = np.array(steps) - steps[0]
         assert moved == pytest.approx(np.round(moved), abs=1e-6) and np.abs(moved).max() > 3
 
