@@ -163,7 +163,8 @@ def _keep_named(design: Design, known: Iterable[str], symbols: dict[str, Symbol]
     if not gone:
         return
     known = gone | written | set(symbols)
-    owners = [design.shapes, *(own.shapes for own in (*design.patterns.values(), *design.layers))]
+    patterns = (own.shapes for own in design.patterns.values())
+    owners = [design.shapes, *patterns, *(layer.shapes for layer in design.layers)]
     for key in (key for shapes in owners for key in shapes):
         for pair in meanings(key, known):
             for name, _ in pair:
