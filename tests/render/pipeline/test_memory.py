@@ -11,7 +11,16 @@ from facade_nb import gallery
 from facade_nb.render import Grammar
 from facade_nb.render.pipeline.device import choose_device
 from facade_nb.render.pipeline.frame import Frame
-from facade_nb.render.pipeline.passes import BUFFERS, PASSES, SHADOW, Buffer, Pass, image_bytes, shared, without
+from facade_nb.render.pipeline.passes import (
+    BUFFERS,
+    PASSES,
+    SHADOW,
+    Buffer,
+    Pass,
+    image_bytes,
+    shared,
+    without,
+)
 from facade_nb.render.pipeline.renderer import renderer_of
 from facade_nb.render.pipeline.scene import Scene
 from facade_nb.render.pipeline.viewpoint import Viewpoint
