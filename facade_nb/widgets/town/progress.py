@@ -24,7 +24,7 @@ class TownProgress:
         from IPython import get_ipython
         from IPython.display import HTML, display
 
-        if get_ipython() is None:
+        if getattr(get_ipython(), "kernel", None) is None:  # IPython in a terminal has none
             return
         shown = HTML(_html(share, name, time.perf_counter() - self._began))
         if self._handle is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import IPython
@@ -30,7 +31,7 @@ def test_it_tells_each_stage_in_one_place(monkeypatch: pytest.MonkeyPatch) -> No
         displayed.append(html.data)
         return Handle(shown)
 
-    monkeypatch.setattr(IPython, "get_ipython", object)
+    monkeypatch.setattr(IPython, "get_ipython", lambda: SimpleNamespace(kernel=object()))
     monkeypatch.setattr(IPython.display, "display", display)
     stages: list[tuple[float, str]] = []
     progress = TownProgress()
@@ -49,6 +50,10 @@ def test_it_tells_each_stage_in_one_place(monkeypatch: pytest.MonkeyPatch) -> No
     assert "progress max" not in shown[-1]
 
 
-def test_outside_a_notebook_it_shows_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("shell", [None, object()], ids=["Python", "IPython in a terminal"])
+def test_outside_a_notebook_it_shows_nothing(
+    shell: object, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(IPython, "get_ipython", lambda: shell)
     TownProgress()(0.5, "roofs")
     assert capsys.readouterr() == ("", "")
