@@ -67,9 +67,10 @@ class Kept:
     @property
     def alive(self) -> bool:
         """Whether the kernel that wrote it still runs, as far as can be told from here."""
-        if self.writer.get("host") != _SELF["host"]:
-            return time.time() - self.when < 3600.0
         pid = self.writer.get("pid")
+        elsewhere = self.writer.get("host") != _SELF["host"]
+        if elsewhere or (os.name == "nt" and pid != os.getpid()):  # there, to ask a process is to interrupt it
+            return time.time() - self.when < 3600.0
         if not isinstance(pid, int) or pid <= 0:
             return False
         if pid == os.getpid():
