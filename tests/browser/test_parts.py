@@ -64,7 +64,8 @@ def test_every_control_has_a_name_and_keeps_its_keys(show: Show) -> None:
     lab = show("Studio(model)")
     nameless = lab.page.evaluate(
         """() => [...document.querySelectorAll('.fnb :is(button, input, select, textarea, [tabindex])')]
-            .filter(e => !(e.ariaLabel || e.textContent.trim()) || e.dataset.lmSuppressShortcuts !== 'true')
+            .filter(e => !(e.ariaLabel || e.textContent.trim() || [...e.labels ?? []].some(l => l.textContent.trim()))
+                || e.dataset.lmSuppressShortcuts !== 'true')
             .map(e => e.outerHTML)"""
     )
     assert nameless == []

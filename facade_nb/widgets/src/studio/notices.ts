@@ -149,7 +149,7 @@ export function keptSaying({ state, name, when, reason }: Keeping): [text: strin
 
 function keeping(store: Store): HTMLElement {
   const text = h("span", {});
-  const answers = h("span", { class: "fnb-suggestions" });
+  const answers = h("span", { class: "fnb-answers" });
   const el = h(
     "div",
     { class: "fnb-kept", role: "status", hidden: true },

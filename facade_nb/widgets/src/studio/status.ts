@@ -69,7 +69,7 @@ function describe(store: Store): [state: string, sentence: string] {
   }
   if (status.message) return ["none", status.message];
   if (status.busy) return ["busy", "Solving…"];
-  if (!status.solved) return ["off", "Nothing to solve yet"];
+  if (!status.solved || !store.get("design").layers.length) return ["off", "Nothing to solve yet"];
   if (!status.solved.complete) return ["warn", `Best layout found in ${time(status.milliseconds)}, not proven`];
   return [status.solved.warnings.length ? "warn" : "good", `Solved in ${time(status.milliseconds)}`];
 }
@@ -80,7 +80,7 @@ function time(milliseconds: number): string {
 
 function describeFacts(store: Store): string {
   const { solved } = store.get("status");
-  if (!solved) return "";
+  if (!solved || !store.get("design").layers.length) return "";
   const { x, y } = solved.deviation;
   return [
     `${solved.shapes} ${solved.shapes === 1 ? "shape" : "shapes"}`,
