@@ -8,13 +8,13 @@ from __future__ import annotations
 import base64
 
 import numpy as np
+from playwright.sync_api import Browser
 
 from facade_nb.render import Grammar
 from facade_nb.render.pipeline.passes import PASSES
 from facade_nb.render.texture.shaders import room, shader
 from facade_nb.render.texture.uploads import grammar_upload
 
-from .jupyter import browse
 from .waiting import LIMIT
 
 GRAMMAR = """
@@ -88,7 +88,7 @@ DRAW = """
 """
 
 
-def test_a_start_that_is_no_rule_ends() -> None:
+def test_a_start_that_is_no_rule_ends(browser: Browser) -> None:
     grammar = Grammar.parse(GRAMMAR)
     question = grammar.question((1.0, 1.0))
     own = next(one for one in PASSES if one.name == "grammar")
@@ -113,8 +113,8 @@ def test_a_start_that_is_no_rule_ends() -> None:
         name: [w, h, base64.b64encode(np.ascontiguousarray(content, np.float32).tobytes()).decode()]
         for name, (w, h, content) in images.items()
     }
-    with browse() as chromium:  # one of its own, for others would wait for it
-        told = chromium.new_page().evaluate(DRAW, [shader(own.vertex, "es"), fragment, given, SIDE, LIMIT])
+    with browser.new_page() as page:
+        told = page.evaluate(DRAW, [shader(own.vertex, "es"), fragment, given, SIDE, LIMIT])
     colours = np.array(told).reshape(SIDE, SIDE, 4)
     column, row = question.records[question.start].place
     begun = (starts[..., 0] == column) & (starts[..., 1] == row)
