@@ -50,7 +50,7 @@ READ = """canvas => {
     for (let at = 0; at < data.length; at += 8192) text += String.fromCharCode(...data.subarray(at, at + 8192));
     return [canvas.width, canvas.height, btoa(text)];
 }"""
-CONTEXT = 'globalThis[Symbol.for("facade_nb.town.context")]'
+CONTEXT = 'globalThis[Symbol.for("facade_nb.pipeline.context")]'
 SESSION = "window.jupyterapp.shell.currentWidget.sessionContext.session"
 SPIED = """limits => {
     const own = WebGL2RenderingContext.prototype;
@@ -238,7 +238,7 @@ def test_where_images_are_too_small_the_view_says_so_and_the_rest_goes_on(town: 
     try:
         town.show()
         note = town.page.locator(".fnb-town-note")
-        expect(note).to_contain_text("at most 1024 pixels a side; this town takes 2048")
+        expect(note).to_contain_text("at most 1024 pixels a side; this town takes 1728")
         expect(town.lab.field("Grammar")).to_be_editable()
         town.tell("view.model.chosen = 3")
         expect(town.page.locator(".fnb-town-facts")).to_contain_text("Building 3")
