@@ -69,7 +69,9 @@ class Kept:
         """Whether the kernel that wrote it still runs, as far as can be told from here."""
         pid = self.writer.get("pid")
         elsewhere = self.writer.get("host") != _SELF["host"]
-        if elsewhere or (os.name == "nt" and pid != os.getpid()):  # there, to ask a process is to interrupt it
+        if elsewhere or (
+            os.name == "nt" and pid != os.getpid()
+        ):  # there, to ask a process is to interrupt it
             return time.time() - self.when < 3600.0
         if not isinstance(pid, int) or pid <= 0:
             return False
