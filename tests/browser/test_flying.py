@@ -14,6 +14,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from .conftest import Visit
 from .jupyter import Notebook
+from .town_page import CANVAS, CONTEXT, READ, SESSION
 from .waiting import eventually, frames, until
 
 HEAD = """
@@ -43,15 +44,6 @@ view = TownView(town, "street", height=200, layout={{"width": "360px"}}{more})
 view
 """
 
-CANVAS = ".fnb-town-view .fnb-town-canvas"
-READ = """canvas => {
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    let text = "";
-    for (let at = 0; at < data.length; at += 8192) text += String.fromCharCode(...data.subarray(at, at + 8192));
-    return [canvas.width, canvas.height, btoa(text)];
-}"""
-CONTEXT = 'globalThis[Symbol.for("facade_nb.pipeline.context")]'
-SESSION = "window.jupyterapp.shell.currentWidget.sessionContext.session"
 SPIED = """limits => {
     const own = WebGL2RenderingContext.prototype;
     window.imagesOnce ??= own.texImage2D;

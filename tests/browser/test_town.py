@@ -15,6 +15,7 @@ from playwright.sync_api import Locator, expect
 from .conftest import Visit
 from .jupyter import Notebook
 from .keys import slide
+from .town_page import CANVAS, CONTEXT, READ, SESSION
 from .waiting import eventually, frames
 
 HEAD = """
@@ -41,16 +42,6 @@ def within(place):
     spot = shapely.Point(place.eye[0], -place.eye[2])
     return sum(shapely.Polygon(ring).contains(spot) for ring in rings) % 2 == 1
 """
-
-CANVAS = ".fnb-town-view .fnb-town-canvas"
-READ = """canvas => {
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    let text = "";
-    for (let at = 0; at < data.length; at += 8192) text += String.fromCharCode(...data.subarray(at, at + 8192));
-    return [canvas.width, canvas.height, btoa(text)];
-}"""
-CONTEXT = 'globalThis[Symbol.for("facade_nb.pipeline.context")]'
-SESSION = "window.jupyterapp.shell.currentWidget.sessionContext.session"
 
 
 class Shown:
