@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -124,9 +124,10 @@ def post_lamp(canvas: Canvas, seed: int) -> None:
     rod(0.75, 0.82, 0.11)
     rod(0.82, h - 0.72, 0.05)
     rod(h - 1.02, h - 0.96, 0.09)
-    shape: Callable[[float, float, float, float], list[tuple[float, float]]] = lambda a, b, low, high: [  # noqa: E731
-        (middle - a, low), (middle + a, low), (middle + b, high), (middle - b, high)
-    ]  # fmt: skip
+
+    def shape(a: float, b: float, low: float, high: float) -> list[tuple[float, float]]:
+        return [(middle - a, low), (middle + a, low), (middle + b, high), (middle - b, high)]
+
     canvas.lay(canvas.cover(canvas.polygon_distance(shape(0.15, 0.25, h - 0.72, h - 0.2))), iron, gloss=0.3)
     for left in (True, False):
         pane = [

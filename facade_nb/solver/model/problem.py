@@ -46,13 +46,6 @@ class AxisProblem:
         """Symbols by name."""
         return dict(self.symbols)
 
-    def with_counters(self, values: Mapping[str, int]) -> AxisProblem:
-        """The same with some counters fixed."""
-        fixed = tuple(
-            (n, Counter(n, v, v, v)) if (v := values.get(n)) is not None else (n, c) for n, c in self.counters
-        )
-        return AxisProblem(self.axis, self.canvas, self.groups, self.patterns, self.symbols, fixed)
-
 
 def axis_problem(design: Design, axis: Axis) -> AxisProblem:
     """Extract what an axis depends on."""

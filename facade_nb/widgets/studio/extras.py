@@ -6,7 +6,7 @@ import asyncio
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ipywidgets import Widget
 from traitlets import Dict, List, Unicode
@@ -95,7 +95,7 @@ class Extras(ModelWire):
         task.add_done_callback(self._tasks.discard)
         return None
 
-    _tasks: set[asyncio.Task[None]] = set()  # noqa: RUF012  (a loop keeps no task alive by itself)
+    _tasks: ClassVar[set[asyncio.Task[None]]] = set()  # a loop keeps no task alive by itself
 
     def tell_stage(self) -> None:
         """Send what is to be said of the stage: it has changed by itself."""
