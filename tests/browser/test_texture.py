@@ -311,6 +311,15 @@ def test_the_step_looked_at_is_in_sight(live: Live) -> None:
     lab.page.locator(".fnb-tex-steps button").first.click()
     frames(lab.page)
     until(lab.page, lambda: current.evaluate(seen) and pixel.evaluate(seen))
+    # What is looked at while the parts are hidden is in sight when they are shown.
+    hide = "(parts, shown) => parts.forEach((part) => { part.style.display = shown ? '' : 'none'; })"
+    parts = lab.page.locator(".fnb-tex-inspector, .fnb-tex-table")
+    parts.evaluate_all(hide, False)
+    lab.python("model.pick((9.3, 2.0)) and None")
+    expect(lab.page.locator(".fnb-tex-inspector [role=status]")).to_contain_text("At 9.30, 2.00 m")
+    frames(lab.page)
+    parts.evaluate_all(hide, True)
+    until(lab.page, lambda: current.evaluate(seen) and pixel.evaluate(seen))
 
 
 LOSE = """() => {

@@ -1,6 +1,7 @@
 // How the pixel that was clicked came about, step by step.
 
 import { h, mark, setText } from "../shared/dom.ts";
+import { revealer } from "./revealing.ts";
 import type { Session } from "./session.ts";
 import type { Step } from "./types.ts";
 
@@ -12,18 +13,11 @@ export function about({ scope, seeds, faces }: Step): string {
   return `Scope ${left} to ${right} × ${bottom} to ${top} m${on}; seed stack: ${stack}`;
 }
 
-/** Scroll a list, and nothing around it, until a row of it is seen; where it is seen already, it stays. */
-export function reveal(list: HTMLElement, row: Element | null | undefined, head = 0): void {
-  if (!row) return;
-  const [outer, inner] = [list.getBoundingClientRect(), row.getBoundingClientRect()];
-  if (inner.top < outer.top + head) list.scrollTop += inner.top - outer.top - head;
-  else if (inner.bottom > outer.top + list.clientHeight) list.scrollTop += inner.bottom - outer.top - list.clientHeight;
-}
-
 export function inspector(session: Session, signal: AbortSignal): HTMLElement {
   const head = h("div", { class: "fnb-tex-hint", role: "status" });
   const list = h("ol", { class: "fnb-tex-steps" });
   const detail = h("div", { class: "fnb-tex-detail" });
+  const reveal = revealer(list, signal);
   let shown: unknown = null;
   list.addEventListener("keydown", (event) => {
     const by = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
@@ -67,7 +61,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
     [...list.children].forEach((row, k) => {
       mark(row, "aria-current", k === session.step ? "step" : null);
     });
-    reveal(list, list.children[session.step]);
+    reveal(list.children[session.step]);
     const now = steps[session.step];
     setText(detail, now ? about(now) : "");
     detail.hidden = !now;

@@ -2,7 +2,7 @@
 // pixel looked into has read is lit.
 
 import { h, mark } from "../shared/dom.ts";
-import { reveal } from "./inspector.ts";
+import { revealer } from "./revealing.ts";
 import type { Session } from "./session.ts";
 
 export function table(session: Session, signal: AbortSignal): HTMLElement {
@@ -24,6 +24,7 @@ export function table(session: Session, signal: AbortSignal): HTMLElement {
     h("table", {}, head, body),
     empty,
   );
+  const reveal = revealer(box, signal, () => head.offsetHeight);
   let shown: unknown = null;
   let cells = new Map<string, HTMLElement>();
   let looked = "";
@@ -60,7 +61,7 @@ export function table(session: Session, signal: AbortSignal): HTMLElement {
     const read = new Set(session.steps.flatMap((step) => step.records.map((at) => at.join())));
     const now = new Set(session.steps[session.step]?.records.map((at) => at.join()) ?? []);
     const first = [...now].join(" ");
-    if (first !== looked) reveal(box, cells.get([...now][0] ?? "")?.closest("tr"), head.offsetHeight);
+    if (first !== looked) reveal(cells.get([...now][0] ?? "")?.closest("tr"));
     if (cells.size) looked = first;
     for (const [at, cell] of cells) mark(cell, "data-lit", now.has(at) ? "now" : read.has(at) ? "read" : null);
   }, signal);
