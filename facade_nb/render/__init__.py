@@ -12,6 +12,7 @@ from .naive import Naive, naive_layout
 from .overlay import overlay_svg
 from .picture import render_png
 from .scene import Scene, Solid, build_scene
+from .splits import split_grammar
 from .texture import Grammar
 from .texture.from_layout import grammar_of
 
@@ -29,6 +30,7 @@ __all__ = [
     "naive_layout",
     "overlay_svg",
     "render_png",
+    "split_grammar",
     "to_glb",
     "write_glb",
 ]
