@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 
 from .design.model import AXES, Design
-from .render.splits import split_rules
+from .render.splits import Node, Shape, Split, Stack, children, rules_of, split_rules, split_tree
 from .solver import Layout, solve
 
-__all__ = ["Complexity", "complexity"]
+__all__ = ["Complexity", "Edits", "complexity", "edits"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,3 +61,89 @@ def complexity(design: Design, layout: Layout | None = None) -> Complexity:
         counters=len({counter for pattern in patterns for counter in pattern.counters}),
         split_rules=len(split_rules(layout)),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Edits:
+    """What was written to come from one design to another.
+
+    Attributes
+    ----------
+    patterns, layers
+        How many are new, changed or gone.
+    split_rules
+        How many rules of the split grammar are.
+    """
+
+    patterns: int
+    layers: int
+    split_rules: int
+
+
+def edits(before: Design, after: Design) -> Edits:
+    """Count what one edits in layers, and in split rules, to come from one design to another.
+
+    Rules of the two split grammars are paired from the axiom on, each with the one in its place. A rule is touched if
+    it has no partner, or if its parts are not those of its partner; sizes and numbers of repetitions are not counted.
+
+    Raises
+    ------
+    DesignError, NoLayout
+        As `solve` does.
+    """
+    return Edits(
+        patterns=_differing(
+            {name: pattern.text for name, pattern in before.patterns.items()},
+            {name: pattern.text for name, pattern in after.patterns.items()},
+        ),
+        layers=_differing(*({layer.name: (layer.x, layer.y) for layer in d.layers} for d in (before, after))),
+        split_rules=_touched(split_tree(solve(before)), split_tree(solve(after))),
+    )
+
+
+def _differing(before: Mapping[str, object], after: Mapping[str, object]) -> int:
+    return sum(before.get(name) != after.get(name) for name in {*before, *after})
+
+
+def _touched(before: Node, after: Node) -> int:
+    partner: dict[Node, Node] = {}  # of rules after the edit, and what it was before
+    waiting = [(before, after)]
+    taken = {before}
+    partner[after] = before
+    for old, new in waiting:
+        for was, now in _pairs(list(dict.fromkeys(children(old))), list(dict.fromkeys(children(new)))):
+            both = isinstance(was, Split | Stack) and isinstance(now, Split | Stack)
+            if both and now not in partner and was not in taken:
+                partner[now] = was
+                taken.add(was)
+                waiting.append((was, now))
+    changed = sum(
+        [partner.get(child, child) for child in dict.fromkeys(children(new))]
+        != list(dict.fromkeys(children(old)))
+        or _kind(old) != _kind(new)
+        for new, old in partner.items()
+    )
+    lone = len(set(rules_of(before)) - taken) + len(set(rules_of(after)) - set(partner))
+    return changed + lone
+
+
+def _kind(node: Node) -> str:
+    return (
+        node.axis
+        if isinstance(node, Split)
+        else node.name
+        if isinstance(node, Shape)
+        else type(node).__name__
+    )
+
+
+def _pairs(old: list[Node], new: list[Node]) -> Iterator[tuple[Node, Node]]:
+    """Parts that are in each other's place: equal ones first, then those of one kind."""
+    same = set(old) & set(new)
+    yield from ((node, node) for node in new if node in same)
+    old, new = ([node for node in nodes if node not in same] for nodes in (old, new))
+    matcher = SequenceMatcher(
+        None, [_kind(node) for node in old], [_kind(node) for node in new], autojunk=False
+    )
+    for i, j, count in matcher.get_matching_blocks():
+        yield from zip(old[i : i + count], new[j : j + count], strict=True)

@@ -21,7 +21,18 @@ from typing import Literal
 
 from ..solver.model.layout import Layout, PlacedShape
 
-__all__ = ["AXIOM", "split_grammar", "split_rules"]
+__all__ = [
+    "AXIOM",
+    "Node",
+    "Shape",
+    "Split",
+    "Stack",
+    "children",
+    "rules_of",
+    "split_grammar",
+    "split_rules",
+    "split_tree",
+]
 
 AXIOM = "Facade"
 SAME = 1e-6
@@ -29,22 +40,28 @@ SAME = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class _Shape:
+class Shape:
+    """A shape that fills its scope."""
+
     name: str
 
 
 @dataclass(frozen=True, slots=True)
-class _Stack:
-    nodes: tuple[_Node, ...]
+class Stack:
+    """What is drawn into one scope, the last on top."""
+
+    nodes: tuple[Node, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class _Split:
+class Split:
+    """Parts of a scope from the left, or from below, with their sizes in metres."""
+
     axis: Literal["x", "y"]
-    parts: tuple[tuple[float, _Node], ...]
+    parts: tuple[tuple[float, Node], ...]
 
 
-_Node = _Shape | _Stack | _Split | None
+Node = Shape | Stack | Split | None
 """What a scope is filled with; None: nothing."""
 
 
@@ -54,7 +71,7 @@ class _Item:
 
     box: tuple[int, int, int, int]
     layer: str
-    shape: _Shape
+    shape: Shape
 
 
 def split_grammar(layout: Layout) -> str:
@@ -78,14 +95,17 @@ def split_grammar(layout: Layout) -> str:
 
 def split_rules(layout: Layout) -> list[tuple[str, str]]:
     """Name and right side of each rule of `split_grammar`, the axiom first."""
+    root = split_tree(layout)
+    return [] if root is None else _Writing(root).rules
+
+
+def split_tree(layout: Layout) -> Node:
+    """What the axiom becomes; equal nodes are one rule."""
     across = _boundaries([layout.canvas.width, *(v for s in layout.shapes for v in s.rect[::2])])
     up = _boundaries([layout.canvas.height, *(v for s in layout.shapes for v in s.rect[1::2])])
     items = [_item(shape, across, up) for shape in layout.shapes]
     whole = (0, 0, len(across) - 1, len(up) - 1)
-    root = _Derivation(across, up).derive(whole, [item for item in items if item])
-    if root is None:
-        return []
-    return _Writing(root).rules
+    return _Derivation(across, up).derive(whole, [item for item in items if item])
 
 
 def _boundaries(values: Sequence[float]) -> list[float]:
@@ -107,7 +127,7 @@ def _item(shape: PlacedShape, across: list[float], up: list[float]) -> _Item | N
     if box[0] == box[2] or box[1] == box[3]:
         return None
     marks = ("'" if shape.mirrored[0] else "", "'" if shape.mirrored[1] else "")
-    return _Item(box, shape.layer, _Shape(f"{shape.layer}/{shape.x}{marks[0]} {shape.y}{marks[1]}"))
+    return _Item(box, shape.layer, Shape(f"{shape.layer}/{shape.x}{marks[0]} {shape.y}{marks[1]}"))
 
 
 class _Derivation:
@@ -116,7 +136,7 @@ class _Derivation:
     def __init__(self, across: list[float], up: list[float]) -> None:
         self.places = (across, up)
 
-    def derive(self, scope: tuple[int, int, int, int], items: Sequence[_Item]) -> _Node:
+    def derive(self, scope: tuple[int, int, int, int], items: Sequence[_Item]) -> Node:
         if not items:
             return None
         full = [item.box == scope for item in items]
@@ -139,15 +159,15 @@ class _Derivation:
 
     def _split(
         self, scope: tuple[int, int, int, int], items: Sequence[_Item], axis: int, cuts: list[int]
-    ) -> _Node:
-        parts: list[tuple[float, _Node]] = []
+    ) -> Node:
+        parts: list[tuple[float, Node]] = []
         for start, end in pairwise(cuts):
             own = list(scope)
             own[axis], own[axis + 2] = start, end
             inside = [item for item in items if start <= item.box[axis] and item.box[axis + 2] <= end]
             size = self.places[axis][end] - self.places[axis][start]
             parts.append((_rounded(size), self.derive((own[0], own[1], own[2], own[3]), inside)))
-        return _Split("y" if axis else "x", tuple(parts))
+        return Split("y" if axis else "x", tuple(parts))
 
 
 def _rounded(size: float) -> float:
@@ -171,47 +191,53 @@ def _cuts(scope: tuple[int, int, int, int], items: Sequence[_Item], axis: int) -
     return cuts
 
 
-def _stacked(*nodes: _Node) -> _Node:
+def _stacked(*nodes: Node) -> Node:
     """One over the other, without empty ones and without stacks in stacks."""
-    flat: list[_Node] = []
+    flat: list[Node] = []
     for node in nodes:
-        flat += node.nodes if isinstance(node, _Stack) else [] if node is None else [node]
-    return flat[0] if len(flat) == 1 else _Stack(tuple(flat))
+        flat += node.nodes if isinstance(node, Stack) else [] if node is None else [node]
+    return flat[0] if len(flat) == 1 else Stack(tuple(flat))
 
 
 class _Writing:
     """Gives each different split and stack a name, in the order in which they are met."""
 
-    def __init__(self, root: _Node) -> None:
-        self.names: dict[_Node, str] = {}
-        waiting: list[_Node] = [root]
-        self.names[root] = AXIOM
-        self.rules: list[tuple[str, str]] = []
-        for node in waiting:
-            for child in _children(node):
-                if isinstance(child, _Split | _Stack) and child not in self.names:
-                    self.names[child] = f"R{len(self.names)}"
-                    waiting.append(child)
-            self.rules.append((self.names[node], self._text(node)))
+    def __init__(self, root: Node) -> None:
+        nodes = rules_of(root)
+        self.names = {node: f"R{k}" if k else AXIOM for k, node in enumerate(nodes)}
+        self.rules = [(name, self._text(node)) for node, name in self.names.items()]
 
-    def _name(self, node: _Node) -> str:
+    def _name(self, node: Node) -> str:
         if node is None:
             return "-"
-        return f'"{node.name}"' if isinstance(node, _Shape) else self.names[node]
+        return f'"{node.name}"' if isinstance(node, Shape) else self.names[node]
 
-    def _text(self, node: _Node) -> str:
-        if isinstance(node, _Split):
+    def _text(self, node: Node) -> str:
+        if isinstance(node, Split):
             words = [f"{size:.6f}".rstrip("0").rstrip(".") + f" : {self._name(n)}" for size, n in node.parts]
             return f"split({node.axis}) {{ {' | '.join(_repeated(words))} }}"
-        if isinstance(node, _Stack):
+        if isinstance(node, Stack):
             return " ".join(self._name(child) for child in node.nodes)
         return self._name(node)
 
 
-def _children(node: _Node) -> Iterator[_Node]:
-    if isinstance(node, _Split):
+def rules_of(root: Node) -> list[Node]:
+    """The different nodes that are rules, in the order in which they are met."""
+    found: dict[Node, None] = {root: None}
+    waiting = [root]
+    for node in waiting:
+        for child in children(node):
+            if isinstance(child, Split | Stack) and child not in found:
+                found[child] = None
+                waiting.append(child)
+    return list(found)
+
+
+def children(node: Node) -> Iterator[Node]:
+    """What a node is made of."""
+    if isinstance(node, Split):
         yield from (child for _, child in node.parts)
-    elif isinstance(node, _Stack):
+    elif isinstance(node, Stack):
         yield from node.nodes
 
 
