@@ -23,8 +23,11 @@ class Complexity:
         Patterns that visible layers use.
     layers
         Visible layers.
-    symbols, counters
-        Symbols and counters that those patterns name, substituted symbols among them.
+    symbols
+        Symbols that those patterns have as letters of their own; placeholders, which a substitution replaces or which
+        stand for what is behind, are not counted.
+    counters
+        Counters that those patterns name.
     split_rules
         Rules of the split grammar that draws the same rectangles (`facade_nb.render.split_grammar`).
     """
@@ -52,12 +55,12 @@ def complexity(design: Design, layout: Layout | None = None) -> Complexity:
         As `solve` does.
     """
     layout = layout or solve(design)
-    used = {layer.along(axis).pattern for layer in design.stack for axis in AXES}
+    used = _used(design)
     patterns = [design.patterns[name].parsed for name in sorted(used)]
     return Complexity(
         rules=len(used),
         layers=len(design.stack),
-        symbols=len({name for pattern in patterns for name in (*pattern.symbols, *pattern.substituted)}),
+        symbols=len({name for pattern in patterns for name in pattern.solids}),
         counters=len({counter for pattern in patterns for counter in pattern.counters}),
         split_rules=len(split_rules(layout)),
     )
@@ -70,7 +73,7 @@ class Edits:
     Attributes
     ----------
     patterns, layers
-        How many are new, changed or gone.
+        How many of those that visible layers use, and of layers, are new, changed or gone.
     split_rules
         How many rules of the split grammar are.
     """
@@ -92,13 +95,15 @@ def edits(before: Design, after: Design) -> Edits:
         As `solve` does.
     """
     return Edits(
-        patterns=_differing(
-            {name: pattern.text for name, pattern in before.patterns.items()},
-            {name: pattern.text for name, pattern in after.patterns.items()},
-        ),
+        patterns=_differing(*({name: d.patterns[name].text for name in _used(d)} for d in (before, after))),
         layers=_differing(*({layer.name: (layer.x, layer.y) for layer in d.layers} for d in (before, after))),
         split_rules=_touched(split_tree(solve(before)), split_tree(solve(after))),
     )
+
+
+def _used(design: Design) -> set[str]:
+    """The patterns of visible layers."""
+    return {layer.along(axis).pattern for layer in design.stack for axis in AXES}
 
 
 def _differing(before: Mapping[str, object], after: Mapping[str, object]) -> int:

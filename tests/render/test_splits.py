@@ -165,4 +165,6 @@ def test_complexity_counts() -> None:
     assert found == complexity(design, layout)
     assert found.layers == len(design.layers)
     assert found.split_rules == len(split_grammar(layout).splitlines()) > 3
+    assert found.symbols == len("ABCDHPQR")
+    assert found.counters == 1
     assert found.rules == len({p for layer in design.layers for p in (layer.x.pattern, layer.y.pattern)})
