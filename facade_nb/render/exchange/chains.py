@@ -9,7 +9,21 @@ from typing import Literal
 from ...design.model import Axis
 from ...solver.model.layout import Layout
 
-__all__ = ["FIRST", "PITCH", "SCALES", "TEXT", "UNITS", "Units", "chains", "check_units", "label", "levels", "offset", "scales", "width"]
+__all__ = [
+    "FIRST",
+    "PITCH",
+    "SCALES",
+    "TEXT",
+    "UNITS",
+    "Units",
+    "chains",
+    "check_units",
+    "label",
+    "levels",
+    "offset",
+    "scales",
+    "width",
+]
 
 Units = Literal["m", "ft"]
 UNITS: tuple[Units, ...] = ("m", "ft")
@@ -101,7 +115,7 @@ def levels(stops: Sequence[float], scale: float, units: Units) -> tuple[int | No
 
 
 def offset(axis: Axis, level: int) -> float:
-    """How far the middle of a text lies from its chain's line, millimetres, away from the façade; towards it is negative.
+    """How far the middle of a text lies from its chain's line, millimetres; towards the façade it is negative.
 
     Along x a text of level 0 stands between line and façade; along y, written upwards, on the other side of the line.
     """

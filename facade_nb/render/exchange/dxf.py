@@ -64,7 +64,9 @@ def to_dxf(layout: Layout, units: str = "m") -> str:
     _draw_lines(lines, document, space)
     document.layers.add(_OUTLINE, color=1, lineweight=18, plot=False)
     space.add_lwpolyline(
-        _corners((0.0, 0.0, layout.canvas.width, layout.canvas.height)), close=True, dxfattribs={"layer": _OUTLINE}
+        _corners((0.0, 0.0, layout.canvas.width, layout.canvas.height)),
+        close=True,
+        dxfattribs={"layer": _OUTLINE},
     )
     _draw_dimensions(layout, lines, document, space, known)
     zoom.extents(space, 1.05)

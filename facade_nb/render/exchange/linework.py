@@ -8,8 +8,10 @@ of what is left are the drawing.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -93,12 +95,12 @@ def linework(scene: Scene) -> Linework:
         for number, facet in enumerate(made[solid.parts]):
             a, b, c = facet.plane
             plane = (a, b, c + face - a * left - b * bottom)
-            polygons.append(shapely.transform(facet.polygon, lambda p, x=left, y=bottom: p + (x, y)))
+            polygons.append(shapely.transform(facet.polygon, partial(np.add, (left, bottom))))
             nears.append((layers.setdefault(solid.shape.layer, len(layers)), facet.near + face))
             planes.append(plane)
             keys.append((*_key(solid, facet, number), *np.round(plane, 4).tolist()))
     if not polygons:
-        return Linework({name: () for name in WEIGHTS}, ())
+        return Linework(dict.fromkeys(WEIGHTS, ()), ())
     found = _seen(_met(np.array(polygons)), np.array(nears))
     regions: dict[tuple[object, ...], list[Any]] = defaultdict(list)
     level: dict[tuple[object, ...], tuple[float, float, float]] = {}
@@ -207,9 +209,7 @@ def _weighed(polygons: list[Any], planes: NDArray[np.float64]) -> dict[str, tupl
 
     network = shapely.union_all([polygon.boundary for polygon in polygons], grid_size=_GRID)
     stretches = [
-        (a, b)
-        for part in shapely.get_parts(network)
-        for a, b in _pairs(shapely.get_coordinates(part))
+        (a, b) for part in shapely.get_parts(network) for a, b in pairwise(shapely.get_coordinates(part))
     ]
     ends = np.array(stretches)
     way = ends[:, 1] - ends[:, 0]
@@ -233,13 +233,7 @@ def _weighed(polygons: list[Any], planes: NDArray[np.float64]) -> dict[str, tupl
     shapely.prepare(rim)
     weight[free[shapely.dwithin(rim, shapely.points(middle[free]), 1e-3)]] = 0
     weight[np.isnan(depths[0]) & np.isnan(depths[1])] = 2  # a crack between two surfaces
-    return {
-        name: tuple(_joined(ends[weight == number])) for number, name in enumerate(WEIGHTS)
-    }
-
-
-def _pairs(points: NDArray[np.float64]) -> Iterable[tuple[Any, Any]]:
-    return zip(points[:-1], points[1:], strict=True)
+    return {name: tuple(_joined(ends[weight == number])) for number, name in enumerate(WEIGHTS)}
 
 
 def _joined(ends: NDArray[np.float64]) -> Iterator[Line]:

@@ -52,7 +52,9 @@ def materials_beside(path: str | Path) -> Path | None:
     if locate(path).is_stream:
         return None
     file = Path(path)
-    return file.with_name(f"{file.stem}.mtl") if file.suffix.lower() != ".mtl" else file.with_suffix(".mtl.mtl")
+    return (
+        file.with_name(f"{file.stem}.mtl") if file.suffix.lower() != ".mtl" else file.with_suffix(".mtl.mtl")
+    )
 
 
 def write_obj(layout: Layout, path: str | Path) -> Path:

@@ -142,7 +142,8 @@ class _Pen:
         canvas.line(x - 3, y, right + 3, y)
 
     def marks(self, layout: Layout, rows: tuple[Item, ...]) -> None:
-        """The marks of the schedule in windows and doors that have room for them."""
+        """The marks of the schedule in windows and doors that have room for them, none over another."""
+        placed: list[tuple[float, float]] = []
         for item in rows:
             if item.kind not in ("window", "door"):
                 continue
@@ -154,6 +155,9 @@ class _Pen:
                 if x1 - x0 < wide or y1 - y0 < tall:
                     continue
                 x, y = (x0 + x1) / 2, (y0 + y1) / 2
+                if any(abs(x - p) < wide + 1 and abs(y - q) < tall for p, q in placed):
+                    continue
+                placed.append((x, y))
                 self.canvas.setFillColor("#ffffff")
                 self.canvas.roundRect(x - wide / 2, y - tall / 2, wide, tall, 0.6, stroke=0, fill=1)
                 self._text(x, y - _SMALL / 2, item.mark, _SMALL, "middle", colour="#0b4f6c")
@@ -232,7 +236,9 @@ class _Pen:
             left, top = table.left + column * (wide + 4.0), table.top
             if not rows and column:
                 break
-            self._text(left, top - 0.72 * ROW, "Schedule" if not column else "Schedule, continued", 2.0, bold=True)
+            self._text(
+                left, top - 0.72 * ROW, "Schedule" if not column else "Schedule, continued", 2.0, bold=True
+            )
             self._row(left, top - ROW, headings, widths, bold=True)
             for number, row in enumerate(rows):
                 self._row(left, top - (2 + number) * ROW, row, widths)
@@ -267,7 +273,15 @@ class _Pen:
             path.close()
 
     def _text(
-        self, x: float, y: float, text: str, height: float, align: str = "left", *, bold: bool = False, colour: str = "#000000"
+        self,
+        x: float,
+        y: float,
+        text: str,
+        height: float,
+        align: str = "left",
+        *,
+        bold: bool = False,
+        colour: str = "#000000",
     ) -> None:
         """A text with its baseline at y; `height` is that of a capital."""
         self.canvas.setFillColor(colour)
