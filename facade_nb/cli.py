@@ -17,7 +17,7 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from . import Design, Layout, NoLayout, __version__, solve
+from . import Design, DesignError, Layout, NoLayout, __version__, solve
 from .cli_ending import ended, say
 from .cli_files import STANDARD_OUTPUT, Output, Source, check, write
 from .cli_render import add_render, joined
@@ -162,5 +162,8 @@ def _beside(options: argparse.Namespace) -> list[tuple[str, Output]]:
         return []
     from .render.exchange.obj import materials_beside
 
-    file = materials_beside(options.obj)
+    try:
+        file = materials_beside(options.obj)
+    except DesignError:  # the OBJ has no place, which is told of the OBJ
+        return []
     return [("--obj (its materials)", Output(file))] if file else []

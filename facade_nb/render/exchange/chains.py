@@ -35,8 +35,11 @@ SCALES = (20, 50, 100, 200)
 TEXT = 1.8
 """Height of a dimension's text on paper, millimetres."""
 
-FIRST, PITCH = 7.0, 8.5
+FIRST, PITCH = 7.0, 9.5
 """Millimetres on paper from the façade to the first chain, and from one chain to the next."""
+
+ROWS = 0.8
+"""Millimetres between two rows of a chain's texts: as much as letters reach below their line, and a little air."""
 
 _MOST = 3
 """Chains of boundaries along an axis, before the total."""
@@ -120,8 +123,8 @@ def offset(axis: Axis, level: int) -> float:
     Along x a text of level 0 stands between line and façade; along y, written upwards, on the other side of the line.
     """
     if axis == "x":
-        return 1.4 + TEXT / 2 + (level - 1) * (TEXT + 0.5) if level else -(0.5 + TEXT / 2)
-    return 0.5 + TEXT / 2 + level * (TEXT + 0.4)
+        return 1.4 + TEXT / 2 + (level - 1) * (TEXT + ROWS) if level else -(0.5 + TEXT / 2)
+    return 0.5 + TEXT / 2 + level * (TEXT + ROWS)
 
 
 def width(text: str, height: float = TEXT) -> float:

@@ -161,6 +161,8 @@ def _draw_dimensions(
                 if place is not None:
                     dimension.set_location((middle, place) if across else (place, middle), leader=False)
                 dimension.render()
+                if dimension.dimension.dxf.get("text_midpoint") is None:  # as where no text is drawn
+                    dimension.dimension.dxf.text_midpoint = (middle, at, 0) if across else (at, middle, 0)
             at -= PITCH * mm
 
 

@@ -18,7 +18,6 @@ from facade_nb.render.exchange.schedule import items
 
 from .samples import NAMES, QUICK, layout, shape, solved, wall_with_window
 
-
 SCALES = {
     "apartment-house": 100,
     "bookshop": 100,
@@ -120,7 +119,7 @@ def test_a_long_schedule_is_cut_and_says_so() -> None:
     shapes = [shape((0, 0, 1 + k / 1000, 1), "window", layer=str(k)) for k in range(900)]
     text = text_of(to_pdf(layout(2.0, 1.0, *shapes)))
     (left_out,) = re.findall(r"and (\d+) more rows", text)
-    assert len(set(re.findall(r"\bW\d+\b", text))) == 900 - int(left_out)
+    assert text.count("card") == 900 - int(left_out)
     assert int(left_out) > 0
 
 
