@@ -11,12 +11,13 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from math import inf
 from pathlib import Path
 from typing import Any
 
-from . import Design, Layout, NoLayout, __version__, solve
+from . import Design, DesignError, Layout, NoLayout, __version__, solve
 from .cli_ending import ended, say
 from .cli_files import STANDARD_OUTPUT, Output, Source, check, write
 from .cli_render import add_render, joined
@@ -63,6 +64,11 @@ def command_parser() -> argparse.ArgumentParser:
         ("svg", "the elevation (SVG)"),
         ("png", "a lit picture (PNG, needs OSMesa or EGL)"),
         ("glb", "the mesh (binary glTF)"),
+        ("obj", "the mesh (OBJ), with its materials (MTL) beside it"),
+        ("dxf", "the drawing with dimensions (DXF)"),
+        ("pdf", "the drawing to scale with dimensions and schedule (PDF)"),
+        ("cityjson", "the building (CityJSON)"),
+        ("schedule", "what it is made of, as a table (CSV)"),
     ):
         default = STANDARD_OUTPUT if name == "out" else None
         solving.add_argument(
@@ -73,7 +79,13 @@ def command_parser() -> argparse.ArgumentParser:
             help=f"write {what}; -: standard output",
         )
     solving.add_argument("--time-limit", type=_seconds, default=10.0, metavar="SECONDS", help="default: 10")
-    solving.set_defaults(run=_solve)
+    solving.add_argument(
+        "--units",
+        choices=("m", "ft"),
+        default="m",
+        help="of dimensions in DXF and PDF: metres, or feet and inches; default: m",
+    )
+    solving.set_defaults(run=_solve, beside=_beside)
     add_render(commands)
     add_town(commands)
     return parser
@@ -114,13 +126,44 @@ def _solve(options: argparse.Namespace) -> int:
 
 
 def _drawings(options: argparse.Namespace, layout: Layout) -> list[tuple[Output, str | bytes]]:
-    if options.svg is options.png is options.glb is None:
+    named = (
+        options.svg,
+        options.png,
+        options.glb,
+        options.dxf,
+        options.pdf,
+        options.cityjson,
+        options.schedule,
+    )
+    if options.obj is None and not any(path is not None for path in named):
         return []
     from . import render
 
-    kinds = (
-        (options.svg, render.elevation_svg),
-        (options.png, render.render_png),
-        (options.glb, render.to_glb),
+    kinds: tuple[Callable[[Layout], str | bytes], ...] = (
+        render.elevation_svg,
+        render.render_png,
+        render.to_glb,
+        partial(render.to_dxf, units=options.units),
+        partial(render.to_pdf, units=options.units),
+        render.to_cityjson,
+        render.to_schedule,
     )
-    return [(path, draw(layout)) for path, draw in kinds if path is not None]
+    found = [(path, draw(layout)) for path, draw in zip(named, kinds, strict=True) if path is not None]
+    if options.obj is not None:
+        (_, beside) = next(iter(_beside(options)), ("", None))
+        text, materials = render.to_obj(layout, Path(beside).name if beside else "")
+        found += [(options.obj, text)] + ([(beside, materials)] if beside else [])
+    return found
+
+
+def _beside(options: argparse.Namespace) -> list[tuple[str, Output]]:
+    """The file that is written beside another, with what it is called in messages: the MTL of an OBJ."""
+    if options.obj is None or options.obj.is_standard:
+        return []
+    from .render.exchange.obj import materials_beside
+
+    try:
+        file = materials_beside(options.obj)
+    except DesignError:  # the OBJ has no place, which is told of the OBJ
+        return []
+    return [("--obj (its materials)", Output(file))] if file else []

@@ -66,6 +66,8 @@ STANDARD_OUTPUT = Output("-")
 def check(options: Namespace) -> None:
     """Refuse outputs that cannot be written, and those that are the same file as an input or another output.
 
+    A command's `beside` lists files that come along with its outputs, unasked.
+
     Files are compared, not names. Two outputs may both go to the null device, and a terminal may be read and written.
 
     Raises
@@ -75,6 +77,7 @@ def check(options: Namespace) -> None:
     """
     sources = [(name, value) for name, value in vars(options).items() if isinstance(value, Source)]
     outputs = [(_option(name), value) for name, value in vars(options).items() if isinstance(value, Output)]
+    outputs += options.beside(options) if "beside" in options else []
     targets = [(name, value, _target(name, value)) for name, value in outputs]
     for kind, source in sources:
         for file, read in _read(source):

@@ -140,7 +140,8 @@ def refused(capsys: pytest.CaptureFixture[str], folder: Path, command: list[str]
 def test_every_command_says_what_it_reads_and_writes() -> None:
     """A path that is not declared is not looked at."""
     assert set(commands()) == set(COMMANDS) == set(INPUTS)
-    assert outputs("solve") == ["--out", "--trace", "--svg", "--png", "--glb"]
+    drawn = ["--svg", "--png", "--glb", "--obj", "--dxf", "--pdf", "--cityjson", "--schedule"]
+    assert outputs("solve") == ["--out", "--trace", *drawn]
     assert outputs("render") == ["--out", "--rules"]
     assert outputs("town") == ["--stats", "--out", "--animation"]
     for parser in commands().values():

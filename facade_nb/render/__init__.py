@@ -1,9 +1,23 @@
-"""Drawing a layout: an SVG elevation, a mesh, a picture.
+"""Drawing a layout: an SVG elevation, a mesh, a picture, files for other programs.
 
-Nothing here needs a GL library, trimesh or Pillow until a mesh or a picture is asked for.
+Nothing here needs a GL library, trimesh or Pillow until a mesh or a picture is asked for, nor ezdxf, reportlab, shapely
+or pandas until one of the files is.
 """
 
 from .elevation import elevation_svg
+from .exchange import (
+    schedule,
+    to_cityjson,
+    to_dxf,
+    to_obj,
+    to_pdf,
+    to_schedule,
+    write_cityjson,
+    write_dxf,
+    write_obj,
+    write_pdf,
+    write_schedule,
+)
 from .exploded import exploded_svg
 from .geometry import GEOMETRIES
 from .materials import MATERIALS
@@ -30,7 +44,18 @@ __all__ = [
     "naive_layout",
     "overlay_svg",
     "render_png",
+    "schedule",
     "split_grammar",
+    "to_cityjson",
+    "to_dxf",
     "to_glb",
+    "to_obj",
+    "to_pdf",
+    "to_schedule",
+    "write_cityjson",
+    "write_dxf",
     "write_glb",
+    "write_obj",
+    "write_pdf",
+    "write_schedule",
 ]

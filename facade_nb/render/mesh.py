@@ -73,17 +73,25 @@ def node_name(solid: Solid, slot: str) -> str:
 
 
 def to_glb(layout: Layout) -> bytes:
-    """Return a layout as GLB.
+    """Return a layout as GLB: a node for each shape that has a body, named ``layer/X Y``; alike shapes share a mesh.
+
+    The extras of a node tell which shape it is: its `index` in the layout, its layer, symbols, numbers, kind and size.
 
     Raises
     ------
     DesignError
         For a shape with an unknown geometry or material.
     """
-    scene = to_trimesh(build_scene(layout))
+    solids = build_scene(layout)
+    scene = to_trimesh(solids)
     if not scene.geometry:
         return _EMPTY
-    return scene.export(file_type="glb", include_normals=True, tree_postprocessor=_finish)
+
+    def finish(tree: dict[str, Any]) -> None:
+        _one_node_a_shape(tree, solids)
+        _finish(tree)
+
+    return scene.export(file_type="glb", include_normals=True, tree_postprocessor=finish)
 
 
 def write_glb(layout: Layout, path: str | Path) -> Path:
@@ -96,6 +104,47 @@ def write_glb(layout: Layout, path: str | Path) -> Path:
     """
     write_atomically(path, to_glb(layout))
     return Path(path)
+
+
+def _one_node_a_shape(tree: dict[str, Any], scene: Scene) -> None:
+    """Make one node of the nodes of a shape's slots, and one mesh of their meshes, shared by shapes that have the same.
+
+    trimesh has one material a mesh; in glTF each primitive of a mesh has its own.
+    """
+    own = {node["name"]: node for node in tree["nodes"]}
+    old, nodes = tree["meshes"], []
+    made: dict[tuple[int, ...], int] = {}
+    meshes: list[dict[str, Any]] = []
+    for solid in scene.solids:
+        names = [node_name(solid, slot) for slot in dict.fromkeys(part.slot for part in solid.parts)]
+        found = [own[name] for name in names if name in own]
+        if not found:  # too small to be told from nothing
+            continue
+        key = tuple(node["mesh"] for node in found)
+        if key not in made:
+            made[key] = len(meshes)
+            primitives = [primitive for k in key for primitive in old[k]["primitives"]]
+            meshes.append({"name": f"{solid.shape.geometry} {len(meshes)}", "primitives": primitives})
+        shape = solid.shape
+        left, bottom, right, top = shape.rect
+        nodes.append(
+            {
+                "name": f"{shape.layer}/{shape.x} {shape.y}",
+                "mesh": made[key],
+                "translation": [left, bottom, solid.face],
+                "extras": {
+                    "index": solid.index,
+                    "layer": shape.layer,
+                    "x": shape.x,
+                    "y": shape.y,
+                    "number": list(shape.number),
+                    "kind": shape.kind,
+                    "size": [right - left, top - bottom],
+                },
+            }
+        )
+    tree["nodes"], tree["meshes"] = nodes, meshes
+    tree["scenes"] = [{"nodes": list(range(len(nodes)))}]
 
 
 def _finish(tree: dict[str, Any]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from itertools import pairwise
 from pathlib import Path
 
@@ -169,19 +170,24 @@ def test_glb_round_trip(tmp_path: Path) -> None:
     low, high = back.bounds
     assert low == pytest.approx([-0.25, 0.0, -0.2], abs=1e-6)
     assert high == pytest.approx([6.25, 4.3, 0.3], abs=1e-6)
-    nodes = set(back.graph.nodes_geometry)
-    assert "columns/14 C P/body" in nodes
-    missing = [
-        index
-        for index, shape in enumerate(layout.shapes)
-        if not any(node.startswith(f"{shape.layer}/{index} {shape.x} {shape.y}/") for node in nodes)
-    ]
-    assert missing == [3]  # the window that the door of a higher layer covers altogether
+    data = path.read_bytes()
+    tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    nodes = tree["nodes"]
+    drawn = [index for index in range(len(layout.shapes)) if index != 3]
+    assert [
+        node["extras"]["index"] for node in nodes
+    ] == drawn  # 3: the window that the door covers altogether
+    for node, shape in zip(nodes, (layout.shapes[index] for index in drawn), strict=True):
+        left, bottom, right, top = shape.rect
+        assert node["name"] == f"{shape.layer}/{shape.x} {shape.y}"
+        assert node["extras"]["size"] == [right - left, top - bottom]
+        assert node["translation"][:2] == [left, bottom]
+    assert tree["scenes"] == [{"nodes": list(range(len(nodes)))}]
+    assert len(tree["meshes"]) < len(nodes)  # equal windows share their mesh
+    windows = [node["mesh"] for node in nodes if layout.shapes[node["extras"]["index"]].geometry == "window"]
+    assert windows and len(set(windows)) < len(windows)
     paints = {body.visual.material.name for body in back.geometry.values()}
     assert {"plaster", "brick", "glass", "stone", "oak", "tiles"} <= paints
-    windows = sum(s.geometry == "window" for s in layout.shapes)
-    assert sum("glass" in node for node in nodes) >= windows - 1
-    assert len(back.geometry) < len(nodes)  # equal windows share their geometry
 
 
 def test_glb_of_a_faulty_layout_leaves_no_file(tmp_path: Path) -> None:

@@ -160,9 +160,9 @@ def test_what_each_view_of_the_buffer_is_for() -> None:
     targets = Counter(view.get("target") for view in tree["bufferViews"])
     assert set(targets) == {34962, 34963}
     for mesh in tree["meshes"]:
-        (primitive,) = mesh["primitives"]
-        view = tree["bufferViews"][tree["accessors"][primitive["indices"]]["bufferView"]]
-        assert view["target"] == 34963
+        for primitive in mesh["primitives"]:
+            view = tree["bufferViews"][tree["accessors"][primitive["indices"]]["bufferView"]]
+            assert view["target"] == 34963
 
 
 def test_a_cornice_as_deep_as_it_stands_out() -> None:

@@ -6,11 +6,24 @@ import json
 from base64 import b64encode
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from io import BytesIO
 from types import MappingProxyType
 from typing import Any
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from ...design import Design, DesignError, Fault
-from ...render import elevation_svg, exploded_svg, grammar_of, render_png, to_glb
+from ...render import (
+    elevation_svg,
+    exploded_svg,
+    grammar_of,
+    render_png,
+    to_cityjson,
+    to_dxf,
+    to_glb,
+    to_obj,
+    to_pdf,
+    to_schedule,
+)
 from ...solver import Layout
 from .commands import file_name
 from .model import FacadeModel
@@ -33,6 +46,17 @@ def _layout_json(layout: Layout) -> str:
     return json.dumps(layout.to_dict(), ensure_ascii=False, indent=2) + "\n"
 
 
+def _zipped_obj(layout: Layout) -> bytes:
+    """The OBJ and its materials, which are of no use apart."""
+    name = file_name(layout.name)
+    texts = to_obj(layout, f"{name}.mtl")
+    data = BytesIO()
+    with ZipFile(data, "w", ZIP_DEFLATED) as archive:
+        for suffix, text in zip((".obj", ".mtl"), texts, strict=True):
+            archive.writestr(ZipInfo(f"{name}{suffix}"), text, ZIP_DEFLATED)
+    return data.getvalue()
+
+
 def _own(layout: Layout) -> Design:
     return layout.design or Design()
 
@@ -49,6 +73,11 @@ EXPORTS: Mapping[str, Export] = MappingProxyType(
         "layers": Export("Layers drawn apart (SVG)", "-layers.svg", "image/svg+xml", exploded_svg),
         "png": Export("Picture (PNG)", ".png", "image/png", render_png),
         "glb": Export("Model (glTF, GLB)", ".glb", "model/gltf-binary", to_glb),
+        "obj": Export("Model (OBJ and MTL, zipped)", "-obj.zip", "application/zip", _zipped_obj),
+        "dxf": Export("Drawing (DXF)", ".dxf", "image/vnd.dxf", to_dxf),
+        "pdf": Export("Drawing to scale (PDF)", ".pdf", "application/pdf", to_pdf),
+        "cityjson": Export("Building (CityJSON)", ".city.json", "application/city+json", to_cityjson),
+        "schedule": Export("Schedule (CSV)", "-schedule.csv", "text/csv", to_schedule),
         "design": Export("Design (JSON)", ".json", "application/json", lambda layout: _own(layout).to_json()),
         "layout": Export("Layout (JSON)", "-layout.json", "application/json", _layout_json),
         "grammar": Export(

@@ -5,7 +5,9 @@ from __future__ import annotations
 import base64
 import json
 import threading
+from io import BytesIO
 from typing import Any
+from zipfile import ZipFile
 
 import pytest
 
@@ -70,6 +72,19 @@ def test_every_format_is_written(key: str) -> None:
         assert (b'class="dimensions"' in data) == (key == "dimensions")
     elif key == "glb":
         assert data[:4] == b"glTF"
+    elif key == "obj":
+        with ZipFile(BytesIO(data)) as archive:
+            obj, mtl = archive.namelist()
+            assert obj.endswith(".obj") and mtl.endswith(".mtl")
+            assert f"mtllib {mtl}" in archive.read(obj).decode()
+    elif key == "dxf":
+        assert b"AC1024" in data
+    elif key == "pdf":
+        assert data.startswith(b"%PDF")
+    elif key == "cityjson":
+        assert json.loads(data)["type"] == "CityJSON"
+    elif key == "schedule":
+        assert data.startswith(b"mark,kind,")
     elif key == "design":
         assert Design.from_json(data.decode()) == model.design
     elif key == "layout":

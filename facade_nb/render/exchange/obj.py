@@ -1,0 +1,130 @@
+"""OBJ with its materials (MTL): one object and one group for each shape, metres, y up, z towards the viewer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from ...design.files import write_together
+from ...design.targets import locate
+from ...solver.model.layout import Layout
+from ..materials import find_material, rgb
+from ..scene import Solid, build_scene
+
+__all__ = ["materials_beside", "to_obj", "write_obj"]
+
+
+def to_obj(layout: Layout, materials: str = "") -> tuple[str, str]:
+    """Return a layout as OBJ, and its materials as MTL.
+
+    Each shape is a group ``layer/X Y`` within an object of its own, ``layer/X[2] Y[1]``. Normals are given; faces are
+    triangles.
+
+    Parameters
+    ----------
+    layout
+        What to write.
+    materials
+        The name by which the OBJ calls for its MTL; empty: it calls for none.
+
+    Raises
+    ------
+    DesignError
+        For a shape with an unknown geometry or material.
+    """
+    scene = build_scene(layout)
+    head = ["# facade_nb; metres, y up"]
+    if materials:
+        head.append(f"mtllib {materials}")
+    names: dict[str, None] = {}
+    body = list(_bodies(scene.solids, names))
+    return "\n".join([*head, *body]) + "\n", "\n".join(_paints(names)) + "\n"
+
+
+def materials_beside(path: str | Path) -> Path | None:
+    """Where the MTL of an OBJ is written: beside it. None where it is written into a stream.
+
+    Raises
+    ------
+    DesignError
+        If the OBJ has no place.
+    """
+    if locate(path).is_stream:
+        return None
+    file = Path(path)
+    return (
+        file.with_name(f"{file.stem}.mtl") if file.suffix.lower() != ".mtl" else file.with_suffix(".mtl.mtl")
+    )
+
+
+def write_obj(layout: Layout, path: str | Path) -> Path:
+    """Write a layout as OBJ, with its MTL beside it, both or neither; return the path of the OBJ.
+
+    Raises
+    ------
+    DesignError
+        For a shape with an unknown geometry or material, or a file that cannot be written.
+    """
+    beside = materials_beside(path)
+    text, materials = to_obj(layout, beside.name if beside else "")
+    write_together([(path, text)] + ([(beside, materials)] if beside else []))
+    return Path(path)
+
+
+def _bodies(solids: Iterable[Solid], names: dict[str, None]) -> Iterator[str]:
+    import numpy as np
+
+    from ..meshing import corner_normals
+
+    points = directions = 0
+    for solid in solids:
+        shape = solid.shape
+        x, y = shape.number
+        yield f"o {_line(f'{shape.layer}/{shape.x}[{x}] {shape.y}[{y}]')}"
+        yield f"g {_line(f'{shape.layer}/{shape.x} {shape.y}')}"
+        mesh = solid.mesh()
+        if not len(mesh.faces):  # wholly covered, or too small to be told from nothing
+            continue
+        vertices, corner = np.unique(mesh.vertices.round(6), axis=0, return_inverse=True)
+        normals, turn = np.unique(corner_normals(mesh).reshape(-1, 3).round(4), axis=0, return_inverse=True)
+        faces = corner.reshape(-1)[mesh.faces] + points + 1
+        turns = turn.reshape(-1, 3) + directions + 1
+        yield from (f"v {a:.10g} {b:.10g} {c:.10g}" for a, b, c in vertices + 0.0)
+        yield from (f"vn {a:.4g} {b:.4g} {c:.4g}" for a, b, c in normals + 0.0)
+        for slot, name in enumerate(mesh.names):
+            chosen = mesh.slots == slot
+            if not chosen.any():
+                continue
+            material = solid.materials[name]
+            names.setdefault(material)
+            yield f"usemtl {_word(material)}"
+            for (a, b, c), (p, q, r) in zip(faces[chosen], turns[chosen], strict=True):
+                yield f"f {a}//{p} {b}//{q} {c}//{r}"
+        points += len(vertices)
+        directions += len(normals)
+
+
+def _paints(names: Iterable[str]) -> Iterator[str]:
+    yield "# facade_nb"
+    for name in names:
+        material = find_material(name)
+        red, green, blue = (value / 255 for value in rgb(material.base))
+        shine = 2 / max(material.roughness, 0.05) ** 4 - 2  # the exponent that is as rough
+        gloss = 0.04 + 0.5 * material.metallic
+        yield f"newmtl {_word(name)}"
+        yield f"Kd {red:.4f} {green:.4f} {blue:.4f}"
+        yield f"Ks {gloss:.4f} {gloss:.4f} {gloss:.4f}"
+        yield f"Ns {min(max(shine, 0.0), 1000.0):.4f}"
+        yield f"Pr {material.roughness:.4f}"
+        yield f"Pm {material.metallic:.4f}"
+        yield "illum 2"
+
+
+def _line(text: str) -> str:
+    """A name of one line."""
+    return " ".join(text.split()) or "-"
+
+
+def _word(text: str) -> str:
+    """A name without blanks, and without what begins a comment: ``#c8b9a0`` is ``paint-c8b9a0``."""
+    return "_".join(text.split()).replace("#", "paint-") or "-"
