@@ -8,6 +8,7 @@
 """
 
 from .comparison import Pair, compare, match
+from .inference import infer
 from .openings import OPENING_KINDS, SurveyError
 from .reading import Survey, buildings, load_survey
 
@@ -18,6 +19,7 @@ __all__ = [
     "SurveyError",
     "buildings",
     "compare",
+    "infer",
     "load_survey",
     "match",
 ]
