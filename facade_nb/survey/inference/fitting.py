@@ -4,21 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .repeats import letters
-from .structure import GAP, Line, Structure, clusters
+from .structure import Line, Structure, clusters
 
-__all__ = ["Axis", "Names", "agreement", "fit", "named"]
+__all__ = ["Axis", "Names", "agreement", "fit", "measured", "named", "renumbered"]
 
 Names = tuple[tuple[int, ...], ...]
 """For each line the symbol of each token."""
 
-_LEAST = 0.01
-"""No symbol is smaller, metres."""
-_TIE = 1e-3
+_LEAST = 0.002
+"""No symbol that is fitted is smaller, metres."""
+_TIE = 1e-6
 """How much the measured size of a symbol counts where places leave it open."""
 
 
@@ -45,7 +46,9 @@ def named(lines: Sequence[Line], tolerance: float, symmetric: float = 0.0) -> Na
     sizes = [_symmetric(line, symmetric) for line in lines]
     tokens = [(n, i) for n, line in enumerate(lines) for i in range(len(line.sizes))]
     kinds = list(dict.fromkeys(lines[n].categories[i] for n, i in tokens))
-    numbers = clusters([(sizes[n][i], 1e6 * kinds.index(lines[n].categories[i])) for n, i in tokens], tolerance)
+    numbers = clusters(
+        [(sizes[n][i], 1e6 * kinds.index(lines[n].categories[i])) for n, i in tokens], tolerance
+    )
     found = dict(zip(tokens, numbers, strict=True))
     return tuple(tuple(found[n, i] for i in range(len(line.sizes))) for n, line in enumerate(lines))
 
@@ -69,38 +72,41 @@ def fit(lines: Sequence[Line], names: Names, canvas: float) -> Axis | None:
     """Least squares over the places of all openings, with every line as long as the canvas; None where that fails."""
     names = renumbered(names)
     n = 1 + max(symbol for line in names for symbol in line)
-    rows: list[NDArray[np.float64]] = []
-    aims: list[float] = []
-    full: list[NDArray[np.float64]] = []
-    measured = np.zeros(n)
-    count = np.zeros(n)
-    parts: list[tuple[NDArray[np.float64], list[int]]] = []
-    for line, word in zip(lines, names, strict=True):
+    normal = np.zeros((n + len(lines), n + len(lines)))
+    right = np.full(n + len(lines), canvas)
+    right[:n] = 0.0
+    tally = np.zeros((n, 2))
+    parts: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
+    for number, (line, word) in enumerate(zip(lines, names, strict=True)):
         sums = np.zeros((len(word) + 1, n))
-        for i, symbol in enumerate(word):
-            sums[i + 1] = sums[i]
-            sums[i + 1, symbol] += 1
-            measured[symbol] += line.sizes[i]
-            count[symbol] += 1
-        solid = list(line.solid)
-        parts.append((sums, solid))
-        full.append(sums[-1])
-        for i, span, weight in zip(solid, line.spans, line.weights, strict=True):
-            root = weight**0.5
-            rows += [sums[i] * root, sums[i + 1] * root]
-            aims += [span[0] * root, span[1] * root]
-    rows += list(np.eye(n) * _TIE)
-    aims += list(measured / count * _TIE)
-    a, b, c = np.array(rows), np.array(aims), np.array(full)
-    normal = np.block([[a.T @ a, c.T], [c, np.zeros((len(c), len(c)))]])
-    right = np.concatenate([a.T @ b, np.full(len(c), canvas)])
+        sums[range(1, len(word) + 1), word] = 1
+        np.add.at(tally, (list(word), 0), line.sizes)
+        np.add.at(tally, (list(word), 1), 1)
+        sums = sums.cumsum(axis=0)
+        solid = np.array(line.solid)
+        low, high = sums[solid], sums[solid + 1]
+        parts.append((low, high))
+        normal[n + number, :n] = normal[:n, n + number] = sums[-1]
+        for rows, aims in zip((low, high), np.array(line.spans).T, strict=True):
+            weighted = rows.T * np.array(line.weights)
+            normal[:n, :n] += weighted @ rows
+            right[:n] += weighted @ aims
+    normal[range(n), range(n)] += _TIE
+    right[:n] += _TIE * tally[:, 0] / tally[:, 1]
     sizes = np.round(np.linalg.lstsq(normal, right, rcond=None)[0][:n], 3)
-    if sizes.min() < _LEAST or np.abs(c @ sizes - canvas).max() > 0.02 + 1e-3 * c.sum(axis=1).max():
+    totals = normal[n:, :n]
+    if sizes.min() < _LEAST or np.abs(totals @ sizes - canvas).max() > 0.02 + 1e-3 * totals.sum(axis=1).max():
         return None
-    spans = tuple(
-        np.stack([(sums @ sizes)[solid], (sums @ sizes)[[i + 1 for i in solid]]], axis=1) for sums, solid in parts
-    )
+    spans = tuple(np.stack([low @ sizes, high @ sizes], axis=1) for low, high in parts)
     return Axis(names, tuple(float(size) for size in sizes), spans, sum(letters(word) for word in names))
+
+
+def measured(lines: Sequence[Line]) -> Axis:
+    """The axis as it was measured: nothing is like anything else."""
+    numbers = count()
+    names = tuple(tuple(next(numbers) for _ in line.sizes) for line in lines)
+    spans = tuple(np.array(line.spans) for line in lines)
+    return Axis(names, tuple(size for line in lines for size in line.sizes), spans, sum(map(len, names)))
 
 
 def agreement(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> float:

@@ -17,7 +17,7 @@ _REPEATED, _USUAL, _NO_WALL, _ODD = 0.3, 0.3, 1.0, 2.0
 
 @dataclass(frozen=True, slots=True)
 class Looks:
-    """What is known of the symbols of a line: sizes; those that are openings, with how usual each is (0 to 1); odd ones."""
+    """What is known of a line's symbols: sizes; those that are openings and how usual each is, 0 to 1; odd ones."""
 
     sizes: Sequence[float]
     usual: dict[int, float]
@@ -66,9 +66,7 @@ def _growths(
             yield from _alone(expression, counter, copies)
 
 
-def _alone(
-    expression: Expression, counter: str, copies: int
-) -> Iterator[tuple[Expression, int, Expression]]:
+def _alone(expression: Expression, counter: str, copies: int) -> Iterator[tuple[Expression, int, Expression]]:
     yield expression, copies, Run(expression, 1, counter)
 
 
@@ -103,5 +101,3 @@ def _score(part: Expression, copies: int, looks: Looks) -> float:
     if isinstance(part, Run):
         score -= _REPEATED
     return score
-
-

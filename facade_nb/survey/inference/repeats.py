@@ -70,10 +70,10 @@ def letters(word: Sequence[int]) -> int:
     return _solved(_canonical(word))[1] if word else 0
 
 
-def shortest(word: Sequence[int]) -> Expression:
-    """The shortest expression of a word of at least one letter."""
+def shortest(word: Sequence[int], reach: int | None = None) -> Expression:
+    """The shortest expression of a word of at least one letter, without reflections that make more than `reach`."""
     names = list(dict.fromkeys(word))
-    return _renamed(_solved(_canonical(word))[0], names)
+    return _renamed(_solved(_canonical(word), 1_000_000 if reach is None else reach)[0], names)
 
 
 def _canonical(word: Sequence[int]) -> tuple[int, ...]:
@@ -95,7 +95,7 @@ def _renamed(expression: Expression, names: Sequence[int]) -> Expression:
 
 
 @lru_cache(maxsize=20_000)
-def _solved(word: tuple[int, ...]) -> tuple[Expression, int]:
+def _solved(word: tuple[int, ...], reach: int = 1_000_000) -> tuple[Expression, int]:
     """The shortest expression of a word, and its letters: the best of each part of it, the short ones first."""
     n = len(word)
     text = "".join(map(chr, word))
@@ -115,7 +115,7 @@ def _solved(word: tuple[int, ...]) -> tuple[Expression, int]:
                 if cost[i, i + d] + _RUN < best and part == part[:d] * (length // d):
                     best, way = float(cost[i, i + d]) + _RUN, ("run", d)
             half = (length + 1) // 2
-            if length > 2 and cost[i, i + half] + _MIRROR < best and part == part[::-1]:
+            if 2 < length <= reach and cost[i, i + half] + _MIRROR < best and part == part[::-1]:
                 best, way = float(cost[i, i + half]) + _MIRROR, ("mirror", half)
             cost[i, j] = best
             how[i, j] = way

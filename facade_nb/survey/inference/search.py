@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .fitting import Axis, Names, agreement, fit, named
+from .fitting import Axis, Names, agreement, fit, measured, named
+from .repeats import letters
 from .structure import Line, Opening, Structure, structures
 
 __all__ = ["Order", "search"]
 
-NEAR = 0.905
+NEAR = 0.91
 """A design agrees with the survey at least so well where that can be."""
 
 _TOLERANCES = (0.02, 0.05, 0.1, 0.2, 0.4)
@@ -27,7 +28,7 @@ _TRIALS = 20_000
 
 _SYMBOL, _EXCEPTION, _LINE = 0.5, 0.25, 0.5
 """What a symbol, an exception and a line weigh, in letters."""
-_ERROR = 3.0
+_ERROR = 1.5
 """What it costs, in letters an opening, to agree in nothing."""
 _FAR = 60.0
 """The same, of what lacks to `NEAR`."""
@@ -50,6 +51,8 @@ def search(openings: Sequence[Opening], width: float, height: float) -> Order:
     target -= np.tile(target[:, :2].min(axis=0), 2)
     found: list[Order] = []
     for structure in structures(openings, width, height):
+        if not found:  # the exact one, which is there whatever else cannot be fitted
+            found.append(_order(structure, target, measured(structure.x), measured(structure.y)))
         along = list(_candidates(structure.y, height))
         for x in _candidates(structure.x, width):
             found += [_order(structure, target, x, y) for y in along]
@@ -95,15 +98,18 @@ def _order(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) 
 
 def _polished(order: Order, target: NDArray[np.float64], width: float, height: float) -> Order:
     """Simplify both axes, in turn, while it pays."""
-    left = {axis: _TRIALS for axis in "xy"}
+    left = dict.fromkeys("xy", _TRIALS)
     while True:
         before = order.cost
         for axis in "xy":
             while left[axis] > 0:
                 best = order
                 lines = order.structure.x if axis == "x" else order.structure.y
-                for names in _simpler(lines, (order.x if axis == "x" else order.y).names):
+                own = order.x if axis == "x" else order.y
+                for names in _simpler(lines, own.names):
                     left[axis] -= sum(map(len, names))
+                    if order.agreement >= NEAR and _weight(names) >= _weight(own.names):
+                        continue
                     fitted = fit(lines, names, width if axis == "x" else height)
                     if fitted:
                         x, y = (fitted, order.y) if axis == "x" else (order.x, fitted)
@@ -117,6 +123,11 @@ def _polished(order: Order, target: NDArray[np.float64], width: float, height: f
                 order = best
         if order.cost >= before:
             return order
+
+
+def _weight(names: Names) -> float:
+    """What symbols and letters of some lines weigh."""
+    return _SYMBOL * len({s for word in names for s in word}) + sum(letters(word) for word in names)
 
 
 def _simpler(lines: Sequence[Line], names: Names) -> Iterator[Names]:

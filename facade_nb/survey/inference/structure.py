@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from scipy.cluster.hierarchy import fcluster, linkage
@@ -21,7 +22,7 @@ Span = tuple[float, float]
 GAP = "gap"
 """The category of what stands between openings."""
 
-TOLERANCES = (0.03, 0.08, 0.16, 0.3)
+TOLERANCES = (0.0, 0.03, 0.08, 0.16, 0.3)
 """Edges that differ by no more are one, metres. All are tried."""
 
 _NONE = 0.005
@@ -39,13 +40,19 @@ class Opening:
     y: Span
     door: bool
 
+    def scaled(self, by: float) -> Opening:
+        """The same in another unit."""
+        if by == 1:
+            return self
+        return Opening((self.x[0] * by, self.x[1] * by), (self.y[0] * by, self.y[1] * by), self.door)
+
 
 @dataclass(frozen=True, slots=True)
 class Line:
     """A row of openings and gaps from end to end of the canvas, not named yet.
 
-    `categories` of its tokens: only tokens of one category can be alike. `sizes` are measured. `spans` and `weights` are
-    of the tokens that are no gaps, in their order: where they are, and how many openings say so.
+    `categories` of its tokens: only tokens of one category can be alike. `sizes` are measured. `spans` and `weights`
+    are of the tokens that are no gaps, in their order: where they are, and how many openings say so.
     """
 
     categories: tuple[str, ...]
@@ -61,7 +68,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """The order of a façade. `cells` has, for each opening: line along x and place in it, line along y and place in it."""
+    """The order of a façade. `cells`: for each opening its line along x, its place there, and the same along y."""
 
     x: tuple[Line, ...]
     y: tuple[Line, ...]
@@ -78,7 +85,7 @@ class _Column:
 
 
 def structures(openings: Sequence[Opening], width: float, height: float) -> Iterator[Structure]:
-    """The orders of some openings, at several tolerances, equal ones once."""
+    """The orders of some openings, at several tolerances, equal ones once; the exact one first."""
     seen: set[Structure] = set()
     scale = float(np.median([opening.y[1] - opening.y[0] for opening in openings])) / 1.5
     for of_bands in TOLERANCES:
@@ -102,7 +109,7 @@ def clusters(values: Sequence[Sequence[float]], tolerance: float) -> list[int]:
 
 def _mean(spans: Iterable[Span]) -> Span:
     low, high = zip(*spans, strict=True)
-    return (round(sum(low) / len(low), 4), round(sum(high) / len(high), 4))
+    return (round(sum(low) / len(low), 6), round(sum(high) / len(high), 6))
 
 
 def _apart(spans: dict[int, Span], weights: dict[int, int]) -> list[list[int]]:
@@ -146,14 +153,19 @@ def _structure(
     rows.sort(key=lambda item: (-len(item[1]), spans[item[0]], item[1]))
     lines: list[list[_Column]] = []
     line_of: list[int] = []
-    for _, row in rows:
-        line_of.append(_place(openings, lines, row, tolerance, width))
+    for n, (band, row) in enumerate(rows):
+        others = {line for (other, _), line in zip(rows[:n], line_of, strict=True) if other == band}
+        line_of.append(_place(openings, lines, row, others, tolerance, width))
     made_x = tuple(_line([(c.span, "open", len(c.members)) for c in columns], width) for columns in lines)
-    used = {b: sorted({line for (own, _), line in zip(rows, line_of, strict=True) if own == b}) for b in spans}
+    used = {
+        b: sorted({line for (own, _), line in zip(rows, line_of, strict=True) if own == b}) for b in spans
+    }
     made_y = tuple(
         _line([(spans[b], " ".join(map(str, used[b])), len(bands[b])) for b in word], height) for word in of_y
     )
-    where_x = {i: (n, c) for n, line in enumerate(lines) for c, column in enumerate(line) for i in column.members}
+    where_x = {
+        i: (n, c) for n, line in enumerate(lines) for c, column in enumerate(line) for i in column.members
+    }
     where_y = {i: (n, b) for n, word in enumerate(of_y) for b, band in enumerate(word) for i in bands[band]}
     cells = tuple((*where_x[i], *where_y[i]) for i in range(len(openings)))
     exceptions = 0
@@ -178,22 +190,30 @@ def _line(parts: Sequence[tuple[Span, str, int]], canvas: float) -> Line:
     if canvas - end > _NONE:
         categories.append(GAP)
         sizes.append(canvas - end)
-    rounded = tuple(round(size, 4) for size in sizes)
+    rounded = tuple(round(size, 6) for size in sizes)
     return Line(tuple(categories), rounded, tuple(p[0] for p in parts), tuple(p[2] for p in parts))
 
 
 def _place(
-    openings: Sequence[Opening], lines: list[list[_Column]], row: list[int], tolerance: float, width: float
+    openings: Sequence[Opening],
+    lines: list[list[_Column]],
+    row: list[int],
+    taken: set[int],
+    tolerance: float,
+    width: float,
 ) -> int:
-    """Put a row into the line where it costs fewest letters, or into one of its own; which that is."""
+    """Put a row into the line where it costs fewest letters, or into one of its own; which that is.
+
+    Lines that are taken have another row of the same band, which overlaps this one.
+    """
     alone = [_Column([i], openings[i].x) for i in row]
     best, chosen, found = float(_letters(alone, tolerance, width)), len(lines), alone
     for n, line in enumerate(lines):
-        joined = _joined(openings, line, row, tolerance)
+        joined = None if n in taken else _joined(openings, line, row, tolerance)
         if joined is None:
             continue
         missing = len(joined) - len(row)
-        cost = _letters(joined, tolerance, width) - _letters(line, tolerance, width)
+        cost = 0.0 + _letters(joined, tolerance, width) - _letters(line, tolerance, width)
         cost += _EXCEPTION * min(missing, len(row))
         if cost <= best - (chosen < len(lines)) * 1e-9:
             best, chosen, found = cost, n, joined
@@ -229,7 +249,7 @@ def _joined(
     for column in columns:
         column.span = _mean(openings[i].x for i in column.members)
     columns = sorted(columns + new, key=lambda column: column.span)
-    for a, b in zip(columns, columns[1:], strict=False):
+    for a, b in pairwise(columns):
         if b.span[0] < a.span[1] - 1e-6:
             return None
     return columns
@@ -238,5 +258,7 @@ def _joined(
 def _letters(columns: Sequence[_Column], tolerance: float, width: float) -> int:
     """About how many letters a line takes, if what differs by the tolerance is alike."""
     line = _line([(column.span, "open", 1) for column in columns], width)
-    word = clusters([(size, 1e6 * (c == GAP)) for size, c in zip(line.sizes, line.categories, strict=True)], tolerance)
+    word = clusters(
+        [(size, 1e6 * (c == GAP)) for size, c in zip(line.sizes, line.categories, strict=True)], tolerance
+    )
     return letters(word)

@@ -61,9 +61,12 @@ def plain(width: float, height: float, name: str) -> Design:
     )
 
 
-def written(order: Order, openings: Sequence[Opening], width: float, height: float, name: str) -> Design:
-    """The design of an order of openings."""
+def written(
+    order: Order, openings: Sequence[Opening], unit: float, canvas: tuple[float, float], name: str
+) -> Design:
+    """The design of an order of openings, whose lengths are in units of so many metres; `canvas` is in metres."""
     structure = order.structure
+    width, height = (extent / unit for extent in canvas)
     across = _named("x", structure.x, order.x, _odd(order, openings, "x"), width, ())
     along = _named("y", structure.y, order.y, _odd(order, openings, "y"), height, across.counters)
     patterns = {f"{_title('x', n)}": text for n, text in enumerate(across.texts)}
@@ -71,10 +74,10 @@ def written(order: Order, openings: Sequence[Opening], width: float, height: flo
     document: dict[str, Any] = {
         "format": "facade-nb/design/1",
         "name": name,
-        "canvas": {"width": width, "height": height},
+        "canvas": {"width": canvas[0], "height": canvas[1]},
         "symbols": {
-            **_symbols(structure.x, order.x, across.symbols),
-            **_symbols(structure.y, order.y, along.symbols),
+            **_symbols(structure.x, order.x, across.symbols, unit),
+            **_symbols(structure.y, order.y, along.symbols, unit),
         },
         "counters": {counter: {"min": 1} for counter in across.counters + along.counters},
         "patterns": patterns,
@@ -115,24 +118,37 @@ def _named(
     }
     letters = {kind: _letters(_NAMES[axis, kind]) for kind in (True, False)}
     symbols = tuple(next(letters[solid[symbol]]) for symbol in range(fitted.symbols))
-    counters = (c for c in _letters(_COUNTERS[axis]) if c not in taken)
+    counters: Iterator[str] = (c for c in _letters(_COUNTERS[axis]) if c not in taken)
     texts, used = [], []
     for n, (line, word) in enumerate(zip(lines, fitted.names, strict=True)):
-        expression = shortest(word)
         weights: Tally[int] = Tally()
         for i, weight in zip(line.solid, line.weights, strict=True):
             weights[word[i]] = max(weights[word[i]], weight)
         most = max(weights.values())
         looks = Looks(fitted.sizes, {s: w / most for s, w in weights.items()}, odd, canvas)
         counter = next(counters)
-        if len(line.solid) > 1:
-            expression = grown(expression, counter, looks, only_runs=axis == "y" and n > 0)
+        expression = _growing(word, counter, looks, len(line.solid), only_runs=axis == "y" and n > 0)
         if _counts(expression):
             used.append(counter)
         else:
             counters = _before(counter, counters)
-        texts.append(_text(expression, symbols))
+        texts.append(_text(expression, symbols).strip())
     return _Named(symbols, tuple(texts), tuple(used))
+
+
+def _growing(
+    word: Sequence[int], counter: str, looks: Looks, openings: int, *, only_runs: bool
+) -> Expression:
+    """The shortest expression of a word in which a counter has a place; without one where there is none."""
+    best = shortest(word)
+    if openings < 2:
+        return best
+    reaches = (None,) if only_runs else (None, (len(word) + 1) // 2 + 1, 0)
+    for reach in reaches:
+        expression = grown(shortest(word, reach), counter, looks, only_runs=only_runs)
+        if _counts(expression):
+            return expression
+    return best
 
 
 def _before(first: str, rest: Iterator[str]) -> Iterator[str]:
@@ -167,7 +183,9 @@ def _text(expression: Expression, symbols: Sequence[str]) -> str:
         case Series(parts):
             return "".join(_text(part, symbols) for part in parts)
         case Run(body, times, counter):
-            return f"{_grouped(body, symbols)}^{'{' + counter + '}' if len(counter) > 1 else counter or times} "
+            return (
+                f"{_grouped(body, symbols)}^{'{' + counter + '}' if len(counter) > 1 else counter or times} "
+            )
         case Mirror(body, pivot):
             return f"{_grouped(body, symbols)}^{'.' if pivot else '~'}1 "
 
@@ -177,7 +195,9 @@ def _grouped(body: Expression, symbols: Sequence[str]) -> str:
     return text if isinstance(body, Leaf) else f"({text})"
 
 
-def _symbols(lines: Sequence[Line], fitted: Axis, names: Sequence[str]) -> dict[str, Mapping[str, float]]:
+def _symbols(
+    lines: Sequence[Line], fitted: Axis, names: Sequence[str], unit: float
+) -> dict[str, Mapping[str, float]]:
     """Sizes; openings keep theirs where every line that they stand in has walls to take the rest."""
     free = set(range(fitted.symbols))
     for line, word in zip(lines, fitted.names, strict=True):
@@ -188,10 +208,15 @@ def _symbols(lines: Sequence[Line], fitted: Axis, names: Sequence[str]) -> dict[
             free -= solid
     found: dict[str, Mapping[str, float]] = {}
     for symbol, name in enumerate(names):
-        size = fitted.sizes[symbol]
-        bounds = {"min": round(size * (1 - _SLACK), 3), "max": round(size * (1 + _SLACK), 3)}
+        size = _length(fitted.sizes[symbol] * unit)
+        bounds = {"min": _length(size * (1 - _SLACK)), "max": _length(size * (1 + _SLACK))}
         found[name] = {"size": size, **(bounds if symbol in free else {})}
     return found
+
+
+def _length(metres: float) -> float:
+    """To the millimetre, if that is precise enough."""
+    return round(metres, 3 if metres >= 0.1 else 5 if metres >= 0.002 else 9)
 
 
 def _layers(
@@ -257,11 +282,12 @@ def _shapes(
         usual = None if 2 * kinds[None] > len(places) else max((False, True), key=lambda kind: kinds[kind])
         if usual is not None or not walls:
             found[f"{column} {band}"] = dict(blank if usual is None else _LOOKS[usual])
+        again = {"visible": True} if usual is None and not walls else {}  # else it would be inherited
         for c, b in places:
             kind = cells.get((c, b))
             if kind != usual:
                 key = f"{column}[{numbers[0][c]}] {band}[{numbers[1][b]}]"
-                found[key] = dict(blank if kind is None else _LOOKS[kind])
+                found[key] = dict(blank if kind is None else _LOOKS[kind] | again)
     return found
 
 
