@@ -7,6 +7,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+from .cli_ending import say
 from .cli_files import STANDARD_OUTPUT, Output, Source, write
 from .design.errors import cut
 
@@ -35,21 +36,33 @@ def add_infer(commands: Any) -> None:
 
 
 def _infer(options: argparse.Namespace) -> int:
+    from .survey import SurveyError
+
+    try:
+        text = _inferred(Path(options.survey), options.building)
+    except SurveyError as error:
+        say(error)
+        return 2
+    write([(options.out, text)])
+    return 0
+
+
+def _inferred(path: Path, building: str | None) -> str:
+    """The design of a building of a file, as JSON."""
     from .survey import SurveyError, buildings, infer, load_survey
 
-    path = Path(options.survey)
-    building = options.building
+    if not path.exists():
+        raise SurveyError(f"survey: expected a file of surveyed façades; there is no {str(path)!r}")
     if building is None:
         known = buildings(path)
         if len(known) != 1:
             listed = ", ".join(map(cut, islice(known, _LISTED))) + (", …" if len(known) > _LISTED else "")
-            found = f"found {len(known)} in {path}: {listed}" if known else f"{path} has none"
-            raise SurveyError(f"--building: expected one of the façades; {found}")
+            found = f"{path} has {len(known)}: {listed}" if known else f"{path} has none"
+            raise SurveyError(f"--building: expected the number of a façade; {found}")
         building = known[0]
     survey = load_survey(building, path)
     try:
         design = infer(survey.openings, survey.width, survey.height, survey.building)
     except SurveyError as error:
         raise SurveyError(f"{path}: building {cut(survey.building)}: {error}") from None
-    write([(options.out, design.to_json() + "\n")])
-    return 0
+    return design.to_json() + "\n"

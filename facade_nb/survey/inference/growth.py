@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from .repeats import Expression, Leaf, Mirror, Run, Series
 
-__all__ = ["Looks", "grown"]
+__all__ = ["Looks", "grown", "shares"]
 
 _WALL = 0.3
 """Windows with less between them than this part of their size are one group, not a rhythm."""
@@ -89,15 +89,46 @@ def _score(part: Expression, copies: int, looks: Looks) -> float:
     word = _word(body)
     openings = [symbol for symbol in word if symbol in looks.usual]
     ends = [symbol in looks.usual for symbol in (word[0], word[-1])]
-    if not openings or ends[0] == ends[1] or any(symbol in looks.odd for symbol in openings):
+    repeats = isinstance(part, Run) and part.times > 1
+    if (
+        not openings
+        or any(symbol in looks.odd for symbol in openings)
+        or (ends[0] == ends[1] and not repeats)
+    ):
         return _ODD
     step = copies * sum(looks.sizes[symbol] for symbol in word) / looks.canvas
     if step > 0.75:
         return _ODD
-    wall = looks.sizes[word[-1] if ends[0] else word[0]]
+    wall = 0.0 if all(ends) else looks.sizes[word[-1] if ends[0] else word[0]]
     score = step - _USUAL * sum(looks.usual[symbol] for symbol in openings) / len(openings)
     if wall < _WALL * min(looks.sizes[symbol] for symbol in openings):
         score += _NO_WALL
-    if isinstance(part, Run):
+    if repeats:
         score -= _REPEATED
     return score
+
+
+def shares(expression: Expression) -> list[float]:
+    """For each letter of the word: which part of what a counter adds is added before it. Empty: there is no counter."""
+    copies = _copies(expression)
+    last = {copy: i for i, copy in enumerate(copies) if copy}
+    if not last:
+        return []
+    return [sum(end < i for end in last.values()) / len(last) for i in range(len(copies))]
+
+
+def _copies(expression: Expression) -> list[tuple[int, ...]]:
+    """For each letter of the word in which copy of a counted part it stands; empty: in none."""
+    match expression:
+        case Series(parts):
+            return [copy and (n, *copy) for n, part in enumerate(parts) for copy in _copies(part)]
+        case Run(body, times, counter):
+            inner = [(0,)] * len(_word(body)) if counter else _copies(body)
+            return [copy and (n, *copy) for n in range(times) for copy in inner]
+        case Mirror(body, pivot):
+            half = _copies(body)
+            return [copy and (0, *copy) for copy in half] + [
+                copy and (1, *copy) for copy in half[::-1][pivot:]
+            ]
+        case _:
+            return [()]

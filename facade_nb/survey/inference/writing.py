@@ -6,12 +6,12 @@ from collections import Counter as Tally
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import count
+from itertools import accumulate, count
 from typing import Any
 
 from ...design.model import Design
 from .fitting import Axis
-from .growth import Looks, grown
+from .growth import Looks, grown, shares
 from .repeats import Expression, Leaf, Mirror, Run, Series, leaves, shortest
 from .search import Order
 from .structure import GAP, Line, Opening
@@ -42,6 +42,7 @@ class _Named:
     symbols: tuple[str, ...]
     texts: tuple[str, ...]
     counters: tuple[str, ...]
+    shares: tuple[list[float], ...]
 
 
 def plain(width: float, height: float, name: str) -> Design:
@@ -76,8 +77,8 @@ def written(
         "name": name,
         "canvas": {"width": canvas[0], "height": canvas[1]},
         "symbols": {
-            **_symbols(structure.x, order.x, across.symbols, unit),
-            **_symbols(structure.y, order.y, along.symbols, unit),
+            **_symbols(structure.x, order.x, across, unit),
+            **_symbols(structure.y, order.y, along, unit),
         },
         "counters": {counter: {"min": 1} for counter in across.counters + along.counters},
         "patterns": patterns,
@@ -119,7 +120,7 @@ def _named(
     letters = {kind: _letters(_NAMES[axis, kind]) for kind in (True, False)}
     symbols = tuple(next(letters[solid[symbol]]) for symbol in range(fitted.symbols))
     counters: Iterator[str] = (c for c in _letters(_COUNTERS[axis]) if c not in taken)
-    texts, used = [], []
+    texts, used, grows = [], [], []
     for n, (line, word) in enumerate(zip(lines, fitted.names, strict=True)):
         weights: Tally[int] = Tally()
         for i, weight in zip(line.solid, line.weights, strict=True):
@@ -133,7 +134,8 @@ def _named(
         else:
             counters = _before(counter, counters)
         texts.append(_text(expression, symbols).strip())
-    return _Named(symbols, tuple(texts), tuple(used))
+        grows.append(shares(expression))
+    return _Named(symbols, tuple(texts), tuple(used), tuple(grows))
 
 
 def _growing(
@@ -196,7 +198,7 @@ def _grouped(body: Expression, symbols: Sequence[str]) -> str:
 
 
 def _symbols(
-    lines: Sequence[Line], fitted: Axis, names: Sequence[str], unit: float
+    lines: Sequence[Line], fitted: Axis, named: _Named, unit: float
 ) -> dict[str, Mapping[str, float]]:
     """Sizes; openings keep theirs where every line that they stand in has walls to take the rest."""
     free = set(range(fitted.symbols))
@@ -206,12 +208,40 @@ def _symbols(
         free -= gaps
         if not gaps:
             free -= solid
+    free |= _kept(lines, fitted, named)
     found: dict[str, Mapping[str, float]] = {}
-    for symbol, name in enumerate(names):
+    for symbol, name in enumerate(named.symbols):
         size = _length(fitted.sizes[symbol] * unit)
         bounds = {"min": _length(size * (1 - _SLACK)), "max": _length(size * (1 + _SLACK))}
         found[name] = {"size": size, **(bounds if symbol in free else {})}
     return found
+
+
+def _kept(lines: Sequence[Line], fitted: Axis, named: _Named) -> set[int]:
+    """Margins of lines without a counter that stay as wide: what stands beside them then moves with the first line."""
+    first = named.shares[0]
+    if not first:
+        return set()
+    ends = _ends(lines[0])
+    kept = set()
+    for n, (line, word) in enumerate(zip(lines, fitted.names, strict=True)):
+        others = {s for m, other in enumerate(fitted.names) if m != n for s in other}
+        if named.shares[n] or line.categories[0] != GAP or line.categories[-1] != GAP or word[0] == word[-1]:
+            continue
+        own = _ends(line)
+        low, high = own[0], own[-2]  # where the openings of this line begin and end
+        before = next((share for end, share in zip(ends, first, strict=True) if end > low), 1.0)
+        after = next((share for end, share in zip(ends, first, strict=True) if end >= high), 1.0)
+        if before == after == 0.0 and word.count(word[0]) == 1 and word[0] not in others:
+            kept.add(word[0])
+        if before == after == 1.0 and word.count(word[-1]) == 1 and word[-1] not in others:
+            kept.add(word[-1])
+    return kept
+
+
+def _ends(line: Line) -> list[float]:
+    """Where each token of a line ends."""
+    return list(accumulate(line.sizes))
 
 
 def _length(metres: float) -> float:
@@ -247,7 +277,11 @@ def _layers(
                 every = [along.symbols[s] for s in dict.fromkeys(leaves(shortest(order.y.names[yn])))]
                 y["mask"] = [symbol for symbol in every if symbol not in others]
         shown |= set(bands) if yn == 0 else set()
-        shapes = _shapes(cells[xn, yn], columns, ours, set(y.get("mask", ours)), walls)
+        numbers = (
+            _numbers(columns, structure.x[xn], across.shares[xn]),
+            _numbers(ours, structure.y[yn], along.shares[yn]),
+        )
+        shapes = _shapes(cells[xn, yn], columns, ours, numbers, set(y.get("mask", ours)), walls)
         title = "walls and windows" if (xn, yn) == base else f"{_what(cells[xn, yn])} {depth}"
         yield {"name": title, "x": x, "y": y, "depth": depth, "shapes": shapes}
 
@@ -265,11 +299,11 @@ def _shapes(
     cells: Mapping[tuple[int, int], bool],
     columns: Sequence[str],
     bands: Sequence[str],
+    numbers: tuple[list[int], list[int]],
     seen: set[str],
     walls: bool,
 ) -> dict[str, Any]:
     """What a layer shows: for each pair of symbols what most have, and single ones that differ."""
-    numbers = [_numbers(columns), _numbers(bands)]
     groups: dict[tuple[str, str], list[tuple[int, int]]] = defaultdict(list)
     for c, column in enumerate(columns):
         for b, band in enumerate(bands):
@@ -291,11 +325,13 @@ def _shapes(
     return found
 
 
-def _numbers(names: Sequence[str]) -> list[int]:
-    """Which instance of its name each is, from 1."""
+def _numbers(names: Sequence[str], line: Line, grows: Sequence[float]) -> list[int]:
+    """Which instance of its name each opening is: from 1, or from -1 at the far end where most is added before it."""
+    total = Tally(names)
     tally: Tally[str] = Tally()
     found = []
-    for name in names:
+    for name, token in zip(names, line.solid, strict=True):
         tally[name] += 1
-        found.append(tally[name])
+        far = bool(grows) and grows[token] > 0.5
+        found.append(tally[name] - total[name] - 1 if far else tally[name])
     return found
