@@ -21,8 +21,12 @@ __all__ = ["plain", "written"]
 _NAMES = {("x", True): "BCDEFGH", ("x", False): "abcdefgh", ("y", True): "PQRSTUVW", ("y", False): "pqrstuvw"}
 """Letters of openings and of what is between them, across and along."""
 _COUNTERS = {"x": "kmnijl", "y": "nmkijl"}
-_SLACK = 0.1
-"""Openings may be by so much smaller or larger than surveyed; walls take the rest."""
+_BOUNDS = (0.8, 1.05)
+"""How small and how large openings may become, of their surveyed size; walls take the rest."""
+_WALLS = 0.25
+"""So much of a line must be wall for that."""
+_POST = 0.5
+"""Walls that are no wider, metres, are posts between openings: they become no less than half as wide."""
 
 _WALL = {"kind": "wall", "geometry": "box", "material": "plaster"}
 _LOOKS = {
@@ -202,18 +206,23 @@ def _symbols(
 ) -> dict[str, Mapping[str, float]]:
     """Sizes; openings keep theirs where every line that they stand in has walls to take the rest."""
     free = set(range(fitted.symbols))
+    posts = {symbol for symbol in free if fitted.sizes[symbol] <= _POST}
     for line, word in zip(lines, fitted.names, strict=True):
         solid = {word[i] for i in line.solid}
-        gaps = set(word) - solid
-        free -= gaps
-        if not gaps:
+        free -= set(word) - solid
+        walls = sum(fitted.sizes[s] for s in word if s not in solid and s not in posts)
+        if walls < _WALLS * sum(line.sizes):
             free -= solid
+            posts -= set(word)
+        posts -= solid
     free |= _kept(lines, fitted, named)
     found: dict[str, Mapping[str, float]] = {}
     for symbol, name in enumerate(named.symbols):
         size = _length(fitted.sizes[symbol] * unit)
-        bounds = {"min": _length(size * (1 - _SLACK)), "max": _length(size * (1 + _SLACK))}
-        found[name] = {"size": size, **(bounds if symbol in free else {})}
+        bounds = dict(zip(("min", "max"), (_length(size * bound) for bound in _BOUNDS), strict=True))
+        if symbol not in free:
+            bounds = {"min": _length(size / 2)} if symbol in posts else {}
+        found[name] = {"size": size, **bounds}
     return found
 
 
