@@ -1,4 +1,5 @@
-"""The command line: ``python -m facade_nb solve DESIGN.json``, ``… render GRAMMAR.txt`` and ``… town``.
+"""The command line: ``python -m facade_nb solve DESIGN.json``, ``… infer SURVEY.json``, ``… render GRAMMAR.txt`` and
+``… town``.
 
 Exit status 0: done; 2: the input is at fault; 3: the design has no layout, and nothing but its trace is written;
 1: this machine cannot draw it, or could not write it (a full disk). Messages go to stderr, without a traceback.
@@ -20,6 +21,7 @@ from typing import Any
 from . import Design, DesignError, Layout, NoLayout, __version__, solve
 from .cli_ending import ended, say
 from .cli_files import STANDARD_OUTPUT, Output, Source, check, write
+from .cli_infer import add_infer
 from .cli_render import add_render, joined
 from .cli_town import add_town
 
@@ -86,6 +88,7 @@ def command_parser() -> argparse.ArgumentParser:
         help="of dimensions in DXF and PDF: metres, or feet and inches; default: m",
     )
     solving.set_defaults(run=_solve, beside=_beside)
+    add_infer(commands)
     add_render(commands)
     add_town(commands)
     return parser

@@ -1,0 +1,121 @@
+"""Sizes of symbols, so that lines of them come as near as can be to what was measured."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import count
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .repeats import letters
+from .structure import Line, Structure, clusters
+
+__all__ = ["Axis", "Names", "agreement", "fit", "measured", "named", "renumbered"]
+
+Names = tuple[tuple[int, ...], ...]
+"""For each line the symbol of each token."""
+
+_LEAST = 0.002
+"""No symbol that is fitted is smaller, metres."""
+_TIE = 1e-6
+"""How much the measured size of a symbol counts where places leave it open."""
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """The lines of an axis with symbols and their sizes; `spans`: where each opening of each line comes to stand."""
+
+    names: Names
+    sizes: tuple[float, ...]
+    spans: tuple[NDArray[np.float64], ...]
+    letters: int
+
+    @property
+    def symbols(self) -> int:
+        """How many symbols there are."""
+        return len(self.sizes)
+
+
+def named(lines: Sequence[Line], tolerance: float, symmetric: float = 0.0) -> Names:
+    """Give tokens of about the same size the same symbol.
+
+    Lines whose halves mirror each other up to `symmetric` metres are made symmetric first.
+    """
+    sizes = [_symmetric(line, symmetric) for line in lines]
+    tokens = [(n, i) for n, line in enumerate(lines) for i in range(len(line.sizes))]
+    kinds = list(dict.fromkeys(lines[n].categories[i] for n, i in tokens))
+    numbers = clusters(
+        [(sizes[n][i], 1e6 * kinds.index(lines[n].categories[i])) for n, i in tokens], tolerance
+    )
+    found = dict(zip(tokens, numbers, strict=True))
+    return tuple(tuple(found[n, i] for i in range(len(line.sizes))) for n, line in enumerate(lines))
+
+
+def _symmetric(line: Line, tolerance: float) -> tuple[float, ...]:
+    other = line.sizes[::-1]
+    if line.categories != line.categories[::-1]:
+        return line.sizes
+    if max(abs(a - b) for a, b in zip(line.sizes, other, strict=True)) > tolerance:
+        return line.sizes
+    return tuple((a + b) / 2 for a, b in zip(line.sizes, other, strict=True))
+
+
+def renumbered(names: Names) -> Names:
+    """The same with symbols numbered in the order in which they appear."""
+    numbers: dict[int, int] = {}
+    return tuple(tuple(numbers.setdefault(s, len(numbers)) for s in line) for line in names)
+
+
+def fit(lines: Sequence[Line], names: Names, canvas: float) -> Axis | None:
+    """Least squares over the places of all openings, with every line as long as the canvas; None where that fails."""
+    names = renumbered(names)
+    n = 1 + max(symbol for line in names for symbol in line)
+    normal = np.zeros((n + len(lines), n + len(lines)))
+    right = np.full(n + len(lines), canvas)
+    right[:n] = 0.0
+    tally = np.zeros((n, 2))
+    parts: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
+    for number, (line, word) in enumerate(zip(lines, names, strict=True)):
+        sums = np.zeros((len(word) + 1, n))
+        sums[range(1, len(word) + 1), word] = 1
+        np.add.at(tally, (list(word), 0), line.sizes)
+        np.add.at(tally, (list(word), 1), 1)
+        sums = sums.cumsum(axis=0)
+        solid = np.array(line.solid)
+        low, high = sums[solid], sums[solid + 1]
+        parts.append((low, high))
+        normal[n + number, :n] = normal[:n, n + number] = sums[-1]
+        for rows, aims in zip((low, high), np.array(line.spans).T, strict=True):
+            weighted = rows.T * np.array(line.weights)
+            normal[:n, :n] += weighted @ rows
+            right[:n] += weighted @ aims
+    normal[range(n), range(n)] += _TIE
+    right[:n] += _TIE * tally[:, 0] / tally[:, 1]
+    sizes = np.round(np.linalg.lstsq(normal, right, rcond=None)[0][:n], 3)
+    totals = normal[n:, :n]
+    if sizes.min() < _LEAST or np.abs(totals @ sizes - canvas).max() > 0.02 + 1e-3 * totals.sum(axis=1).max():
+        return None
+    spans = tuple(np.stack([low @ sizes, high @ sizes], axis=1) for low, high in parts)
+    return Axis(names, tuple(float(size) for size in sizes), spans, sum(letters(word) for word in names))
+
+
+def measured(lines: Sequence[Line]) -> Axis:
+    """The axis as it was measured: nothing is like anything else."""
+    numbers = count()
+    names = tuple(tuple(next(numbers) for _ in line.sizes) for line in lines)
+    spans = tuple(np.array(line.spans) for line in lines)
+    return Axis(names, tuple(size for line in lines for size in line.sizes), spans, sum(map(len, names)))
+
+
+def agreement(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> float:
+    """Mean intersection over union of openings (n, 4) with what stands for them, both moved to their corners."""
+    across = np.array([x.spans[n][i] for n, i, _, _ in structure.cells])
+    along = np.array([y.spans[n][i] for _, _, n, i in structure.cells])
+    placed = np.stack([across[:, 0], along[:, 0], across[:, 1], along[:, 1]], axis=1)
+    placed = placed - np.tile(placed[:, :2].min(axis=0), 2)
+    low, high = np.maximum(placed[:, :2], target[:, :2]), np.minimum(placed[:, 2:], target[:, 2:])
+    shared = np.clip(high - low, 0.0, None).prod(axis=1)
+    areas = [(rects[:, 2:] - rects[:, :2]).prod(axis=1) for rects in (placed, target)]
+    return float((shared / (areas[0] + areas[1] - shared)).mean())

@@ -1,0 +1,173 @@
+"""The simplest order of a façade that is near enough: tolerances are tried, then symbols merged while it pays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .fitting import Axis, Names, agreement, fit, measured, named
+from .repeats import letters
+from .structure import Line, Opening, Structure, structures
+
+__all__ = ["Order", "search"]
+
+NEAR = 0.91
+"""A design agrees with the survey at least so well where that can be."""
+
+_TOLERANCES = (0.02, 0.05, 0.1, 0.2, 0.4)
+"""Sizes that differ by no more may be one, metres. All are tried."""
+_SYMMETRIC = 3.0
+"""Halves of a line mirror each other where they differ by no more than this times the tolerance."""
+_POLISHED = 4
+"""So many of the best orders are simplified further."""
+_TRIALS = 20_000
+"""So many letters are looked at in simplifying a line, all trials together."""
+
+_SYMBOL, _EXCEPTION, _LINE = 0.5, 0.25, 0.5
+"""What a symbol, an exception and a line weigh, in letters."""
+_ERROR = 1.5
+"""What it costs, in letters an opening, to agree in nothing."""
+_FAR = 60.0
+"""The same, of what lacks to `NEAR`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """A structure with both axes fitted; `agreement` is the mean intersection over union, `cost` what is least."""
+
+    structure: Structure
+    x: Axis
+    y: Axis
+    agreement: float
+    cost: float
+
+
+def search(openings: Sequence[Opening], width: float, height: float) -> Order:
+    """The order that costs least."""
+    target = np.array([(o.x[0], o.y[0], o.x[1], o.y[1]) for o in openings])
+    target -= np.tile(target[:, :2].min(axis=0), 2)
+    found: list[Order] = []
+    for structure in structures(openings, width, height):
+        if not found:  # the exact one, which is there whatever else cannot be fitted
+            found.append(_order(structure, target, measured(structure.x), measured(structure.y)))
+        along = list(_candidates(structure.y, height))
+        for x in _candidates(structure.x, width):
+            found += [_order(structure, target, x, y) for y in along]
+    found.sort(key=lambda order: order.cost)
+    best = found[0]
+    for order in _different(found):
+        polished = _polished(order, target, width, height)
+        if polished.cost < best.cost - 1e-9:
+            best = polished
+    return best
+
+
+def _different(found: Sequence[Order]) -> Iterator[Order]:
+    """The first orders of a list that differ in more than what polishing changes."""
+    seen: set[int] = set()
+    for order in found:
+        if id(order.structure) not in seen:
+            seen.add(id(order.structure))
+            yield order
+            if len(seen) == _POLISHED:
+                return
+
+
+def _candidates(lines: Sequence[Line], canvas: float) -> Iterator[Axis]:
+    seen: set[Names] = set()
+    for tolerance in _TOLERANCES:
+        for symmetric in (0.0, _SYMMETRIC * tolerance):
+            names = named(lines, tolerance, symmetric)
+            if names not in seen:
+                seen.add(names)
+                axis = fit(lines, names, canvas)
+                if axis:
+                    yield axis
+
+
+def _order(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> Order:
+    near = agreement(structure, target, x, y)
+    size = x.letters + y.letters + _SYMBOL * (x.symbols + y.symbols) + _EXCEPTION * structure.exceptions
+    size += _LINE * (len(structure.x) + len(structure.y))
+    cost = size / len(target) + _ERROR * (1 - near) + _FAR * max(0.0, NEAR - near)
+    return Order(structure, x, y, near, round(cost, 9))
+
+
+def _polished(order: Order, target: NDArray[np.float64], width: float, height: float) -> Order:
+    """Simplify both axes, in turn, while it pays."""
+    left = dict.fromkeys("xy", _TRIALS)
+    while True:
+        before = order.cost
+        for axis in "xy":
+            while left[axis] > 0:
+                best = order
+                lines = order.structure.x if axis == "x" else order.structure.y
+                own = order.x if axis == "x" else order.y
+                for names in _simpler(lines, own.names):
+                    left[axis] -= sum(map(len, names))
+                    if order.agreement >= NEAR and _weight(names) >= _weight(own.names):
+                        continue
+                    fitted = fit(lines, names, width if axis == "x" else height)
+                    if fitted:
+                        x, y = (fitted, order.y) if axis == "x" else (order.x, fitted)
+                        other = _order(order.structure, target, x, y)
+                        if other.cost < best.cost - 1e-9:
+                            best = other
+                    if left[axis] <= 0:
+                        break
+                if best is order:
+                    break
+                order = best
+        if order.cost >= before:
+            return order
+
+
+def _weight(names: Names) -> float:
+    """What symbols and letters of some lines weigh."""
+    return _SYMBOL * len({s for word in names for s in word}) + sum(letters(word) for word in names)
+
+
+def _simpler(lines: Sequence[Line], names: Names) -> Iterator[Names]:
+    """Other names of the tokens, among which shorter patterns may be."""
+    categories: dict[int, str] = {}
+    for line, word in zip(lines, names, strict=True):
+        categories.update(zip(word, line.categories, strict=True))
+    symbols = sorted(categories)
+    for i, a in enumerate(symbols):
+        for b in symbols[i + 1 :]:
+            if categories[a] == categories[b]:
+                yield tuple(tuple(a if s == b else s for s in word) for word in names)
+    for n, (line, word) in enumerate(zip(lines, names, strict=True)):
+        for other in _regular(line, word):
+            if other != word:
+                yield (*names[:n], other, *names[n + 1 :])
+    for n, word in enumerate(names):
+        for i, own in enumerate(word):
+            for symbol in symbols:
+                if symbol != own and categories[symbol] == categories[own]:
+                    yield (*names[:n], (*word[:i], symbol, *word[i + 1 :]), *names[n + 1 :])
+
+
+def _regular(line: Line, word: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
+    """The word made symmetric, from its left and from its right, and made to repeat."""
+    kinds = line.categories
+    if kinds == kinds[::-1]:
+        half = len(word) // 2
+        rest = len(word) - half
+        yield word[:rest] + word[:half][::-1]
+        yield word[::-1][:rest] + word[::-1][:half][::-1]
+    for period in (2, 4, 6, 8):
+        for start in (0, 1, 2, 3):
+            for end in (len(word), len(word) - 1, len(word) - 2, len(word) - 3):
+                if end - start < 2 * period:
+                    continue
+                other = list(word)
+                for i in range(start + period, end):
+                    if kinds[i] != kinds[i - period]:
+                        break
+                    other[i] = other[i - period]
+                else:
+                    yield tuple(other)
