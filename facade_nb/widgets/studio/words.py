@@ -43,7 +43,7 @@ def describe_words(model: FacadeModel, name: str) -> Json:
     definition = design.patterns.get(name)
     if definition is None:
         return {}
-    layout = model.layout if not (model.stale or model.busy) else None
+    layout = model.layout if not (model.message or model.busy) else None
     solved = {axis: layout.along(axis).words.get(name) for axis in AXES} if layout is not None else {}
     chosen = {axis: word for axis, word in solved.items() if word is not None}
     until = time.monotonic() + _MOMENT
@@ -55,9 +55,13 @@ def describe_words(model: FacadeModel, name: str) -> Json:
     try:
         found = choices(design, name, TOLERANCES[-1], MOST, chosen, check)
     except _TooLong:
-        return {"text": definition.text, "axes": [], "note": "There are too many words to list them here."}
+        return {
+            "text": _shown(definition.text),
+            "axes": [],
+            "note": "There are too many words to list them here.",
+        }
     except DesignError as error:
-        return {"text": definition.text, "axes": [], "note": str(error)}
+        return {"text": _shown(definition.text), "axes": [], "note": str(error)}
     note = ""
     if not found:
         letters = definition.parsed.symbols
@@ -76,7 +80,7 @@ def describe_words(model: FacadeModel, name: str) -> Json:
                 "more": own.fits - sum(one["reason"] in ("chosen", "fits", "looser") for one in told),
             }
         )
-    return {"text": definition.text, "axes": axes, "note": note}
+    return {"text": _shown(definition.text), "axes": axes, "note": note}
 
 
 def _same(word: Word, other: Word | None) -> bool:
