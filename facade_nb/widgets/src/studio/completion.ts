@@ -84,7 +84,10 @@ function operands(text: string, caret: number, known: Known): Completion {
     items.push({ text: `${spell(word.name)} := `, label: ":=", means: "what stands for it", kind: "sign" });
   }
   if (since >= 0 && own.length <= (word ? 1 : 0)) {
-    const control = piecesOf(text).slice(0, since);
+    const control = pieces.slice(
+      0,
+      pieces.findIndex(({ kind }) => kind === "end"),
+    );
     const placed = [...new Set(control.flatMap(({ kind, name }) => (kind === "symbol" ? [name] : [])))];
     const done = new Set(substituted(before.slice(0, from)));
     for (const name of placed)

@@ -30,9 +30,14 @@ export function suggest(input: HTMLTextAreaElement, options: SuggestOptions, sig
   mark(input, "aria-controls", id);
   mark(input, "aria-expanded", "false");
 
+  // A list that stands still while the page moves under it belongs to nothing.
+  const moved = ({ target }: Event) => {
+    if (target instanceof Node && !list.contains(target) && target !== input) close();
+  };
   const close = () => {
     if (list.hidden) return;
     list.hidden = true;
+    window.removeEventListener("scroll", moved, true);
     mark(input, "aria-expanded", "false");
     mark(input, "aria-activedescendant", null);
   };
@@ -50,6 +55,7 @@ export function suggest(input: HTMLTextAreaElement, options: SuggestOptions, sig
     if (now.items.length === 0 || input.readOnly) return close();
     list.replaceChildren(...now.items.map(optionOf));
     list.hidden = false;
+    window.addEventListener("scroll", moved, { capture: true, signal });
     mark(input, "aria-expanded", "true");
     const from = options.at(now.from);
     placeUnder({ getBoundingClientRect: () => from }, list);
@@ -136,14 +142,6 @@ export function suggest(input: HTMLTextAreaElement, options: SuggestOptions, sig
       take(Math.max(0, active));
     } else if (["Enter", "ArrowLeft", "ArrowRight", "Home", "End", "Tab"].includes(key)) close();
   });
-  // A list that stands still while the page moves under it belongs to nothing.
-  window.addEventListener(
-    "scroll",
-    (event) => {
-      if (event.target instanceof Node && !list.contains(event.target) && event.target !== input) close();
-    },
-    { capture: true, signal },
-  );
   return list;
 }
 
