@@ -138,7 +138,7 @@ class Extras(ModelWire):
                 if shown and layout is not None
                 else ""
             )
-        if self._changed("letters", layout, self._wanted("letters")):
+        if self._changed("letters", layout, layout and layout.design, self._wanted("letters")):
             self.letters = describe_letters(layout) if self._wanted("letters") else {}
         self._words_soon()
         if self._changed("survey", layout, self.surveyed):
@@ -167,7 +167,7 @@ class Extras(ModelWire):
                 what[len(_WORDS) :] for what in self._wants if what.startswith(_WORDS) and self._wanted(what)
             )
         )
-        if self._asleep or not self._changed("words", model.design, model.layout, model.stale, wanted):
+        if self._asleep or not self._changed("words", model.design, model.layout, model.message, wanted):
             return
         try:
             self.words = {name: told for name in wanted if (told := describe_words(model, name))}
