@@ -113,4 +113,4 @@ def test_modes_are_drawn_from_what_the_language_makes_of_them() -> None:
     assert modes["@"]["name"] == "pivot total"
     assert modes["@"]["words"]["2"] == "E k G k' E k G k' E'"
     assert modes[""]["words"]["-1"] == "G' k' E'"
-    assert {mode["words"]["0"] for mode in modes.values()} == {"ε"}
+    assert {mode["words"]["0"] for mode in modes.values()} == {""}

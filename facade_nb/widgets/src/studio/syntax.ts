@@ -55,7 +55,7 @@ export function syntaxCard(modes: () => readonly ModeState[]): HTMLElement {
           { class: "fnb-mode", "data-mode": sign },
           h("code", {}, `(EkG)^${sign}${copies.value}`),
           h("span", { class: "fnb-mode-name" }, sign === "" ? "no reflection" : name),
-          text === "ε" ? h("span", { class: "fnb-mode-word" }, "nothing") : drawWord(text),
+          text === "" ? h("span", { class: "fnb-mode-word" }, "nothing") : drawWord(text),
         );
       }),
     );
