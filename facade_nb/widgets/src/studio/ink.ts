@@ -27,6 +27,8 @@ export interface Ink {
   at(x: number, y: number): HTMLElement | null;
   /** Where a sign of the text stands on the screen. */
   place(offset: number): DOMRect;
+  /** Follow a field that has scrolled its text. */
+  scroll(top: number): void;
   /** Mark the brackets at the caret. */
   match(caret: number | null): void;
 }
@@ -106,6 +108,9 @@ export function inkOf({ pattern, colour }: InkOptions): Ink {
         if (left < 0) break;
       }
       return el.getBoundingClientRect();
+    },
+    scroll(top) {
+      page.style.transform = top > 0 ? `translateY(${-top}px)` : "";
     },
     match(caret) {
       const own = caret === null ? undefined : [caret - 1, caret].find((at) => pairs.has(at));

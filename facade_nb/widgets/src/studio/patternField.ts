@@ -67,9 +67,7 @@ export function patternField(
   };
   input.addEventListener("input", paint);
   for (const event of ["keyup", "pointerup", "focus", "blur"]) input.addEventListener(event, match);
-  input.addEventListener("scroll", () => {
-    ink.el.scrollTop = input.scrollTop;
-  });
+  input.addEventListener("scroll", () => ink.scroll(input.scrollTop));
   // While an input method composes, the field shows its letters itself.
   input.addEventListener("compositionstart", () => mark(el, "data-composing", true));
   input.addEventListener("compositionend", () => mark(el, "data-composing", false));
