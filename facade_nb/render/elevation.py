@@ -34,8 +34,9 @@ def elevation_svg(
 
     Each shape is a ``<g>`` whose first child, after its title, is a rectangle of class ``cell`` that covers exactly
     the shape's rectangle and takes the pointer. With `ids` the group carries ``data-shape`` (index into
-    ``layout.shapes``), ``data-layer``, ``data-x`` and ``data-y``. ``<svg>`` carries ``data-scale`` (pixels per metre)
-    and ``data-origin`` (the pixel of the façade's lower left corner).
+    ``layout.shapes``), ``data-layer``, ``data-x``, ``data-y`` and ``data-number`` (of the two
+    instances). ``<svg>`` carries ``data-scale`` (pixels per metre) and ``data-origin`` (the pixel of the façade's lower
+    left corner).
 
     Parameters
     ----------
@@ -125,7 +126,8 @@ def _shape(solid: Solid, defs: Defs, frame: Frame, *, ids: bool) -> str:
         label = f"{shape.layer}: {shape.x} {shape.y}, {shape.kind} ({shape.geometry}, {shape.material})"
         head = (
             f'<g data-shape="{solid.index}" data-layer="{escape(shape.layer)}" data-x="{escape(shape.x)}" '
-            f'data-y="{escape(shape.y)}"><title>{escape(label)}</title>'
+            f'data-y="{escape(shape.y)}" data-number="{shape.number[0]} {shape.number[1]}">'
+            f"<title>{escape(label)}</title>"
         )
     cell = f'<rect class="cell" x="{num(x)}" y="{num(y)}" width="{num(w)}" height="{num(h)}" fill='
     if shape.geometry == "box" or not solid.parts:

@@ -30,7 +30,8 @@ from .model.problem import AxisProblem, axis_problem
 from .selection.axis import AxisSearch, Best, Solved
 from .selection.warm_start import adopted, upper_bound
 from .trace import Recorder, stage
-from .words.instances import Range, ranges
+from .words.enumeration import across
+from .words.instances import Range
 
 __all__ = ["TOLERANCES", "forget", "solve"]
 
@@ -283,15 +284,7 @@ class _Run:
         if not self.shared:
             return {}
         other = self.problems["y" if axis == "x" else "x"]
-        symbols, counters = other.symbol, dict(other.counters)
-        limit = other.canvas * (1.0 + self.tolerances[-1])
-        found: dict[str, Range] = {}
-        for _, pattern in other.patterns:
-            own = ranges(pattern, symbols.__getitem__, counters.__getitem__, limit, self.clock.check)
-            for name in own.keys() & set(self.shared):
-                low, high = found.get(name, own[name])
-                found[name] = max(low, own[name][0]), min(high, own[name][1])
-        return found
+        return across(other, self.shared, self.tolerances[-1], self.clock.check)
 
     def _failure(self, walk: AxisSearch, best: Best, other: AxisSearch | None = None) -> NoLayout:
         """Why there is no layout; a trial does not ask."""

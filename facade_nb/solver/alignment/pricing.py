@@ -21,6 +21,7 @@ from math import inf
 
 import numpy as np
 
+from ..model.layout import Terms
 from ..model.precision import EPS
 from ..model.sums import dot
 from .elements import Option
@@ -29,7 +30,7 @@ from .linear_programme import FREE, solve_lp
 from .rules import fills, slope, tally
 from .rules import price as column_price
 
-__all__ = ["Columns", "Priced", "Structure", "price"]
+__all__ = ["Columns", "Priced", "Structure", "price", "terms_of"]
 
 Columns = tuple[tuple[Option, ...], ...]
 """Per column, per band: the option taken."""
@@ -362,3 +363,14 @@ def _measure(
     unsized = {} if x is None else {symbol: float(x[v]) for symbol, v in sizes.unsized.items()}
     columns = sum(len(group_columns) for group_columns in structure)
     return Priced(cost, omega, columns, True, structure, tuple(pieces), tuple(widths), tuple(omegas), unsized)
+
+
+def terms_of(group: Group, columns: Columns, pieces: Sequence[Sequence[Sequence[float]]]) -> Terms:
+    """What a priced group's J is made of beside Ω (docs/problem.md)."""
+    empty = loose = width = 0.0
+    for column, parts in zip(columns, pieces, strict=True):
+        total = tally(group, column, [sum(own) for own in parts])
+        empty += group.share * total.empties * total.high
+        loose += group.share * (total.loose + total.softs * total.high - total.soft_sizes)
+        width += total.high
+    return Terms(empty, loose, abs(width - group.canvas), group.objective)

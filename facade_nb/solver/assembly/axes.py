@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import inf
 
 from ...design.model import Design
+from ..alignment.pricing import terms_of
 from ..budget import Clock
 from ..model.layout import AxisLayout, GroupLayout, PlacedLetter, RowLayout
 from ..model.letters import Letter
@@ -31,7 +32,7 @@ def axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solved
             letters, places = band.letters, iter(intervals)
             placed[b] = tuple(
                 [
-                    tuple([_placed(letters[n], *next(places)) for n in column[b].letters])
+                    tuple([_placed(letters[n], n, *next(places)) for n in column[b].letters])
                     for column in structure
                 ]
             )
@@ -39,7 +40,12 @@ def axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solved
             RowLayout(layers[name][i], pattern, placed[group.band_of[i]])
             for i, pattern in enumerate(patterns)
         ]
-        groups[name] = GroupLayout(priced.omegas[k], answer.sized.boundaries[g], tuple(rows))
+        groups[name] = GroupLayout(
+            priced.omegas[k],
+            answer.sized.boundaries[g],
+            tuple(rows),
+            terms_of(group, structure, priced.pieces[k]),
+        )
     gap = max(0.0, answer.cost - best.bound) if best.bound < inf else 0.0
     proven = best.complete and best.whole and gap <= 1e-6
     return AxisLayout(
@@ -50,11 +56,12 @@ def axis_layout(design: Design, problem: AxisProblem, best: Best, answer: Solved
         dict(answer.sized.sizes),
         groups,
         Sizing(answer.sized.system, answer.sized.solution),
+        dict(answer.candidate.words),
     )
 
 
-def _placed(letter: Letter, start: float, end: float) -> PlacedLetter:
-    return PlacedLetter(letter.symbol, start, end, letter.mirrored, letter.transparent)
+def _placed(letter: Letter, index: int, start: float, end: float) -> PlacedLetter:
+    return PlacedLetter(letter.symbol, start, end, letter.mirrored, letter.transparent, index)
 
 
 def axis_warnings(walk: AxisSearch, answer: Solved) -> Iterator[str]:

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from ...design.mimebundle import bundle_of
 from ...design.model import Axis, Canvas, Design
+from .letters import Word
+from .objective import Objective
 
 if TYPE_CHECKING:
     from .sizing import Sizing
 
-__all__ = ["AxisLayout", "GroupLayout", "Layout", "PlacedLetter", "PlacedShape", "Rect", "RowLayout"]
+__all__ = ["AxisLayout", "GroupLayout", "Layout", "PlacedLetter", "PlacedShape", "Rect", "RowLayout", "Terms"]
 
 Rect = tuple[float, float, float, float]
 """Left, bottom, right, top, in metres."""
@@ -20,13 +22,17 @@ Rect = tuple[float, float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class PlacedLetter:
-    """A letter, or a piece of a cut one, with its interval in metres."""
+    """A letter, or a piece of a cut one, with its interval in metres.
+
+    `index` tells which letter of the row's word it is, from 0; −1 in a layout that was read from a document.
+    """
 
     symbol: str
     start: float
     end: float
     mirrored: bool = False
     transparent: bool = False
+    index: int = field(default=-1, compare=False)
 
     @property
     def size(self) -> float:
@@ -49,12 +55,36 @@ class RowLayout:
 
 
 @dataclass(frozen=True, slots=True)
+class Terms:
+    """What J is made of beside Ω, metres (docs/problem.md); J takes each times its price in `objective`.
+
+    Attributes
+    ----------
+    empty
+        E: column that rows leave empty.
+    loose
+        Λ: letters that share an element, or do not fill their column.
+    miss
+        |W − canvas|: by how much the columns miss the canvas.
+    """
+
+    empty: float
+    loose: float
+    miss: float
+    objective: Objective
+
+
+@dataclass(frozen=True, slots=True)
 class GroupLayout:
-    """One alignment group: Ω of its alignment, every column boundary (0 first, canvas last), rows topmost first."""
+    """One alignment group: Ω of its alignment, every column boundary (0 first, canvas last), rows topmost first.
+
+    `terms` has the rest of its J; None in a layout that was read from a document.
+    """
 
     error: float
     columns: tuple[float, ...]
     rows: tuple[RowLayout, ...]
+    terms: Terms | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +104,8 @@ class AxisLayout:
     sizing
         The least-squares problem with its multipliers: which constraint pulls where. None in a layout that was read
         from a document.
+    words
+        The word of each pattern, with its counters. Empty in a layout that was read from a document.
     """
 
     cost: float = 0.0
@@ -83,6 +115,7 @@ class AxisLayout:
     sizes: Mapping[str, float] = field(default_factory=dict)
     groups: Mapping[str, GroupLayout] = field(default_factory=dict)
     sizing: Sizing | None = field(default=None, compare=False, repr=False)
+    words: Mapping[str, Word] = field(default_factory=dict, compare=False, repr=False)
 
     def row(self, layer: str) -> RowLayout:
         """The row of a layer. Raises KeyError for a layer that took no part."""

@@ -7,15 +7,16 @@ from itertools import islice, product
 from math import inf
 
 from ...design.errors import DesignError
-from ...design.model import Counter, Symbol
+from ...design.model import Counter
 from ...design.pattern import Alt, Concat, Count, Mirror, Node, Pattern
 from ...design.tree import unparse
 from ..candidates.stream import CandidateStream
 from ..events import CandidateJudged, Event, LeftOut, WordJudged
-from ..model.letters import Letter, Word
+from ..model.letters import Word
 from ..model.precision import EPS
 from ..model.problem import AxisProblem
 from ..words.instances import Instances
+from ..words.neighbours import pushes, spelled, steps
 from .network_events import letter_note
 from .recorder import Recorder
 
@@ -33,10 +34,10 @@ _WAYS = 2_000
 def words_judged(problem: AxisProblem, found: Mapping[str, Instances], tolerance: float) -> Iterator[Event]:
     """The words of every pattern, in the order of their counters, with the bounds of Eq. 7."""
     high = problem.canvas + tolerance
-    pushes = _pushes(problem, found)
+    pushed = pushes(problem, found)
     for name, pattern in problem.patterns:
         own = found[name]
-        low = problem.canvas - tolerance - pushes[name]
+        low = problem.canvas - tolerance - pushed[name]
         ways = _Ways(pattern)
         kept = list(own.words)
         dropped, more = _beside(problem, pattern, own, high)
@@ -69,21 +70,6 @@ def words_judged(problem: AxisProblem, found: Mapping[str, Instances], tolerance
             yield LeftOut(problem.axis, f"words of {name}", more + max(0, len(kept) - WORDS))
 
 
-def _pushes(problem: AxisProblem, found: Mapping[str, Instances]) -> dict[str, float]:
-    """Per pattern: at most so many metres of opaque letters stand above it, in the group where that is least."""
-    opaque = {
-        name: max((sum(a.size or 0.0 for a in w.letters if a.opaque) for w in own.words), default=0.0)
-        for name, own in found.items()
-    }
-    pushes: dict[str, float] = {}
-    for _, rows in problem.groups:
-        above = 0.0
-        for name in dict.fromkeys(rows):
-            pushes[name] = min(pushes.get(name, above), above)
-            above += opaque[name]
-    return pushes
-
-
 def _beside(problem: AxisProblem, pattern: Pattern, own: Instances, high: float) -> tuple[list[Word], int]:
     """Words that are not listed: of the same counters, and of those one step away; and how many more there are."""
     counters = dict(problem.counters)
@@ -91,56 +77,22 @@ def _beside(problem: AxisProblem, pattern: Pattern, own: Instances, high: float)
     kept = {(tuple(sorted(word.counters.items())), word.letters) for word in own.words}
     values = list(dict.fromkeys(tuple(sorted(word.counters.items())) for word in own.words[:WORDS]))
     values = values or [tuple(sorted(own.shortest.counters.items()))]
-    near = dict.fromkeys(values)
-    for each in values:
-        for n, (name, value) in enumerate(each):
-            for other in (value - 1, value + 1):
-                if _allows(bounds[name], other):
-                    near[(*each[:n], (name, other), *each[n + 1 :])] = None
     out: list[Word] = []
     more = 0
     symbols = problem.symbol
-    for each in near:
+    for each, bound in steps(values, bounds):
+        if bound:
+            continue
         if len(out) >= DROPPED:
             more += 1
             continue
         try:
-            words = _spell(pattern, dict(each), symbols)
+            words = spelled(pattern, dict(each), symbols)
         except DesignError:  # more letters than a word may have
             more += 1
             continue
         out += [word for word in words if (each, word.letters) not in kept]
     return out[:DROPPED], more + max(0, len(out) - DROPPED)
-
-
-def _allows(counter: Counter, value: int) -> bool:
-    if counter.value is not None:
-        return value == counter.value
-    return counter.min <= value and (counter.max is None or value <= counter.max)
-
-
-def _spell(pattern: Pattern, values: Mapping[str, int], symbols: Mapping[str, Symbol]) -> list[Word]:
-    """The words of a pattern for these counters."""
-    out: list[Word] = []
-    for glyphs in pattern.words(values):
-        letters: list[Letter] = []
-        for glyph in glyphs:
-            own = symbols.get(glyph.symbol) or Symbol(glyph.symbol)
-            transparent = glyph.transparent or own.transparent
-            letters.append(
-                Letter(
-                    glyph.symbol,
-                    own.size,
-                    transparent=transparent,
-                    opaque=own.opaque and not transparent,
-                    attached=own.attached,
-                    unoccludable=own.unoccludable,
-                    mirrored=glyph.mirrored,
-                    origin=glyph.origin,
-                )
-            )
-        out.append(Word(tuple(letters), dict(values)))
-    return out
 
 
 class _Ways:

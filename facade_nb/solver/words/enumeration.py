@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 from math import floor, inf
@@ -22,7 +22,7 @@ from ..model.precision import EPS
 from ..model.problem import AxisProblem
 from .instances import Instances, Range, instances, ranges
 
-__all__ = ["axis_words", "words"]
+__all__ = ["across", "axis_words", "words"]
 
 _SPAN = f"sizes lie between {LEAST_LENGTH:f} and {MOST_LENGTH:,.0f}"
 
@@ -98,6 +98,30 @@ def axis_words(
                 + sum(tuning.WORD_BYTES + tuning.WORD_LETTER_BYTES * len(word) for word in own.words),
             )
         found[name], opaque[name] = known
+    return found
+
+
+def across(
+    other: AxisProblem,
+    shared: Collection[str],
+    tolerance: float,
+    check: Callable[[], None] | None = None,
+) -> dict[str, Range]:
+    """Between which values of the counters that two axes share the other one has words.
+
+    Parameters
+    ----------
+    tolerance
+        A fraction of the canvas.
+    """
+    symbols, counters = other.symbol, dict(other.counters)
+    limit = other.canvas * (1.0 + tolerance)
+    found: dict[str, Range] = {}
+    for _, pattern in other.patterns:
+        own = ranges(pattern, symbols.__getitem__, counters.__getitem__, limit, check)
+        for name in own.keys() & set(shared):
+            low, high = found.get(name, own[name])
+            found[name] = max(low, own[name][0]), min(high, own[name][1])
     return found
 
 

@@ -18,6 +18,7 @@ from .extras import Extras
 from .model import FacadeModel
 from .requests import REQUESTS
 from .wire import describe_design, describe_drafts, describe_faults, describe_selection, describe_status
+from .words import describe_modes
 
 __all__ = ["Channel"]
 
@@ -59,6 +60,7 @@ class Channel(Extras):
                 "geometries": list(GEOMETRIES),
                 "materials": list(MATERIALS),
                 "swatches": {name: material.fill for name, material in MATERIALS.items()},
+                "modes": describe_modes(),
             },
         )
         self.publish()
@@ -78,6 +80,7 @@ class Channel(Extras):
         if self.comm is not None:
             self.model.unobserve(self._on_version, "version")
             self._forget_timer()
+            self._forget_words()
             if self.keeper is not None:
                 self.keeper.close()
         super().close()

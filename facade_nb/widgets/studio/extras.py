@@ -21,6 +21,7 @@ from .beginnings import surveyed
 from .exports import describe_exports
 from .facts import describe_facts, remedies
 from .keeping import Keeper
+from .words import describe_letters, describe_words
 
 if TYPE_CHECKING:
     from .model import FacadeModel
@@ -28,6 +29,11 @@ if TYPE_CHECKING:
 __all__ = ["Extras", "Snapshot"]
 
 Json = dict[str, Any]
+
+_WORDS = "words:"
+"""What a view asks for that looks at the words of a pattern, followed by its name."""
+_AFTER = 0.12
+"""Seconds after an answer until words are told: what is typed on comes first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +58,8 @@ class Extras(ModelWire):
     exploded = Unicode().tag(sync=True)
     survey = Dict().tag(sync=True)
     snapshots: List[Any] = List().tag(sync=True)
+    letters = Dict().tag(sync=True)
+    words = Dict().tag(sync=True)
 
     def __init__(self, model: FacadeModel, **traits: Any) -> None:
         self._wants: dict[str, set[str]] = {}
@@ -59,6 +67,7 @@ class Extras(ModelWire):
         self.keeper: Keeper | None = None
         self.taken: list[Snapshot] = []
         self.surveyed: Survey | None = None
+        self._words_later: asyncio.TimerHandle | None = None
         menus = {"exports": describe_exports(), "surveyed": list(surveyed())}
         super().__init__(model, menus=menus, **traits)
 
@@ -129,18 +138,57 @@ class Extras(ModelWire):
                 if shown and layout is not None
                 else ""
             )
+        if self._changed("letters", layout, layout and layout.design, self._wanted("letters")):
+            self.letters = describe_letters(layout) if self._wanted("letters") else {}
+        self._words_soon()
         if self._changed("survey", layout, self.surveyed):
             self.survey = _survey(layout, self.surveyed)
         if self._changed("snapshots", tuple(self.taken), theme):
             self.snapshots = [_snapshot(one, theme) for one in self.taken]
 
+    def _words_soon(self) -> None:
+        """Tell the words of the patterns that are looked at, after all else: no edit waits for them."""
+        self._forget_words()
+        if self.model.busy:
+            return  # they come with the layout
+        try:
+            loop = asyncio.get_running_loop()
+        except RuntimeError:
+            self._tell_words()
+        else:
+            if self.words or any(what.startswith(_WORDS) for what in self._wants if self._wanted(what)):
+                self._words_later = loop.call_later(_AFTER, self._tell_words)
+
+    def _tell_words(self) -> None:
+        self._words_later = None
+        model = self.model
+        wanted = tuple(
+            sorted(
+                what[len(_WORDS) :] for what in self._wants if what.startswith(_WORDS) and self._wanted(what)
+            )
+        )
+        if self._asleep or not self._changed("words", model.design, model.layout, model.message, wanted):
+            return
+        try:
+            self.words = {name: told for name in wanted if (told := describe_words(model, name))}
+        except Exception:  # as in `Channel.publish`: shown under the widget, not lost in a log
+            self.trouble = traceback.format_exc()
+
+    def _forget_words(self) -> None:
+        if self._words_later is not None:
+            self._words_later.cancel()
+            self._words_later = None
+
     def _empty_extras(self) -> None:
         """Drop what is large while nobody looks."""
+        self._forget_words()
         self._wants.clear()
         self._made.clear()
         self.document = self.exploded = ""
         self.marks = {}
         self.naive = {}
+        self.letters = {}
+        self.words = {}
         self.snapshots = []
 
     def _wanted(self, what: str) -> bool:

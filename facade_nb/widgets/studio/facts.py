@@ -10,6 +10,7 @@ from typing import Any
 from ...design.edit import with_counter, with_layer, with_pattern
 from ...design.model import AXES
 from ...solver import Layout
+from ...solver.model.layout import AxisLayout
 from .model import FacadeModel
 
 __all__ = ["Remedy", "apply_remedy", "describe_facts", "remedies"]
@@ -46,7 +47,7 @@ def describe_facts(layout: Layout | None) -> list[dict[str, Any]]:
                 "axis": axis,
                 "cost": _rounded(solved.cost),
                 "error": _rounded(sum(errors.values())),
-                "rest": _rounded(solved.cost - sum(errors.values())),
+                **_terms(solved),
                 "gap": _rounded(solved.gap),
                 "proven": solved.proven,
                 "deviation": _rounded(solved.deviation),
@@ -57,6 +58,21 @@ def describe_facts(layout: Layout | None) -> list[dict[str, Any]]:
             }
         )
     return told
+
+
+def _terms(solved: AxisLayout) -> dict[str, Any]:
+    """E, Λ and the fit, summed over groups, metres, each with its price in J; nothing where they are not known."""
+    terms = [group.terms for group in solved.groups.values() if group.terms is not None]
+    if not terms:
+        return {"terms": None}
+    price = terms[0].objective
+    return {
+        "terms": {
+            "empty": [_rounded(sum(own.empty for own in terms)), price.empty],
+            "loose": [_rounded(sum(own.loose for own in terms)), price.loose],
+            "fit": [_rounded(sum(own.miss for own in terms)), price.fit],
+        }
+    }
 
 
 def remedies(model: FacadeModel) -> list[Remedy]:

@@ -12,7 +12,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from traitlets import Any as AnyTrait
-from traitlets import Bool, Float, HasTraits, Instance, Int, Unicode
+from traitlets import Bool, Float, Instance, Int, Unicode
 
 from ...design import Design, DesignError, FacadeError, Fault, NoLayout
 from ...solver import Layout, Trace, solve
@@ -20,6 +20,7 @@ from ..shared.history import History, Undoable
 from . import newcomers
 from .background import LatestSolver, Outcome, Solve
 from .fields import Path
+from .handles import Linkable
 from .newcomers import Newcomers
 
 __all__ = ["Draft", "FacadeModel", "Selection"]
@@ -58,7 +59,7 @@ class _Snapshot:
     newcomers: Newcomers = field(default_factory=Newcomers)
 
 
-class FacadeModel(Undoable[_Snapshot], HasTraits):
+class FacadeModel(Undoable[_Snapshot], Linkable):
     """A design that is being edited, with its last good layout and the messages about both.
 
     Parameters
@@ -73,6 +74,7 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
     Notes
     -----
     Edit from one thread only, the one that runs the event loop (in a notebook: cells and callbacks do).
+    `width`, `height`, `sizes` and `counters` are traits to `link` and `interact` with (`Linkable`).
     """
 
     design: Design = Instance(Design)
@@ -108,6 +110,7 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
         self._traced = False
         self._outcomes: deque[Outcome] = deque()
         self._loop: asyncio.AbstractEventLoop | None = None
+        self._begin_links()
         self._solver = LatestSolver(self._post, solve)
         self._solve()
         self._changed()
@@ -326,6 +329,7 @@ class FacadeModel(Undoable[_Snapshot], HasTraits):
         self.selection = replace(picked, shape=same, number=number)
 
     def _changed(self) -> None:
+        self._follow_links()
         self.version += 1
 
 

@@ -7,6 +7,7 @@ import "../styles/editors.css";
 import "../styles/views.css";
 import "../styles/stage.css";
 import "../styles/panel.css";
+import "../styles/patterns.css";
 import { absence } from "../shared/absence.ts";
 import { h, mark } from "../shared/dom.ts";
 import { keepKeys } from "../shared/keys.ts";
@@ -15,7 +16,7 @@ import { Store } from "../shared/store.ts";
 import { adoptStyle, type Theme, themeOf, watchTheme } from "../shared/theme.ts";
 import type { Mount, WidgetModel } from "../shared/types.ts";
 import { canvas } from "../studio/canvas.ts";
-import { type Context, type MakePart, section } from "../studio/common.ts";
+import { type Context, type MakePart, resolveIn, section } from "../studio/common.ts";
 import { counters } from "../studio/counters.ts";
 import { elevation } from "../studio/elevation.ts";
 import { inspector } from "../studio/inspector.ts";
@@ -78,7 +79,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
       return saves ? `${kept} Save writes it as a file, without a kernel too.` : kept;
     },
   });
-  link(root, store.prefix, signal);
+  link(root, store.prefix, signal, resolveIn(store));
   keepFocus(root, signal);
   keepKeys(root, signal, (op) => store.ask({ op }));
   root.addEventListener("keydown", (event) => {

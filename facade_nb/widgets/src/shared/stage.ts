@@ -8,7 +8,8 @@ export interface AxisFacts {
   axis: Axis;
   cost: number;
   error: number;
-  rest: number;
+  /** E, Λ and the fit in metres, each with its price in J; null where they are not known. */
+  terms: Record<"empty" | "loose" | "fit", [metres: number, price: number]> | null;
   gap: number;
   proven: boolean;
   deviation: number;
@@ -50,6 +51,42 @@ export interface SnapshotState {
   canvas: { width: number; height: number };
 }
 
+/** The solved word of a pattern: its text, and of each letter where in it it comes from, and where it stands, metres. */
+export interface SolvedLetters {
+  text: string;
+  letters: [symbol: string, offset: number, start: number, end: number, flags: string][];
+}
+
+export interface WordState {
+  /** `place` is -1 where it is not known; flags: m, mirrored; t, transparent. */
+  letters: [symbol: string, flags: string, place: number][];
+  /** So many letters more are not told. */
+  left: number;
+  size: number;
+  /** Whether it has a letter that takes what is left. */
+  open: boolean;
+  miss: number;
+  reason: "chosen" | "fits" | "looser" | "too long" | "too short" | "range" | "left out" | "no partner";
+  bound: string;
+  counters: Record<string, number>;
+}
+
+export interface AxisWords {
+  axis: Axis;
+  canvas: number;
+  low: number;
+  high: number;
+  words: WordState[];
+  more: number;
+}
+
+/** The words that a pattern can make at this canvas, or a note that says why none are told. */
+export interface PatternWords {
+  text: string;
+  axes: AxisWords[];
+  note: string;
+}
+
 export interface StageState {
   /** The design as JSON text, for when there is no kernel to ask. */
   document: string;
@@ -65,6 +102,8 @@ export interface StageState {
   exploded: string;
   survey: { building?: string; openings?: Rect[]; score?: number; source?: string };
   snapshots: SnapshotState[];
+  letters: Partial<Record<Axis, Record<string, SolvedLetters>>>;
+  words: Record<string, PatternWords>;
 }
 
 /** A stage of which nothing was told yet. */
@@ -78,5 +117,7 @@ export function emptyStage(): StageState {
     exploded: "",
     survey: {},
     snapshots: [],
+    letters: {},
+    words: {},
   };
 }

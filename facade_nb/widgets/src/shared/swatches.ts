@@ -2,6 +2,7 @@
 
 import { h, mark, setText } from "./dom.ts";
 import type { Field } from "./fields.ts";
+import { placeUnder } from "./placing.ts";
 
 export interface SwatchOptions {
   label: string;
@@ -67,7 +68,7 @@ export function swatchField(options: SwatchOptions): Field {
     own.value = options.choices().includes(value) ? "" : value;
     popup.hidden = false;
     mark(open, "aria-expanded", "true");
-    place(open, popup);
+    placeUnder(open, popup);
     const picked = list.querySelector<HTMLElement>("[aria-selected=true]") ?? list.querySelector("button");
     picked?.focus({ preventScroll: true });
     picked?.scrollIntoView?.({ block: "nearest" });
@@ -108,20 +109,4 @@ export function swatchField(options: SwatchOptions): Field {
     mark(open, "title", value);
   };
   return { el, update };
-}
-
-/** Put a list where all of it can be seen: under its button, or above it where there is more room. */
-function place(button: HTMLElement, popup: HTMLElement): void {
-  const box = button.getBoundingClientRect();
-  const below = window.innerHeight - box.bottom;
-  const above = box.top;
-  popup.style.position = "fixed";
-  popup.style.maxHeight = `${Math.max(120, Math.min(320, Math.max(above, below) - 12))}px`;
-  // What stands fixed within a transformed element stands relative to it: measure, and move by what is wrong.
-  popup.style.left = popup.style.top = "0px";
-  const zero = popup.getBoundingClientRect();
-  const left = Math.max(4, Math.min(box.left, window.innerWidth - zero.width - 8));
-  const top = below >= zero.height + 8 || below >= above ? box.bottom + 2 : box.top - zero.height - 2;
-  popup.style.left = `${left - zero.left}px`;
-  popup.style.top = `${top - zero.top}px`;
 }

@@ -172,9 +172,16 @@ export interface State extends StageState {
   svg: string;
   theme: "light" | "dark";
   gallery: string[];
-  catalogue: { geometries: string[]; materials: string[]; swatches: Record<string, string> };
+  catalogue: { geometries: string[]; materials: string[]; swatches: Record<string, string>; modes?: ModeState[] };
   trouble: string;
   ack: { client?: string; seq?: number };
+}
+
+/** A reflection mode, and what it makes of the word EkG, by the count. */
+export interface ModeState {
+  sign: string;
+  name: string;
+  words: Record<string, string>;
 }
 
 /** What Python sends besides the state. */

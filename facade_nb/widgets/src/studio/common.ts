@@ -2,7 +2,10 @@
 
 import { focusMain, h, mark } from "../shared/dom.ts";
 import { button, type Field, nameField } from "../shared/fields.ts";
+import { colourAt, slotsOf } from "../shared/palette.ts";
 import type { Store } from "../shared/store.ts";
+import type { Resolve } from "./links.ts";
+import { placesOf } from "./places.ts";
 
 export interface Context {
   store: Store;
@@ -49,10 +52,22 @@ export function emptyNote(text: string): HTMLElement {
   return h("p", { class: "fnb-empty" }, text);
 }
 
-/** A colour for each symbol, the same in every part: neighbours in the design are far apart. */
+/** A colour for each symbol, the same in every part and for as long as it is there. */
 export function tint(store: Store, symbol: string): string {
-  const at = store.get("design").symbols.findIndex((other) => other.name === symbol);
-  return at < 0 ? "transparent" : hue(at);
+  const names = store.get("design").symbols.map((other) => other.name);
+  const slot = slotsOf(store.prefix, names).get(symbol);
+  return slot === undefined ? "var(--fnb-muted)" : colourAt(slot);
+}
+
+/** What hover links ask of the design of a store. */
+export function resolveIn(store: Store): Resolve {
+  return {
+    places: (cell) => placesOf(store, cell),
+    patterns(name) {
+      const layer = store.get("design").layers.find((other) => other.name === name);
+      return layer ? [layer.x.pattern, layer.y.pattern] : [];
+    },
+  };
 }
 
 /** A colour for each alignment group but the default one. */

@@ -1,11 +1,11 @@
 import { h, mark, setText, svg } from "../shared/dom.ts";
 import { type Box, boxOf, type Drawing, neighbour, parseDrawing, shapeAt } from "../shared/drawing.ts";
 import { button, formatNumber } from "../shared/fields.ts";
-import type { MakePart } from "./common.ts";
+import { type MakePart, resolveIn, tint } from "./common.ts";
 import { edge } from "./edge.ts";
 import { inspector } from "./inspector.ts";
 import { invitation } from "./invitation.ts";
-import { belongs, watchLinks } from "./links.ts";
+import { belongs, type Pointed, watchLinks } from "./links.ts";
 import {
   dimensionsOf,
   gridOf,
@@ -20,6 +20,7 @@ import {
   type ViewOption,
 } from "./marks.ts";
 import { naiveView } from "./naive.ts";
+import { bandsOf } from "./places.ts";
 import { popover } from "./popover.ts";
 import { fullScreen } from "./screen.ts";
 import { type Camera, clear, fitted, navigate } from "./viewport.ts";
@@ -149,7 +150,7 @@ export const elevation: MakePart = (context) => {
     over.replaceChildren(
       ...show("grid", (sheet) => gridOf(sheet, marks, groups)),
       ...show("transparent", (sheet) => transparentOf(sheet, marks)),
-      ...show("letters", (sheet) => lettersOf(sheet, shapes())),
+      ...show("letters", (sheet) => lettersOf(sheet, shapes(), (symbol) => tint(store, symbol))),
       ...show("dimensions", (sheet) => dimensionsOf(sheet, marks)),
       ...show("survey", surveyed),
     );
@@ -285,12 +286,24 @@ export const elevation: MakePart = (context) => {
     if (next) pick(next);
   });
 
+  const resolve = resolveIn(store);
+  /** Where the letters of a place of a text stand, whether they draw something or not. */
+  const bands = (pointed: Pointed) => {
+    const own = sheetOf();
+    if (!own || pointed.layer || pointed.places.length === 0) return [];
+    const { width, height } = own.canvas;
+    return bandsOf(store, pointed.places).map(({ axis, start, end }) => {
+      const band = rectOf(own, axis === "x" ? [start, 0, end, height] : [0, start, width, end]);
+      band.setAttribute("class", "fnb-lit-band");
+      return band;
+    });
+  };
   watchLinks(
     store.prefix,
     (pointed, from) => {
       const here = from !== null && sheet.contains(from);
-      const marked = here ? [] : shapes().filter((el) => belongs(el.dataset, pointed));
-      lit.replaceChildren(...marked.map((el) => outline(boxOf(el), "fnb-lit")));
+      const marked = here ? [] : shapes().filter((el) => belongs(el.dataset, pointed, resolve));
+      lit.replaceChildren(...(here ? [] : bands(pointed)), ...marked.map((el) => outline(boxOf(el), "fnb-lit")));
     },
     signal,
   );

@@ -5,13 +5,17 @@ import { formatNumber } from "../shared/fields.ts";
 import type { AxisFacts } from "../shared/stage.ts";
 import type { Store } from "../shared/store.ts";
 
-const HEADS = ["Axis", "J", "Ω", "Empty, loose, fit", "Deviation", "Best?"];
+const HEADS = ["Axis", "J", "Ω", "E", "Λ", "Fit", "Deviation", "Best?"];
 const TITLES: Record<string, string> = {
-  J: "What the solver makes least: Ω, and what empty columns, loose letters and a canvas that is missed cost; metres",
+  J: "What the solver makes least: Ω, and E, Λ and the fit, each times its price; metres",
   Ω: "How much rows differ in the columns that they share (Eq. 9 of the paper); metres",
-  "Empty, loose, fit": "J without Ω",
+  E: "Column that rows leave empty, as it counts in J; metres",
+  Λ: "Looseness as it counts in J: letters that share an element, or do not fill their column; metres",
+  Fit: "|W − canvas| as it counts in J: by how much the columns miss the canvas; metres",
   Deviation: "Root of the squared differences between solved and preferred sizes; metres",
 };
+
+const TERMS = ["empty", "loose", "fit"] as const;
 
 /** The figures as a table, one line for each axis. */
 export function factsTable(facts: AxisFacts[]): HTMLElement {
@@ -33,7 +37,11 @@ export function factsTable(facts: AxisFacts[]): HTMLElement {
             metres(one.error) +
               (one.groups.length > 1 ? ` (${one.groups.map((g) => `${g.name} ${metres(g.error)}`).join(", ")})` : ""),
           ),
-          cell(metres(one.rest)),
+          ...TERMS.map((term) => {
+            const [value, price] = one.terms?.[term] ?? [null, 1];
+            const part = value === null ? null : value * price;
+            return cell(metres(part), "td", value === null ? undefined : `${price} × ${metres(value)}`);
+          }),
           cell(metres(one.deviation)),
           cell(one.proven ? "proven" : `at most ${metres(one.gap)} from it`),
         ),

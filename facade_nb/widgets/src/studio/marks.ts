@@ -67,7 +67,7 @@ export function gridOf(sheet: Sheet, marks: Marks, groups: string[]): SVGElement
 }
 
 /** The two symbols of each cell, where there is room for them. */
-export function lettersOf(sheet: Sheet, shapes: Element[]): SVGElement[] {
+export function lettersOf(sheet: Sheet, shapes: Element[], colour: (symbol: string) => string): SVGElement[] {
   const boxes = shapes.slice(0, MOST).map(boxOf);
   // Where a shape of a higher layer stands in the middle, the letters are its.
   const hidden = (box: Box, i: number) => {
@@ -80,8 +80,20 @@ export function lettersOf(sheet: Sheet, shapes: Element[]): SVGElement[] {
     const words = `${shape.getAttribute("data-x")} ${shape.getAttribute("data-y")}`;
     const size = Math.min(13 / sheet.scale, box.height * 0.6, box.width / (0.62 * words.length));
     if (size * sheet.scale < 5) return [];
-    return [text(box.x + box.width / 2, box.y + box.height / 2, size, words, "fnb-mark-letter")];
+    const drawn = text(box.x + box.width / 2, box.y + box.height / 2, size, "", "fnb-mark-letter");
+    drawn.append(...lettered(shape.getAttribute("data-x") ?? "", shape.getAttribute("data-y") ?? "", colour));
+    return [drawn];
   });
+}
+
+/** The two letters of a cell, each in its symbol's colour. */
+function lettered(x: string, y: string, colour: (symbol: string) => string): SVGElement[] {
+  const span = (symbol: string, words: string) => {
+    const drawn = svg("tspan", {}, words);
+    drawn.style.setProperty("--fnb-tint", colour(symbol));
+    return drawn;
+  };
+  return [span(x, `${x} `), span(y, y)];
 }
 
 /** Cells that a transparent letter leaves free: dashed, each with its letter. */

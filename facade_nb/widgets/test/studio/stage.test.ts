@@ -208,7 +208,7 @@ test("what is pointed at is marked in every part of the design, and in no other"
   const lit = () => roots.map((root) => root.querySelectorAll("[data-lit]").length);
   roots[0]?.querySelector("[data-shape]")?.dispatchEvent(new MouseEvent("pointerover", { bubbles: true }));
   expect(lit()).toEqual([3, 3, 0]);
-  expect(seen).toEqual([{ layer: "base", x: "A", y: "Q" }]);
+  expect(seen).toEqual([{ layer: "base", x: "A", y: "Q", places: [] }]);
   roots[1]?.querySelector("[data-symbol=B]")?.dispatchEvent(new MouseEvent("pointerover", { bubbles: true }));
   expect(lit()).toEqual([1, 1, 0]);
   roots[1]?.dispatchEvent(new MouseEvent("pointerleave"));
@@ -220,9 +220,9 @@ test("a symbol has the shapes of both axes, a layer its own", () => {
   const el = document.createElement("i");
   el.dataset.symbol = "Q";
   expect(belongs(shape, pointedAt(el))).toBe(true);
-  expect(belongs(shape, { layer: "base", x: "", y: "" })).toBe(true);
-  expect(belongs(shape, { layer: "base", x: "B", y: "Q" })).toBe(false);
-  expect(belongs(shape, { layer: "", x: "", y: "" })).toBe(false);
+  expect(belongs(shape, { layer: "base", x: "", y: "", places: [] })).toBe(true);
+  expect(belongs(shape, { layer: "base", x: "B", y: "Q", places: [] })).toBe(false);
+  expect(belongs(shape, { layer: "", x: "", y: "", places: [] })).toBe(false);
 });
 
 function told(changes: Partial<State> = {}) {
@@ -287,16 +287,17 @@ test("each state of what is kept says what can be done", () => {
 test("figures say J, its terms, and whether they are proven", () => {
   const one = {
     axis: "x",
-    cost: 0.5,
+    cost: 1.65,
     error: 0.2,
-    rest: 0.3,
+    terms: { empty: [0.5, 0.8], loose: [3.6, 0.25], fit: [0.6, 0.25] } as Record<string, [number, number]>,
     gap: 0.1,
     proven: false,
     deviation: 0.25,
     groups: [],
   } as const;
   const words = factsTable([{ ...one, groups: [] }]).textContent;
-  for (const part of ["0.5 m", "0.2 m", "0.3 m", "0.25 m", "at most 0.1 m from it"]) expect(words).toContain(part);
+  for (const part of ["1.65 m", "0.2 m", "0.4 m", "0.9 m", "0.15 m", "0.25 m", "at most 0.1 m from it"])
+    expect(words).toContain(part);
   expect(factsTable([{ ...one, proven: true, groups: [] }]).textContent).toContain("proven");
 });
 
