@@ -41,7 +41,7 @@ const adding =
 
 const PARTS: Record<string, Make> = {
   studio,
-  elevation: (context) => h("div", { class: "fnb-alone" }, elevation(context), statusLine(context)),
+  elevation: (context) => h("div", { class: "fnb-alone" }, elevation(context), inspector(context), statusLine(context)),
   massing: (context, model) => h("div", { class: "fnb-alone" }, massing(context, model, context.signal)),
   patterns: adding("pattern", "Patterns", patterns),
   symbols: adding("symbol", "Symbols", symbols),
