@@ -102,6 +102,8 @@ function symbolRow({ store }: Context, first: SymbolState): Row<SymbolState> {
       value: () => symbol[key],
     }),
   );
+  // Most are, so of many symbols only those that are not say so, by where they are placed.
+  mark(toggles[0]?.el as HTMLElement, "data-usual", true);
   const placement = h("button", { type: "button", class: "fnb-word fnb-placement" });
   placement.addEventListener("click", () => {
     const next = PLACEMENTS[(PLACEMENTS.indexOf(symbol.placement) + 1) % PLACEMENTS.length] ?? "center";
