@@ -102,7 +102,7 @@ def test_of_many_layers_and_symbols_the_picked_are_open_and_in_sight(show: Show)
     expect(page.locator(".fnb-symbol .fnb-word[aria-pressed=false]:visible")).to_have_count(0)
     before = places(page)
     for layer in studio.python("[own.name for own in (model.design.stack[0], model.design.stack[-1])]"):
-        page.locator(f".fnb-elevation [data-layer='{layer}']").first.click()
+        studio.python(f"model.select([own.layer for own in model.layout.shapes].index({layer!r}))")
         own = page.locator(f".fnb-layer[data-layer='{layer}']")
         expect(own.locator(".fnb-side:visible")).to_have_count(2)
         for rows in (own, page.locator(".fnb-symbol[data-picked]")):

@@ -91,7 +91,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   store.kernel.watch(() => tellTheme(themeOf(root)), signal);
   el.append(root);
   return () => {
-    end.abort();
+    end.abort("ended");
     root.remove();
   };
 }
