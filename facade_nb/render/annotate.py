@@ -84,15 +84,20 @@ class Frame:
         return f'x="{num(x)}" y="{num(y)}" width="{num(w)}" height="{num(h)}"'
 
 
-def draw_empty(width: float, height: float, frame: Frame, style: Style) -> Iterable[str]:
-    """The canvas before anything stands on it: a dashed outline, its size, a hint."""
+def draw_empty(width: float, height: float, frame: Frame, style: Style, *, layers: bool) -> Iterable[str]:
+    """The canvas before anything stands on it: a dashed outline, its size, a hint; `layers`: there are some already."""
+    hint = (
+        "Nothing is drawn yet: choose shapes for a layer"
+        if layers
+        else "An empty canvas: add a layer to begin"
+    )
     x, y = frame.at(width / 2, height / 2)
     yield (
         f'<rect {frame.box((0, 0, width, height))} fill="{style.faint}" fill-opacity=".05" stroke="{style.faint}" '
         f'stroke-width="1" stroke-dasharray="6 5"/>'
         f'<g {FONT} text-anchor="middle" fill="{style.faint}"><text x="{num(x)}" y="{num(y)}" font-size="18">'
         f"{width:g} × {height:g} m</text>"
-        f'<text x="{num(x)}" y="{num(y + 22)}" font-size="12">An empty canvas: add a layer to begin</text></g>'
+        f'<text x="{num(x)}" y="{num(y + 22)}" font-size="12">{hint}</text></g>'
     )
 
 

@@ -77,7 +77,8 @@ def elevation_svg(
     if scene.solids:
         body += draw_facade(scene, defs, frame, style, ids=ids)
     else:
-        body += draw_empty(layout.canvas.width, layout.canvas.height, frame, style)
+        layers = layout.design is not None and bool(layout.design.layers)
+        body += draw_empty(layout.canvas.width, layout.canvas.height, frame, style, layers=layers)
     body += _ground(frame, style)
     if holes and layout.holes:
         body += draw_holes(layout.holes, frame, style, prefix)

@@ -16,7 +16,7 @@ __all__ = ["Flaw", "FlawKind", "Naive", "naive_layout"]
 _NEAR = 0.01
 """Metres that nobody sees."""
 
-FlawKind = Literal["beyond", "hole", "misalignment", "occlusion"]
+FlawKind = Literal["beyond", "hole", "misalignment", "occlusion", "placement", "sizing"]
 
 Span = tuple[float, float]
 
@@ -50,14 +50,17 @@ def naive_layout(layout: Layout) -> Naive:
     """Lay the layout's words side by side at their preferred sizes, and say what is wrong with that.
 
     Each word begins at the left, or at the foot. A letter without a preferred size has the one that was solved. The
-    flaws are those of the paper's Figure 3: boundaries that do not meet, symbols that must not be covered and are,
-    places that no shape covers, and words that end beyond the canvas. What is as wrong in the layout itself is
-    no flaw here.
+    flaws are those of the paper's Figure 3: boundaries that do not meet, instances of a symbol that stand now so, now
+    so to what they meet in the layout (inconsistent placement), instances that the canvas's end cuts (inconsistent
+    sizing), symbols that must not be covered and are, places that no shape covers, and words that end beyond the
+    canvas. What is as wrong in the layout itself is no flaw here.
     """
     lines = {axis: _Line(layout, axis) for axis in AXES}
     shapes = tuple(_naive_rect(shape, lines) for shape in layout.shapes)
     flaws = chain(
         _misaligned(layout, lines),
+        _uneven(layout, lines),
+        _cut(layout, lines),
         _occluded(layout, shapes),
         _bare(layout, shapes),
         _beyond(layout, lines),
@@ -126,6 +129,56 @@ def _misaligned(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
                 if high - low > _NEAR:
                     text = f"Group {name!r} on {axis}: what meets at {stop:.2f} m is {high - low:.2f} m apart"
                     yield Flaw("misalignment", _band(layout, axis, low, high), text)
+
+
+def _uneven(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
+    """Instances of a symbol that would not all stand alike to the letters that they begin with in the layout."""
+    told: set[Rect] = set()
+    for axis in AXES:
+        line = lines[axis]
+        for group in layout.along(axis).groups.values():
+            for row in group.rows:
+                for other in group.rows:
+                    for flaw in _uneven_to(layout, axis, line, row.layer, other.layer):
+                        if flaw.rect not in told:  # several layers may have the same letter there
+                            told.add(flaw.rect)
+                            yield flaw
+
+
+def _uneven_to(layout: Layout, axis: Axis, line: _Line, layer: str, other: str) -> Iterator[Flaw]:
+    """Instances of one layer's symbols, by where a letter of another layer's that they meet would begin."""
+    first: dict[str, float] = {}
+    starts = [(letter.start, span[0]) for letter, span in line.spans[other]]
+    for letter, span in line.spans[layer]:
+        if letter.transparent:
+            continue
+        met = next((naive for solved, naive in starts if abs(solved - letter.start) <= 1e-6), None)
+        if met is None:
+            continue
+        off = span[0] - met
+        usual = first.setdefault(letter.symbol, off)
+        if abs(off - usual) > _NEAR:
+            text = (
+                f"{letter.symbol} of {layer!r} on {axis} begins {off:+.2f} m from a letter of {other!r} that it "
+                f"meets in the layout, and the first one {usual:+.2f} m"
+            )
+            yield Flaw("placement", _band(layout, axis, *span), text)
+
+
+def _cut(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
+    """Instances that the canvas's end would cut, of symbols that are whole elsewhere."""
+    for axis, end in (("x", layout.canvas.width), ("y", layout.canvas.height)):
+        own: Axis = "x" if axis == "x" else "y"
+        for layer, spans in lines[own].spans.items():
+            whole = {letter.symbol for letter, (_, stop) in spans if stop <= end + _NEAR}
+            for letter, (start, stop) in spans:
+                if letter.transparent or letter.symbol not in whole or not start + _NEAR < end < stop - _NEAR:
+                    continue
+                text = (
+                    f"{letter.symbol} of {layer!r} on {axis} is {end - start:.2f} m at the canvas's end, "
+                    f"and {stop - start:.2f} m elsewhere"
+                )
+                yield Flaw("sizing", _band(layout, own, start, end), text)
 
 
 def _stops(group: GroupLayout, line: _Line) -> Mapping[float, list[float]]:

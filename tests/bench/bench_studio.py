@@ -3,6 +3,9 @@
 The keystroke is timed in the page: from the `input` event to the first animation frame after the new elevation has
 been put in the page. An empty widget, in the same notebook and taking turns with it, sends as much each way and draws
 nothing: what no widget of this set-up can be quicker than.
+
+Hover and pan are timed by the intervals of `requestAnimationFrame` while a real pointer moves, beside those of a page
+in which nothing moves; what is sent to the kernel meanwhile is counted.
 """
 
 from __future__ import annotations
@@ -25,6 +28,7 @@ __all__ = ["main"]
 
 ROOT = Path(__file__).resolve().parents[2]
 ROUNDS = 40
+MOVES = 240
 
 CODE = """
 import anywidget, json, traitlets
@@ -67,6 +71,7 @@ TIMED = """([start, watched]) => new Promise((resolve, reject) => {
 def main() -> None:
     """Print the table."""
     print_latency()
+    print_frames()
     print_sizes()
     print_cold()
 
@@ -124,6 +129,87 @@ def _type(label: str, text: str) -> list[str]:
     field = f"document.querySelector({json.dumps(f'[aria-label={json.dumps(label)}]')})"
     start = f"{field}.value = {json.dumps(text)}; {field}.dispatchEvent(new Event('input'))"
     return [start, "document.querySelector('.fnb-sheet')"]
+
+
+STUDIO = """
+from facade_nb import gallery
+from facade_nb.widgets import FacadeModel, Studio
+model = FacadeModel(gallery.load("NAME"), time_limit=60.0)
+Studio(model)
+"""
+
+WATCH = """() => {
+    const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+    const watched = window.watched = { times: [], sent: 0, on: true };
+    const note = (_, { direction }) => { if (direction === "send") watched.sent += 1; };
+    kernel.anyMessage.connect(note);
+    watched.end = () => { watched.on = false; kernel.anyMessage.disconnect(note); };
+    const frame = (at) => { watched.times.push(at); if (watched.on) requestAnimationFrame(frame); };
+    requestAnimationFrame(frame);
+}"""
+
+WATCHED = """() => {
+    const { times, sent, end } = window.watched;
+    end();
+    return [times.slice(1).map((at, i) => at - times[i]), sent];
+}"""
+
+
+def print_frames() -> None:
+    """Time the frames while the pointer goes over the façade, and while the façade is moved."""
+    print(
+        f"\n{'frames while the pointer moves, ms':34} {'frames':>8} {'median':>8} {'p95':>8} {'longest':>8} "
+        f"{'sent':>8}   goal: median 16.7, sent 0"
+    )
+    with (
+        tempfile.TemporaryDirectory() as name,
+        serve(Path(name), "lab") as (address, token),
+        browse() as chromium,
+        chromium.new_page(viewport={"width": 1400, "height": 1000}) as page,
+    ):
+        lab = Notebook(page, address, token, Path(name), "lab")
+        for design in ("residential-house", "bookshop"):
+            lab.open(STUDIO.replace("NAME", design), f"{design}.ipynb")
+            lab.run()
+            lab.shown()
+            page.locator(".fnb-elevation [data-shape]").first.scroll_into_view_if_needed()
+            lab.settle()
+            for label, action in (("nothing", _rest), ("hover", _hover), ("pan", _pan)):
+                page.evaluate(WATCH)
+                action(lab)
+                times, sent = page.evaluate(WATCHED)
+                median, late = statistics.median(times), sorted(times)[int(0.95 * len(times))]
+                print(
+                    f"{f'{design}, {label}':34} {len(times):8} {median:8.1f} {late:8.1f} {max(times):8.1f} {sent:8}"
+                )
+
+
+def _rest(lab: Notebook) -> None:
+    lab.page.wait_for_timeout(4000)
+
+
+def _hover(lab: Notebook) -> None:
+    """Go to and fro over the façade."""
+    box = lab.page.locator(".fnb-sheet").bounding_box()
+    assert box
+    left, right = box["x"] + 0.1 * box["width"], box["x"] + 0.9 * box["width"]
+    for turn in range(4):
+        height = box["y"] + (0.3 + 0.15 * turn) * box["height"]
+        lab.page.mouse.move((left, right)[turn % 2], height)
+        lab.page.mouse.move((right, left)[turn % 2], height, steps=MOVES // 4)
+
+
+def _pan(lab: Notebook) -> None:
+    """Drag the façade about with the middle button."""
+    box = lab.page.locator(".fnb-paper").bounding_box()
+    assert box
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    mouse = lab.page.mouse
+    mouse.move(x, y)
+    mouse.down(button="middle")
+    for turn in range(4):
+        mouse.move(x + (-1) ** turn * 120, y + 20 * turn, steps=MOVES // 4)
+    mouse.up(button="middle")
 
 
 def print_sizes() -> None:

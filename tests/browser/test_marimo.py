@@ -224,6 +224,27 @@ def test_views_that_act_in_the_browser_do_so(opened: tuple[Marimo, Theme]) -> No
     assert found.take_problems() == []
 
 
+def test_a_shape_is_picked_and_changed_and_the_studio_has_the_screen(opened: tuple[Marimo, Theme]) -> None:
+    found, _ = opened
+    page = found.page
+    studio = found.part("part-studio")
+    studio.locator(".fnb-elevation [data-layer=door]").click()
+    inspector = studio.locator(".fnb-inspector")
+    box, paper = inspector.bounding_box(), studio.locator(".fnb-paper").bounding_box()
+    assert box and paper and box["y"] >= paper["y"] + paper["height"] - 1
+    inspector.get_by_label("material of D P in door", exact=True).click()
+    page.get_by_role("option", name="painted-blue", exact=True).click()
+    for part in ("part-studio", "part-elevation"):
+        title = found.part(part).locator(".fnb-elevation [data-layer=door] title")
+        expect(title).to_contain_text("painted-blue")
+    screen = studio.get_by_role("button", name="Full screen")
+    screen.click()
+    expect(screen).to_have_attribute("aria-pressed", "true")
+    screen.click()
+    expect(screen).to_have_attribute("aria-pressed", "false")
+    assert found.take_problems() == []
+
+
 def test_a_server_that_ends_is_told(opened: tuple[Marimo, Theme]) -> None:
     found, _ = opened  # no test after this one can use it
     page = found.page

@@ -77,6 +77,19 @@ def test_what_is_wrong_side_by_side_is_named(house: Layout) -> None:
     wide = naive_layout(solve(gallery.load("figure-7"))).flaws
     (beyond,) = [flaw for flaw in wide if flaw.kind == "beyond"]
     assert beyond.rect[0] == 10.0 and beyond.rect[2] == pytest.approx(10.6)
+    (sizing,) = [flaw for flaw in wide if flaw.kind == "sizing"]
+    assert (sizing.rect[0], sizing.rect[2]) == pytest.approx((8.6, 10.0))
+    assert "A of 'rooms' on x is 1.40 m at the canvas's end, and 2.00 m elsewhere" in sizing.text
+    (placement,) = [flaw for flaw in wide if flaw.kind == "placement"]
+    assert (placement.rect[0], placement.rect[2]) == pytest.approx((8.6, 10.6))
+    assert "begins +0.72 m from a letter of 'balconies'" in placement.text
+
+
+def test_no_place_is_told_twice() -> None:
+    uneven = [
+        f.rect for f in naive_layout(solve(gallery.load("terraced-house"))).flaws if f.kind == "placement"
+    ]
+    assert uneven and len(set(uneven)) == len(uneven)
 
 
 def test_a_layout_at_preferred_sizes_has_no_flaw() -> None:

@@ -255,6 +255,8 @@ def _gap(
             f"Pattern {quoted(name)}: its longest word, {short(longest)}, measures {longest.size:.4g} m and cannot "
             f"fill the canvas, which is {canvas_of(problem)}."
         )
+        if not blame.design.patterns[name].parsed.symbols:
+            text += " It has no letters yet: write some, or make the layers that have it invisible."
     else:
         least = walk.found[name].shortest.size
         below = f"{'at most ' if longest.size > least + 1e-9 else ''}{longest.size:.4g} m"

@@ -179,11 +179,18 @@ def _duplicate(model: FacadeModel, message: Message) -> Reply:
 
 
 def _solo(model: FacadeModel, message: Message) -> Reply:
-    """Show a layer alone; where it is alone already, show all."""
+    """Show a layer alone; where it is alone already, those that were shown before, or else all."""
     design, name = model.design, find_layer(model.design, message["name"]).name
-    alone = [layer.name for layer in design.layers if layer.visible] == [name]
-    layers = tuple(replace(layer, visible=alone or layer.name == name) for layer in design.layers)
-    model.edit(replace(design, layers=layers))
+    shown = [layer.name for layer in design.layers if layer.visible]
+    alone, before = model.alone
+    if shown == [name]:
+        kept = before if alone == name and {layer.name for layer in design.layers} & before - {name} else None
+        layers = [replace(own, visible=kept is None or own.name in kept) for own in design.layers]
+    else:
+        # From one that is alone to the next: what was shown before the first comes back.
+        model.alone = (name, before if shown == [alone] else frozenset(shown))
+        layers = [replace(own, visible=own.name == name) for own in design.layers]
+    model.edit(replace(design, layers=tuple(layers)))
     return None
 
 
@@ -254,8 +261,14 @@ def _rename(model: FacadeModel, message: Message) -> Reply:
     picked = model.selection
     if kind == "layer":
         renamed = with_layer(model.design, name, name=to)
+        now = renamed.layers[_index(model.design, name)].name
+        alone, before = model.alone
+        model.alone = (
+            now if alone == name else alone,
+            frozenset(now if own == name else own for own in before),
+        )
         if picked.layer == name:
-            model.selection = replace(picked, layer=renamed.layers[_index(model.design, name)].name)
+            model.selection = replace(picked, layer=now)
     else:
         renamed = _RENAMERS[kind](model.design, name, to)
         if kind == "symbol":

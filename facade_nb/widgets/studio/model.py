@@ -104,6 +104,8 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
     ) -> None:
         super().__init__(design=_read(design) if design is not None else Design())
         self.time_limit = time_limit
+        #: The layer that was shown alone last, and those that were shown before.
+        self.alone: tuple[str, frozenset[str]] = ("", frozenset())
         self._history = History(_Snapshot(self.design))
         self._revision = 0
         self._reason = ""

@@ -78,6 +78,32 @@ def test_a_layer_is_doubled_and_seen_alone() -> None:
     assert all(own.visible for own in model.design.layers)
 
 
+def test_alone_no_more_a_layer_leaves_the_eyes_that_were_open_before() -> None:
+    model = FacadeModel(house())
+    ask(model, "duplicate", name="base")
+    model.enter(("layers", "base", "visible"), False)
+
+    def shown() -> list[str]:
+        return [own.name for own in model.design.layers if own.visible]
+
+    before = shown()
+    for name in ("columns", "base copy", "base"):  # from one to the next, a hidden one too
+        ask(model, "solo", name=name)
+        assert shown() == [name]
+    ask(model, "rename", kind="layer", name="columns", to="pillars")
+    ask(model, "solo", name="base")
+    assert shown() == ["pillars" if name == "columns" else name for name in before]
+    ask(model, "solo", name="pillars")
+    model.enter(("layers", "base", "visible"), True)  # no more alone: that is what comes back
+    ask(model, "solo", name="base copy")
+    ask(model, "solo", name="base copy")
+    assert shown() == ["base", "pillars"]
+    for name in ("base", "pillars"):
+        model.enter(("layers", name, "visible"), name == "base")
+    ask(model, "solo", name="base")  # alone without having been made so
+    assert shown() == ["base", "base copy", "pillars"]
+
+
 def test_what_is_unused_goes_in_one_step_with_its_shapes() -> None:
     start = with_shape(with_pattern(house(), "Bx", "AAAA"), "B[1] P", layer="base", kind="door")
     model = FacadeModel(start)

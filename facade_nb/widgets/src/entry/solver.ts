@@ -36,7 +36,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   watchTheme(root, end.signal, () => {});
   el.append(root);
   const leave = () => {
-    end.abort();
+    end.abort("ended");
     root.remove();
   };
   if (part === "qualifiers") {
@@ -50,7 +50,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   const notice = absence(root, session.kernel, end.signal, { what: "solve", needs: "" });
   let shown: AbortController | null = null;
   const show = async () => {
-    shown?.abort();
+    shown?.abort("ended");
     const own = new AbortController();
     shown = own;
     try {
@@ -64,6 +64,6 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   };
   session.hold(() => void show(), end.signal);
   void show();
-  end.signal.addEventListener("abort", () => shown?.abort());
+  end.signal.addEventListener("abort", () => shown?.abort("ended"));
   return leave;
 }

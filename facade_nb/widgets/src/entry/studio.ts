@@ -42,7 +42,7 @@ const adding =
 
 const PARTS: Record<string, Make> = {
   studio,
-  elevation: (context) => h("div", { class: "fnb-alone" }, elevation(context), statusLine(context)),
+  elevation: (context) => h("div", { class: "fnb-alone" }, elevation(context), inspector(context), statusLine(context)),
   massing: (context, model) => h("div", { class: "fnb-alone" }, massing(context, model, context.signal)),
   patterns: adding("pattern", "Patterns", patterns),
   symbols: adding("symbol", "Symbols", symbols),
@@ -92,7 +92,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   store.kernel.watch(() => tellTheme(themeOf(root)), signal);
   el.append(root);
   return () => {
-    end.abort();
+    end.abort("ended");
     root.remove();
   };
 }

@@ -50,7 +50,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
     trouble.hidden = !session.trouble;
   }, end.signal);
   return () => {
-    end.abort();
+    end.abort("ended");
     root.remove();
   };
 }

@@ -46,7 +46,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
     trouble.hidden = !session.trouble;
   }, end.signal);
   return () => {
-    end.abort();
+    end.abort("ended");
     root.remove();
   };
 }

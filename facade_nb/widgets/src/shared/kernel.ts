@@ -44,7 +44,10 @@ export class Kernel {
     this.watchers.add(callback);
     signal.addEventListener("abort", () => {
       this.watchers.delete(callback);
-      if (this.watchers.size === 0) this.watching?.abort();
+      if (this.watchers.size > 0) return;
+      // With a word for a reason: an error would hold the calls that have led here, and with them the view that has gone.
+      this.watching?.abort("nobody looks");
+      this.watching = null;
     });
   }
 

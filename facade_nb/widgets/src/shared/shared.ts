@@ -37,7 +37,7 @@ export abstract class Shared {
       this.views.delete(update);
       if (this.views.size > 0) return;
       this.end();
-      this.present.abort();
+      this.present.abort("ended");
     });
   }
 

@@ -37,7 +37,7 @@ export interface MarkedGroup {
 export type Marks = Partial<Record<Axis, MarkedGroup[]>>;
 
 export interface Flaw {
-  kind: "beyond" | "hole" | "misalignment" | "occlusion";
+  kind: "beyond" | "hole" | "misalignment" | "occlusion" | "placement" | "sizing";
   rect: Rect;
   text: string;
 }

@@ -70,7 +70,7 @@ export class Session extends Shared {
   private forget(): void {
     clearTimeout(this.telling);
     this.loading?.then(({ player }) => player.pause(), ignore);
-    this.loaded?.abort();
+    this.loaded?.abort("ended");
     this.loaded = this.loading = null;
     this.pieces.clear();
   }
@@ -122,7 +122,7 @@ export class Session extends Shared {
     const arrived = new Promise<Bytes>((resolve, reject) => {
       const end = new AbortController();
       const finish = (act: () => void) => {
-        end.abort();
+        end.abort("ended");
         this.channel.off(`change:${name}`, look);
         this.channel.off("change:trouble", fail);
         act();

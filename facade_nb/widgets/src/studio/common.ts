@@ -32,20 +32,24 @@ export function section(
   return h("div", { class: "fnb-section-box" }, details, add);
 }
 
-/** Mark a row as picked, and bring it into view when it has just become so. */
+/** Mark a row as picked, and bring it into view in its own list when it has just become so. */
 export function markPicked(row: HTMLElement, picked: boolean): void {
   const before = row.hasAttribute("data-picked");
   mark(row, "data-picked", picked);
   if (picked && !before) scrollWithin(row);
 }
 
-/** Scroll the panel, never the page: a click on the façade must not move the notebook. */
+/** Scroll the row's list, where it is one that scrolls: a click on the façade must move neither the panel nor the page. */
 function scrollWithin(row: HTMLElement): void {
-  const panel = row.closest<HTMLElement>(".fnb-panel");
-  if (!panel) return;
-  const [outer, inner] = [panel.getBoundingClientRect(), row.getBoundingClientRect()];
-  if (inner.top < outer.top) panel.scrollTop -= outer.top - inner.top + 8;
-  else if (inner.bottom > outer.bottom) panel.scrollTop += inner.bottom - outer.bottom + 8;
+  const list = row.closest<HTMLElement>(".fnb-list");
+  if (list) bring(row, list);
+}
+
+/** Scroll what holds a row by as little as shows the row. */
+function bring(row: HTMLElement, holder: HTMLElement): void {
+  const [outer, inner] = [holder.getBoundingClientRect(), row.getBoundingClientRect()];
+  if (inner.top < outer.top) holder.scrollTop -= outer.top - inner.top;
+  else if (inner.bottom > outer.bottom) holder.scrollTop += inner.bottom - outer.bottom;
 }
 
 export function emptyNote(text: string): HTMLElement {
@@ -134,6 +138,9 @@ export function focusAdded(store: Store, what: string, list: HTMLElement): () =>
     name = "";
     focusMain(row);
     scrollWithin(row as HTMLElement);
+    // Where the next thing is typed must be seen.
+    const panel = row.closest<HTMLElement>(".fnb-panel");
+    if (panel) bring(row as HTMLElement, panel);
   };
   store.onReply((reply) => {
     if (reply.kind !== "added" || reply.what !== what) return;

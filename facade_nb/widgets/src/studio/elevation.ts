@@ -3,7 +3,6 @@ import { type Box, boxOf, type Drawing, neighbour, parseDrawing, shapeAt } from 
 import { button, formatNumber } from "../shared/fields.ts";
 import { type MakePart, resolveIn, tint } from "./common.ts";
 import { edge } from "./edge.ts";
-import { inspector } from "./inspector.ts";
 import { invitation } from "./invitation.ts";
 import { belongs, type Pointed, watchLinks } from "./links.ts";
 import {
@@ -25,8 +24,10 @@ import { popover } from "./popover.ts";
 import { fullScreen } from "./screen.ts";
 import { type Camera, clear, fitted, navigate } from "./viewport.ts";
 
-/** Pixels at the left that chains of dimensions take. */
+/** Pixels that chains of dimensions take at the left, and what stands over the foot: the groups' names, the slider. */
 const CHAINS = 30;
+const LEGEND = 22;
+const SLIDER = 44;
 const ARROWS: Record<string, [number, number]> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
@@ -43,7 +44,10 @@ export const elevation: MakePart = (context) => {
   const lit = svg("g", { class: "fnb-outlines" });
   const under = svg("g");
   const over = svg("g", { class: "fnb-marks" });
-  const naive = naiveView(() => ask("naive", naive.on));
+  const naive = naiveView(() => {
+    ask("naive", naive.on);
+    place();
+  });
   overlay.append(under, picks, lit, hover, over, naive.flaws);
   const sheet = h("div", { class: "fnb-sheet" }, overlay as unknown as HTMLElement);
   const tag = h("span", { class: "fnb-tag", hidden: true }, "Last good layout");
@@ -69,7 +73,7 @@ export const elevation: MakePart = (context) => {
   );
   mark(naive.el, "data-local", true);
   mark(naive.el, "data-beside", true);
-  const el = h("div", { class: "fnb-elevation" }, stage, inspector(context));
+  const el = h("div", { class: "fnb-elevation" }, stage);
 
   const ids = `fnb-${Math.random().toString(36).slice(2)}`;
   let drawing: Drawing | null = null;
@@ -88,11 +92,15 @@ export const elevation: MakePart = (context) => {
   /** How large the drawing was made when it was last made sharp. */
   let sharp = 1;
 
+  const extra = () => {
+    const named = on.has("groups") || on.has("grid");
+    return { side: on.has("dimensions") ? CHAINS : 0, foot: naive.on ? SLIDER : named ? LEGEND : 0 };
+  };
   const camera = (): Camera | null => {
     const room = { width: stage.clientWidth, height: stage.clientHeight };
     if (!drawing || !room.width || !room.height) return null;
     if (free) return free;
-    return held ? clear(held, room, drawing) : fitted(room, drawing, on.has("dimensions") ? CHAINS : 0);
+    return held ? clear(held, room, drawing) : fitted(room, drawing, extra());
   };
   /** Show the drawing where the camera says; rough: only moved and stretched, so that no frame is missed. */
   const place = (rough = false) => {
@@ -267,7 +275,10 @@ export const elevation: MakePart = (context) => {
     button("Zoom out (−)", "minus", () => settle(() => zoom(0.8))),
     button("Zoom in (+)", "plus", () => settle(() => zoom(1.25))),
     button("Fit the façade into the view (0)", "fit", fit),
-    fullScreen(signal),
+    fullScreen(signal, () => {
+      const { layer, x, y } = store.get("selection");
+      return layer + x + y !== "";
+    }),
   );
   sheet.addEventListener("pointerover", (event) => {
     const shape = shapeAt(event.target);

@@ -5,10 +5,14 @@ import type { Cell, Level, LookState, Looks, Path, SelectionState } from "../sha
 import { type Context, type MakePart, tint } from "./common.ts";
 import { variantsForm } from "./variants.ts";
 
-/** Where an edit goes: to the shapes of whom, under which key. Kept while one goes from shape to shape. */
+/** Where an edit goes: to the shapes of whom, under which key. */
 interface Place {
+  /** Kept while one goes from shape to shape. */
   level: Level;
-  /** What the key means in words, as "this one"; the key itself is another one for each cell. */
+  /**
+   * What the key means in words, as "this one"; the key itself is another one for each cell. Of a pair that is picked
+   * next only "this one" is kept: whoever has edited a whole row means the next pair, not that row again.
+   */
   means: string;
 }
 
@@ -39,6 +43,7 @@ function form({ store }: Context, place: Place): { el: HTMLElement; update(): vo
   const cell = () => selection().cell as Cell;
   const what = several ? "the picked pairs" : key;
 
+  if (!place.means.startsWith("this one")) place.means = "";
   const chosen = () => (several ? pairsOf(selection()) : keyIn(cell(), place));
   const path = (attribute: string): Path => [...ownerOf(selection(), place), "shapes", chosen(), attribute];
   const own = () => (several ? undefined : cell().set[place.level]?.[chosen()]);
@@ -264,7 +269,7 @@ function visibleField(label: string, value: () => boolean, set: (to: boolean) =>
 }
 
 function sizeText({ rect }: Cell): string {
-  if (!rect) return "no shape of it is picked";
+  if (!rect) return "";
   const [left, bottom, right, top] = rect;
   return `${formatNumber(right - left, 2)} × ${formatNumber(top - bottom, 2)} m`;
 }

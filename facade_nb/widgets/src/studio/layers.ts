@@ -1,14 +1,17 @@
-import { h, keyed, mark, type Row } from "../shared/dom.ts";
+import { h, keyed, mark, type Row, setText } from "../shared/dom.ts";
 import { button, choiceField, type Field, faultBox, nameField } from "../shared/fields.ts";
 import { icon, setIcon } from "../shared/icons.ts";
 import { AXES, type Axis, type LayerState } from "../shared/types.ts";
 import { type Context, emptyNote, focusAdded, type MakePart, markPicked, tint } from "./common.ts";
 import { groupField } from "./groups.ts";
 
+/** Layers up to which all are shown with their patterns and masks; of more, those that are picked or edited. */
+const MANY = 8;
+
 /** The stack, topmost layer first. */
 export const layers: MakePart = (context) => {
   const { store } = context;
-  const list = h("div", { class: "fnb-layers", role: "list", "aria-label": "Layers, topmost first" });
+  const list = h("div", { class: "fnb-layers fnb-list", role: "list", "aria-label": "Layers, topmost first" });
   const empty = emptyNote(
     "No layers yet. A layer has a pattern for each direction; a new one makes them where there are none.",
   );
@@ -21,6 +24,7 @@ export const layers: MakePart = (context) => {
   store.watch(["design", "drafts", "selection"], () => {
     const all = store.get("design").layers;
     empty.hidden = all.length > 0;
+    mark(list, "data-many", all.length > MANY);
     show(all);
     added();
   });
@@ -58,12 +62,25 @@ function layerRow(context: Context, list: HTMLElement, first: LayerState): Row<L
   const remove = button(`Remove layer ${name}`, "close", () => store.ask({ op: "remove", kind: "layer", name }));
   const solo = button(`Show layer ${name} alone, or all again`, "solo", () => store.ask({ op: "solo", name }));
   const copy = button(`Duplicate layer ${name}`, "copy", () => store.ask({ op: "duplicate", name }));
-  const unshaped = h(
+  const fresh = h(
     "span",
     { class: "fnb-fresh", title: "It draws nothing until a shape of it is chosen: click a cell in the table of pairs" },
     "no shapes yet",
   );
+  const showAll = h(
+    "button",
+    {
+      type: "button",
+      class: "fnb-word",
+      "aria-label": `Show all shapes of layer ${name}`,
+      title: "Draw all its shapes",
+    },
+    "show all",
+  );
+  showAll.addEventListener("click", () => store.set(["layers", name, "shapes", "* *", "visible"], null));
+  const unshaped = h("span", { class: "fnb-unshaped" }, fresh, showAll);
   const tools = h("span", { class: "fnb-tools" }, solo, copy, up, down, remove);
+  const brief = h("span", { class: "fnb-layer-brief" });
   const sides = AXES.map((axis) => layerSide(context, axis, () => layer));
   const faults = faultBox(store, () =>
     AXES.flatMap((axis) => ["pattern", "group", "mask"].map((key) => ["layers", name, axis, key])).concat([
@@ -73,7 +90,7 @@ function layerRow(context: Context, list: HTMLElement, first: LayerState): Row<L
   const el = h(
     "div",
     { class: "fnb-layer", role: "listitem", "data-layer": name },
-    h("div", { class: "fnb-layer-head" }, grip, visible, title.el, unshaped, tools),
+    h("div", { class: "fnb-layer-head" }, grip, visible, title.el, brief, unshaped, tools),
     ...sides.map((side) => side.el),
     faults.el,
   );
@@ -98,6 +115,7 @@ function layerRow(context: Context, list: HTMLElement, first: LayerState): Row<L
       for (const side of sides) side.update();
       faults.update();
       unshaped.hidden = !layer.unshaped;
+      setText(brief, `${layer.x.pattern} × ${layer.y.pattern}`);
       const at = position();
       up.disabled = at === 0;
       down.disabled = at === store.get("design").layers.length - 1;

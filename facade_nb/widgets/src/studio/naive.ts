@@ -7,6 +7,8 @@ import { rectOf, type Sheet } from "./marks.ts";
 
 const KINDS: Record<Flaw["kind"], [one: string, many: string]> = {
   misalignment: ["boundary apart", "boundaries apart"],
+  placement: ["placed unevenly", "placed unevenly"],
+  sizing: ["cut by the canvas", "cut by the canvas"],
   occlusion: ["place covered", "places covered"],
   hole: ["hole", "holes"],
   beyond: ["word too long", "words too long"],

@@ -3,25 +3,42 @@
 import { mark } from "../shared/dom.ts";
 import { button } from "../shared/fields.ts";
 
-/** A button that gives the widget the whole screen, and takes it back. */
-export function fullScreen(signal: AbortSignal): HTMLButtonElement {
+/** A button that gives the widget the whole screen, and takes it back; so does Escape, where nothing else is `held`. */
+export function fullScreen(signal: AbortSignal, held: () => boolean): HTMLButtonElement {
   const root = () => el.closest<HTMLElement>(".fnb");
+  // In a shadow tree the document names only what holds the tree.
+  const on = () => {
+    const tree = el.getRootNode() as Document | ShadowRoot;
+    return tree.fullscreenElement !== null && tree.fullscreenElement === root();
+  };
   const el: HTMLButtonElement = button("Full screen", "full", () => {});
+  const leave = async () => {
+    try {
+      await document.exitFullscreen();
+    } catch {
+      // It was left already.
+    }
+  };
   el.addEventListener("click", async (event) => {
     // A script's press would not be granted, but would use up what lets other buttons reach the clipboard.
     if (!event.isTrusted) return;
-    const own = root();
+    if (on()) {
+      await leave();
+      return;
+    }
     try {
-      if (document.fullscreenElement) await document.exitFullscreen();
-      else await own?.requestFullscreen?.();
+      await root()?.requestFullscreen?.();
     } catch {
       // The host does not allow it: all goes on as it was.
     }
   });
-  const told = () => {
-    const on = document.fullscreenElement !== null && document.fullscreenElement === root();
-    mark(el, "aria-pressed", String(on));
-  };
-  document.addEventListener("fullscreenchange", told, { signal });
+  document.addEventListener("fullscreenchange", () => mark(el, "aria-pressed", String(on())), { signal });
+  document.addEventListener(
+    "keydown",
+    (event) => {
+      if (event.key === "Escape" && !event.defaultPrevented && !held() && on()) void leave();
+    },
+    { signal },
+  );
   return el;
 }

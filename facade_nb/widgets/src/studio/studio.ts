@@ -6,6 +6,7 @@ import { compare, SHOWN } from "./compare.ts";
 import { counters } from "./counters.ts";
 import { elevation } from "./elevation.ts";
 import { exploded } from "./exploded.ts";
+import { inspector } from "./inspector.ts";
 import { layers } from "./layers.ts";
 import { massing } from "./massing.ts";
 import { patterns } from "./patterns.ts";
@@ -35,6 +36,16 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
   );
   const flat = elevation(context);
   const stage = h("div", { class: "fnb-stage" }, flat);
+
+  // Beside the façade, or under it where the studio is narrow, never over it.
+  const hint = h("p", { class: "fnb-dock-hint" }, "Pick a shape, or a pair of symbols, to change its looks.");
+  const looks = inspector(context);
+  const dock = h("div", { class: "fnb-dock" }, looks, hint);
+  store.watch(["selection"], () => {
+    const picked = store.get("selection").cell !== null;
+    hint.hidden = picked;
+    if (picked) mark(dock, "data-used", true);
+  });
 
   let massingView: HTMLElement | null = null;
   const others = new Map<string, HTMLElement>();
@@ -77,7 +88,13 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
   bar.append(h("span", { class: "fnb-tabs", role: "group", "aria-label": "View" }, ...tabs.map(({ tab }) => tab)));
   choose(model.get<View>("view"));
 
-  const el = h("div", { class: "fnb-studio" }, bar, h("div", { class: "fnb-main" }, stage, panel), statusLine(context));
+  const el = h(
+    "div",
+    { class: "fnb-studio" },
+    bar,
+    h("div", { class: "fnb-main" }, stage, panel, dock),
+    statusLine(context),
+  );
   const resize = () => el.style.setProperty("--fnb-height", `${model.get<number>("height")}px`);
   resize();
   model.on("change:height", resize);

@@ -13,10 +13,13 @@ type Qualifier = keyof typeof QUALIFIERS;
 
 const PLACEMENTS = ["center", "left", "right"] as const;
 
+/** Symbols up to which each shows all its qualifiers; of more, those that hold, and all of the picked ones. */
+const MANY = 16;
+
 /** The table of symbols. */
 export const symbols: MakePart = (context) => {
   const { store } = context;
-  const body = h("div", { class: "fnb-rows", role: "rowgroup" });
+  const body = h("div", { class: "fnb-rows fnb-list", role: "rowgroup" });
   const head = h(
     "div",
     { class: "fnb-symbol fnb-head", role: "row" },
@@ -40,6 +43,7 @@ export const symbols: MakePart = (context) => {
     mark(sweep, "title", unused.map((symbol) => symbol.name).join(", "));
     empty.hidden = all.length > 0;
     table.hidden = all.length === 0;
+    mark(table, "data-many", all.length > MANY);
     show(all);
     added();
   });
@@ -98,6 +102,8 @@ function symbolRow({ store }: Context, first: SymbolState): Row<SymbolState> {
       value: () => symbol[key],
     }),
   );
+  // Most are, so of many symbols only those that are not say so, by where they are placed.
+  mark(toggles[0]?.el as HTMLElement, "data-usual", true);
   const placement = h("button", { type: "button", class: "fnb-word fnb-placement" });
   placement.addEventListener("click", () => {
     const next = PLACEMENTS[(PLACEMENTS.indexOf(symbol.placement) + 1) % PLACEMENTS.length] ?? "center";

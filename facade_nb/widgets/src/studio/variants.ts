@@ -41,12 +41,18 @@ export function variantsForm(store: Store, { label, path, own }: VariantsOptions
     const material = materials.find((name) => !taken.includes(name));
     send([...current(), { weight: 1, material }]);
   });
+  const seeded = h("label", { title: "Another seed chooses other variants, the same ones each time" }, "seed", seed);
   const el = h(
-    "details",
-    { class: "fnb-variants" },
-    h("summary", {}, "Variants", count),
+    "div",
+    { class: "fnb-variants", role: "group", "aria-label": `Variants of ${label}` },
+    h(
+      "div",
+      { class: "fnb-variants-head" },
+      h("span", { title: "Each instance takes one of them, by their weights and the seed" }, "variants", count),
+      add,
+      seeded,
+    ),
     list,
-    h("div", { class: "fnb-variants-foot" }, add, h("label", {}, "seed", seed)),
   );
 
   const change = (at: number, name: string, value: unknown) => {
@@ -105,6 +111,7 @@ export function variantsForm(store: Store, { label, path, own }: VariantsOptions
     update() {
       const variants = own();
       setText(count, variants.length ? String(variants.length) : "");
+      seeded.hidden = variants.length === 0;
       const { cell } = store.get("selection");
       if (focused(seed) !== seed) seed.value = String(cell?.seed ?? 0);
       const key = JSON.stringify(variants);

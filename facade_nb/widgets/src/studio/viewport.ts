@@ -15,8 +15,8 @@ export interface Room {
   height: number;
 }
 
-/** Pixels that stay free around a fitted drawing. The foot is kept for what is said of a picked shape. */
-export const PADDING = { side: 14, top: 14, foot: 46 };
+/** Pixels that stay free around a fitted drawing: at its head for the tools, at its foot for what is said of it. */
+export const PADDING = { side: 14, top: 42, foot: 20 };
 const LIMITS = { least: 0.05, most: 4000 };
 /** A press that moves less than this is a click. */
 const STILL = 4;
@@ -24,9 +24,9 @@ const STILL = 4;
 const SETTLED = 120;
 
 /** The camera that shows the whole drawing as large as it gets. */
-export function fitted(room: Room, drawing: Drawing, extra = 0): Camera {
-  const across = Math.max(1, room.width - 2 * (PADDING.side + extra));
-  const up = Math.max(1, room.height - PADDING.top - PADDING.foot);
+export function fitted(room: Room, drawing: Drawing, extra = { side: 0, foot: 0 }): Camera {
+  const across = Math.max(1, room.width - 2 * (PADDING.side + extra.side));
+  const up = Math.max(1, room.height - PADDING.top - PADDING.foot - extra.foot);
   const scale = Math.min(across / drawing.width, up / drawing.height);
   const [left, top] = [(room.width - drawing.width * scale) / 2, PADDING.top + (up - drawing.height * scale) / 2];
   return {

@@ -1,0 +1,95 @@
+"""Thirty studios in one notebook, their cells run again and again: nothing blank, nothing grows. Counted, not timed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import nbformat
+from playwright.sync_api import CDPSession, expect
+
+from .conftest import Visit
+from .jupyter import Notebook
+from .waiting import eventually, frames
+
+STUDIOS = 30
+SHAPES = 17
+
+FIRST = """
+import gc, threading
+from ipywidgets.widgets import widget as _widget
+from facade_nb import gallery
+from facade_nb.widgets import Studio
+house = gallery.load("residential-house")
+def kept():
+    gc.collect()
+    own = [w for w in _widget._instances.values()]
+    text = sum(len(v) for w in own for v in w.get_state().values() if isinstance(v, str))
+    return {"text": text, "widgets": len(own), "threads": threading.active_count()}
+"""
+
+CONTEXTS = """
+window.contexts = 0;
+const made = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+    const context = made.call(this, kind, ...more);
+    if (context && kind.startsWith("webgl")) window.contexts += 1;
+    return context;
+};
+"""
+
+BLANK = f"""() => [...document.querySelectorAll(".fnb-part-studio")]
+    .filter(own => own.querySelectorAll(".fnb-elevation [data-shape]").length !== {SHAPES}).length"""
+
+
+def page_counts(lab: Notebook, session: CDPSession) -> dict[str, int]:
+    """What the page holds, after what is not held any more was swept away."""
+    lab.settle()
+    session.send("HeapProfiler.collectGarbage")
+    counts = session.send("Memory.getDOMCounters")
+    sheets = "() => document.adoptedStyleSheets.length + document.querySelectorAll('style').length"
+    return {
+        "nodes": counts["nodes"],
+        "listeners": counts["jsEventListeners"],
+        "sheets": lab.page.evaluate(sheets),
+        "contexts": lab.page.evaluate("() => window.contexts"),
+    }
+
+
+def run(lab: Notebook) -> None:
+    """Run all cells, and look at each studio."""
+    lab.run()
+    expect(lab.page.locator(".fnb-part-studio")).to_have_count(STUDIOS)
+
+    def none_blank() -> None:
+        assert lab.page.evaluate(BLANK) == 0
+
+    eventually(lab.page, none_blank)
+    frames(lab.page)
+
+
+def test_thirty_studios_run_again_and_again(visit: Visit) -> None:
+    with visit("lab") as lab:
+        lab.page.add_init_script(CONTEXTS)
+        cells = [FIRST, *["Studio(house)"] * STUDIOS]
+        notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(code) for code in cells])
+        notebook.metadata.kernelspec = {"name": "python3", "display_name": "Python 3", "language": "python"}
+        nbformat.write(notebook, lab.root / "thirty.ipynb")
+        lab.visit("thirty.ipynb")
+        session = lab.page.context.new_cdp_session(lab.page)
+        table: list[dict[str, Any]] = []
+        for _ in range(3):
+            run(lab)
+            table.append(page_counts(lab, session) | lab.python("kept()"))
+        heads = list(table[0])
+        print("\n" + "".join(f"{head:>12}" for head in ["run", *heads]))
+        for number, row in enumerate(table, 1):
+            print("".join(f"{value:12}" for value in [number, *row.values()]))
+        second, last = table[1], table[-1]
+        assert last["contexts"] == 0  # an elevation needs none
+        assert last["sheets"] == second["sheets"]
+        assert last["threads"] <= second["threads"] + 1
+        for head in ("nodes", "listeners"):
+            assert last[head] <= 1.02 * second[head], head
+        a_run = (last["text"] - second["text"]) / STUDIOS
+        assert a_run < 2000, f"a studio that was run away keeps {a_run:.0f} letters"
+        assert lab.take_problems() == []
