@@ -22,7 +22,7 @@ from .street import PAVING
 
 __all__ = ["GROUND", "PANE", "Finishes", "finishes"]
 
-PANE, GROUND = "Behind", "Slabs"
+PANE, GROUND = "Behind", "Ground"
 """The rules of panes, with the room behind them, and of the ground."""
 
 _STRIPS = 8
@@ -34,8 +34,12 @@ _BENT = pi / SEGMENTS
 _STAINED = {"oak": "wood"}
 """Materials that are another's tile under a coat of their own colour."""
 
-_COAT = 0.72
+_COAT = 0.86
 _WEATHER = "Weather -> MatAlpha(Color, 0, 0.33, 0.31, 0.28, 0.1, Rep:clouds, 0.2, 0.4, 0.21, 0.23)"
+_GROUND = (
+    f"{GROUND} -> Layer(Flags, Light, Worn, Trodden)",
+    "Light -> Mat(Color, 0, 0.70, 0.692, 0.675, 0.72)",
+)
 _PANE = f"{PANE} -> Layer(Room, Curtain, Glass)"
 
 
@@ -72,7 +76,13 @@ def finishes(materials: tuple[str, ...]) -> Finishes:
     found = [find_material(name) for name in materials]
     lines = [line for number, material in enumerate(found) for line in _rules(number, material)]
     shared = needed({"Room", "Curtain", "Glass"})
-    lines += [_WEATHER, _PANE, *_bends(), *(line for name, line in parts().items() if name in shared)]
+    lines += [
+        _WEATHER,
+        _PANE,
+        *_GROUND,
+        *_bends(),
+        *(line for name, line in parts().items() if name in shared),
+    ]
     lines += [line.strip() for line in PAVING.splitlines() if line.strip()]
     grammar = Grammar.parse("\n".join(lines))
     places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))

@@ -55,6 +55,12 @@ class Solids:
     shapes: NDArray[np.int64]
     box: Floats
 
+    @property
+    def corners(self) -> Floats:
+        """Corners (3 t, 3) of the triangles that stand on the ground."""
+        own = self.scene.indices.reshape(-1, 3)[self.shapes != GROUND].reshape(-1)
+        return self.scene.vertices["position"][own].astype(np.float64)
+
 
 def solids_of(layout: Layout, *, ground: bool = True) -> Solids:
     """The scene of a layout: the façade is in the plane z = 0, its lower left corner the origin.
@@ -96,7 +102,7 @@ def solids_scene(triangles: Triangles, rects: Sequence[Rect], *, ground: bool = 
     aside = np.array([1.0, 0.0, 1.0]) * (2.5 * (box[1, 1] - box[0, 1]) + 4)
     sunny = np.stack([np.minimum(box[0], (np.inf, 0, np.inf)) - aside, box[1] + aside])
     made = np.array(chunks, CHUNK)
-    return Solids(Scene(flat, indices, coats.grammar, made, sunny=sunny), shapes, box)
+    return Solids(Scene(flat, indices, coats.grammar, made, sunny=sunny, solid=box), shapes, box)
 
 
 def _axes(corners: Floats) -> Floats:

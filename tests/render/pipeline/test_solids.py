@@ -33,7 +33,11 @@ def test_each_triangle_knows_its_shape(solids: Solids) -> None:
     layout = house()
     corners = solids.scene.vertices["position"][solids.scene.indices].reshape(-1, 3, 3)
     assert len(solids.shapes) == len(corners)
-    assert set(solids.shapes) == {GROUND, BODY, *(solid.index for solid in build_scene(layout).solids if solid.parts)}
+    assert set(solids.shapes) == {
+        GROUND,
+        BODY,
+        *(solid.index for solid in build_scene(layout).solids if solid.parts),
+    }
     for index in (0, len(layout.shapes) - 2):
         left, bottom, right, top = layout.shapes[index].rect
         own = corners[solids.shapes == index].reshape(-1, 3)
