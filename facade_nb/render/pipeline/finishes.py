@@ -37,10 +37,13 @@ _STAINED = {"oak": "wood"}
 _COAT = 0.86
 _WEATHER = "Weather -> MatAlpha(Color, 0, 0.33, 0.31, 0.28, 0.1, Rep:clouds, 0.2, 0.4, 0.21, 0.23)"
 _GROUND = (
-    f"{GROUND} -> Layer(Flags, Light, Worn, Trodden)",
-    "Light -> Mat(Color, 0, 0.70, 0.692, 0.675, 0.72)",
+    f"{GROUND} -> Layer(Flags, Light, Trodden)",
+    "Light -> Mat(Color, 0, 0.76, 0.752, 0.738, 0.8)",
 )
-_PANE = f"{PANE} -> Layer(Room, Curtain, Glass)"
+_PANES = (
+    f"{PANE} -> Layer(Room, Curtain, Dim, Glass)",
+    "Dim -> Mat(Color, 0, 0.07, 0.09, 0.10, 0.5)",  # what comes in is less than what falls on the wall
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,7 +81,7 @@ def finishes(materials: tuple[str, ...]) -> Finishes:
     shared = needed({"Room", "Curtain", "Glass"})
     lines += [
         _WEATHER,
-        _PANE,
+        *_PANES,
         *_GROUND,
         *_bends(),
         *(line for name, line in parts().items() if name in shared),
