@@ -85,7 +85,15 @@ class TestPasses:
     def test_shaders_compile_for_desktops_and_browsers(self, profile: str) -> None:
         """Those of every list of passes, with what each defines, and with all its options."""
         assert shutil.which("glslangValidator"), "apt-get install glslang-tools"
-        every = (*PASSES, *FACADE, *BARE, *PAGE, *seen_through(2)[0], *gathered(2, cut=True)[0])
+        every = (
+            *PASSES,
+            *FACADE,
+            *BARE,
+            *PAGE,
+            *seen_through(2)[0],
+            *gathered(2, cut=True)[0],
+            *seen_through(1, *gathered(1))[0],
+        )
         sources = {shader(own.vertex, profile): "vert" for own in every}
         for own in every:
             options = tuple(name.upper() for name in own.options if name != "color_only")

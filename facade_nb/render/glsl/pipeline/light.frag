@@ -50,6 +50,8 @@ void main() {
   vec4 own = drawn(normal, share);
 #ifdef ALONE
   float sees = 1.0;
+#elif defined(GATHERED) && defined(BEHIND)
+  float sees = 1.0;  // what is gathered is that of what stands in front
 #elif defined(GATHERED)
   float sees = shades.x > 0.0 ? drawn(sunny, share).r : 1.0;
 #else
