@@ -72,6 +72,20 @@ def test_one_throws_its_shadow_on_the_other(solids: Solids, facade: Scene) -> No
         assert np.median(np.abs(change[same & own])) < 12
 
 
+def test_the_next_picture_has_its_own_light(solids: Solids) -> None:
+    """Maps of the sun stay where they are; what each pixel sees of them does not."""
+    passes, buffers = gathered(LOOKS.rays)
+
+    def frame(left: float) -> Frame:
+        return Frame(solids.scene, PLACE.crop(left, 0, left + 0.5, 1), Daytime.at(9.0), (80, 90), LOOKS)
+
+    with renderer_of(solids.scene, choose_device(), passes=passes, buffers=buffers) as renderer:
+        renderer.draw(frame(0.5))
+        second = renderer.draw(frame(0.0))["picture"]
+    with renderer_of(solids.scene, choose_device(), passes=passes, buffers=buffers) as renderer:
+        assert np.array_equal(renderer.draw(frame(0.0))["picture"], second)
+
+
 def test_indices_and_chunks_go_on(solids: Solids, facade: Scene) -> None:
     scene = together(solids.scene, facade)
     assert scene.chunks["first"].tolist() == [0, len(solids.scene.indices) - 6, len(solids.scene.indices)]
