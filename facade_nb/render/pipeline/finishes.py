@@ -1,7 +1,8 @@
 """Materials as rules of a grammar: what solids in a scene are made of, what is behind their panes, the ground.
 
 A material has the tile of its name, where there is one, as façades by grammar have it (`texture.from_layout`); so both
-look alike side by side. The others are plain paint with a little weather.
+look alike side by side. Others have the tile of another one with their pattern, under a coat of their own colour. What
+has no pattern is plain paint with a little weather.
 """
 
 from __future__ import annotations
@@ -31,10 +32,21 @@ _STRIPS = 8
 _BENT = pi / SEGMENTS
 """By how much the surface of a round body turns from the middle of a side to its edges."""
 
-_STAINED = {"oak": "wood"}
-"""Materials that are another's tile under a coat of their own colour."""
+_STAINED = {
+    "brick": "brick",
+    "ashlar": "ashlar",
+    "tiles": "tiles",
+    "slates": "slate",
+    "boards": "wood",
+    "seams": "metal",
+    "speckle": "granite",
+    "grain": "plaster-white",
+}
+"""By pattern: a material without a tile of its name is that of another one under a coat of its own colour."""
 
-_COAT = 0.86
+_COAT = 0.72
+"""How much that covers."""
+
 _WEATHER = "Weather -> MatAlpha(Color, 0, 0.33, 0.31, 0.28, 0.1, Rep:clouds, 0.2, 0.4, 0.21, 0.23)"
 _GROUND = (
     f"{GROUND} -> Layer(Flags, Light, Trodden)",
@@ -108,9 +120,18 @@ def finishes(materials: tuple[str, ...]) -> Finishes:
 
 def _tile(material: Material) -> str:
     """The tile of a material, or nothing."""
-    name = _STAINED.get(material.name, material.name)
-    recipe = CATALOGUE.get(name)
-    return name if recipe is not None and recipe.tiling == "xy" else ""
+    own = CATALOGUE.get(material.name)
+    return material.name if own is not None and own.tiling == "xy" else _STAINED.get(material.pattern, "")
+
+
+def _coat(material: Material, tile: str) -> str:
+    """The colour that, over the tile, makes about that of the material."""
+    under, wanted = (np.array(rgb(own.base)) / 255 for own in (find_material(tile), material))
+    return _numbers(np.clip((wanted - (1 - _COAT) * under) / _COAT, 0, 1))
+
+
+def _numbers(values: np.ndarray) -> str:
+    return ", ".join(f"{value:.3g}" for value in values)
 
 
 def _repeats(tile: str) -> tuple[str, str]:
@@ -127,7 +148,7 @@ def _period(material: Material) -> tuple[float, float]:
 
 def _rules(number: int, material: Material) -> Iterator[str]:
     """A flat and a round rule, with what they are made of."""
-    colour = ", ".join(f"{value / 255:.3g}" for value in rgb(material.base))
+    colour = _numbers(np.array(rgb(material.base)) / 255)
     tile = _tile(material)
     layers: list[str] = []
     shine = _shine(material)
@@ -136,7 +157,7 @@ def _rules(number: int, material: Material) -> Iterator[str]:
         yield f"Color{number} -> Mat(Color, Rep:{tile}, {at})"
         layers.append(f"Color{number}")
         if tile != material.name:
-            yield f"Stain{number} -> Mat(Color, 0, {colour}, {_COAT})"
+            yield f"Stain{number} -> Mat(Color, 0, {_coat(material, tile)}, {_COAT})"
             layers.append(f"Stain{number}")
         for usage, kind in (("Normal", "normal"), ("Specular", "specular")):
             if kind in CATALOGUE[tile].maps:
@@ -155,7 +176,7 @@ def _shine(material: Material) -> str:
     strength = 0.6 * (1 - material.roughness) ** 2
     base = np.array(rgb(material.base)) / 255
     tint = 1 - material.metallic + material.metallic * base / base.max()
-    return ", ".join(f"{value:.3g}" for value in strength * (1 + 2 * material.metallic) * tint)
+    return _numbers(strength * (1 + 2 * material.metallic) * tint)
 
 
 def _bends() -> Iterable[str]:

@@ -7,7 +7,7 @@ import pytest
 
 from facade_nb.design.errors import DesignError
 from facade_nb.design.model import Canvas
-from facade_nb.render.materials import MATERIALS
+from facade_nb.render.materials import MATERIALS, rgb
 from facade_nb.render.pipeline.finishes import finishes
 from facade_nb.render.pipeline.solids import BODY, GROUND, Solids, solids_of
 from facade_nb.render.scene import build_scene
@@ -113,6 +113,20 @@ def test_every_material_is_a_rule() -> None:
     assert coats.glass.sum() == 1
     paint = coats.grammar.evaluate([(4, 4)], (9, 9), start=f"Plain{names.index('#c8b9a0')}").color[0]
     assert paint[:3] * 255 == pytest.approx((0xC8, 0xB9, 0xA0), abs=0.6)
+
+
+def test_materials_have_their_pattern_and_their_colour() -> None:
+    """Those with a pattern differ from place to place, with a tile of their name or without one."""
+    names = tuple(MATERIALS)
+    coats = finishes(names)
+    across, up = np.meshgrid(np.linspace(1.03, 2.97, 24), np.linspace(1.01, 2.93, 24))
+    spots = np.column_stack([across.ravel(), up.ravel()])
+    for number, name in enumerate(names):
+        color = coats.grammar.evaluate(spots, (9, 9), start=f"Flat{number}").color[:, :3]
+        base = np.array(rgb(MATERIALS[name].base)) / 255
+        assert np.abs(color.mean(axis=0) - base).max() < 0.14, name
+        if MATERIALS[name].pattern not in ("", "glass"):
+            assert color.std(axis=0).max() > 0.001, name
 
 
 def test_an_unknown_material_is_named() -> None:
