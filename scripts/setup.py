@@ -87,7 +87,7 @@ def missing_packages(target: str) -> list[str]:
     if not has_library("libOSMesa.so.8", "libOSMesa.so.6"):
         packages.append("libosmesa6")  # offscreen pictures
     if not has_library("libGL.so.1"):
-        packages.append("libgl1")  # pyglet, which pyrender imports, loads it
+        packages.append("libgl1")  # EGL draws through it
     if target == "test" and not has_chromium():
         packages += ["chromium", "fonts-dejavu-core"]  # browser tests, and letters for their pages
     if target == "test" and not shutil.which("glslangValidator"):

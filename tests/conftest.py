@@ -8,9 +8,6 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-# Before anything imports OpenGL: tests have no display. OSMesa alone, since one process can't serve two backends.
-os.environ.setdefault("PYOPENGL_PLATFORM", "osmesa")
-
 # `make test` must give the same answer twice, so its examples are fixed; HYPOTHESIS_PROFILE=explore looks further.
 # There are no deadlines: these machines are shared.
 settings.register_profile(

@@ -8,7 +8,7 @@ from math import cos, radians, sin, tan
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Camera", "View", "light_matrix"]
+__all__ = ["Camera", "View"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,47 +82,3 @@ class View:
     ahead: NDArray[np.float64]
     window: tuple[float, float, float, float]
     reach: tuple[float, float]
-
-    @property
-    def matrix(self) -> NDArray[np.float64]:
-        """From the world to clip space, (4, 4)."""
-        view = np.eye(4)
-        view[:3, :3] = np.stack([self.right, np.array([0.0, 1.0, 0.0]), self.ahead])
-        view[:3, 3] = -view[:3, :3] @ self.eye
-        l, b, r, t = self.window  # noqa: E741
-        n, f = self.reach
-        lens = np.array(
-            [
-                [2 / (r - l), 0, -(r + l) / (r - l), 0],
-                [0, 2 / (t - b), -(t + b) / (t - b), 0],
-                [0, 0, (f + n) / (f - n), -2 * f * n / (f - n)],
-                [0, 0, 1, 0],
-            ]
-        )
-        return lens @ view
-
-    def rays(self, size: tuple[int, int]) -> NDArray[np.float32]:
-        """Directions (h, w, 3) through the pixel centres, one metre deep along the optical axis; row 0 at the top."""
-        width, height = size
-        l, b, r, t = self.window  # noqa: E741
-        x = l + (np.arange(width) + 0.5) / width * (r - l)
-        y = t - (np.arange(height) + 0.5) / height * (t - b)
-        up = np.array([0.0, 1.0, 0.0])
-        return (x[None, :, None] * self.right + y[:, None, None] * up + self.ahead).astype(np.float32)
-
-
-def light_matrix(
-    towards: NDArray[np.float64], points: NDArray[np.float64], pad: float = 0.1
-) -> NDArray[np.float64]:
-    """A parallel view of all `points` (n, 3), `pad` metres wider, from the direction `towards` the light: (4, 4)."""
-    ahead = -towards / np.linalg.norm(towards)
-    helper = np.array([0.0, 1.0, 0.0]) if abs(ahead[1]) < 0.95 else np.array([1.0, 0.0, 0.0])
-    right = np.cross(ahead, helper)
-    right /= np.linalg.norm(right)
-    axes = np.stack([right, np.cross(right, ahead), ahead])
-    spots = points @ axes.T
-    low, high = spots.min(axis=0) - pad, spots.max(axis=0) + pad
-    matrix = np.eye(4)
-    matrix[:3, :3] = 2 * axes / (high - low)[:, None]
-    matrix[:3, 3] = -(high + low) / (high - low)
-    return matrix

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from .parts import Block, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned
 
-__all__ = ["Mesh", "corner_normals", "have_area", "mesh_part", "mesh_parts", "triangulate"]
+__all__ = ["SEGMENTS", "Mesh", "corner_normals", "have_area", "mesh_part", "mesh_parts", "triangulate"]
 
-_SEGMENTS = 32
+SEGMENTS = 32
 """Sides of a turned body."""
 
 _EDGE = 0.5
@@ -185,27 +185,27 @@ def _without_spikes(polygon: Sequence[Point]) -> list[Point]:
 
 
 def _turned(t: Turned) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
-    angles = [2 * pi * i / _SEGMENTS for i in range(_SEGMENTS)]
+    angles = [2 * pi * i / SEGMENTS for i in range(SEGMENTS)]
     around = np.array([(cos(a), sin(a)) for a in angles])
     rings = [
-        np.stack([t.cx + r * around[:, 0], np.full(_SEGMENTS, y), t.cz + r * around[:, 1]], 1)
+        np.stack([t.cx + r * around[:, 0], np.full(SEGMENTS, y), t.cz + r * around[:, 1]], 1)
         for y, r in t.profile
     ]
-    i = np.arange(_SEGMENTS)
-    j = (i + 1) % _SEGMENTS
+    i = np.arange(SEGMENTS)
+    j = (i + 1) % SEGMENTS
     sides = []
     for level in range(len(rings) - 1):
-        low, high = level * _SEGMENTS, (level + 1) * _SEGMENTS
+        low, high = level * SEGMENTS, (level + 1) * SEGMENTS
         sides += [np.stack([low + i, high + j, low + j], 1), np.stack([low + i, high + i, high + j], 1)]
-    bottom, top = len(rings) * _SEGMENTS, len(rings) * _SEGMENTS + 1
-    last = (len(rings) - 1) * _SEGMENTS
+    bottom, top = len(rings) * SEGMENTS, len(rings) * SEGMENTS + 1
+    last = (len(rings) - 1) * SEGMENTS
     caps = [
-        np.stack([np.full(_SEGMENTS, bottom), i, j], 1),
-        np.stack([np.full(_SEGMENTS, top), last + j, last + i], 1),
+        np.stack([np.full(SEGMENTS, bottom), i, j], 1),
+        np.stack([np.full(SEGMENTS, top), last + j, last + i], 1),
     ]
     centres = np.array([[t.cx, t.profile[0][0], t.cz], [t.cx, t.profile[-1][0], t.cz]])
     faces = np.concatenate([*sides, *caps])
-    smooth = np.arange(len(faces)) < len(faces) - 2 * _SEGMENTS
+    smooth = np.arange(len(faces)) < len(faces) - 2 * SEGMENTS
     return np.concatenate([*rings, centres]), faces, smooth
 
 

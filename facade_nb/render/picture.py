@@ -14,10 +14,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .camera import Camera
-    from .daylight import Daylight
-    from .shading import Exposure
 
 __all__ = ["picture", "render_png"]
+
+_FAR = 4000.0
+"""How far one sees, metres."""
+
+_HAZE, _CLEAR = 300.0, 8.0
+"""After so many metres, at least, and so many times the way to the house, a third is left of what is seen."""
 
 
 def render_png(
@@ -49,7 +53,7 @@ def render_png(
     background
         ``sky`` or ``transparent`` (the ground then shows only the shadow that falls on it).
     backend
-        ``osmesa``, ``egl`` or ``cpu``; None: the first that works here.
+        Who draws: ``osmesa`` or ``egl``; None: the best that works here.
     samples
         Each pixel is the mean of `samples` × `samples` points.
     rays
@@ -65,7 +69,7 @@ def render_png(
     DesignError
         For a shape with an unknown geometry or material, or a file that cannot be written.
     BackendError
-        If the backend asked for does not work here; its text says what would help.
+        If the backend asked for does not work here, or none does; its text says what would help.
     ValueError
         For an unknown time of day, background or backend, or a size below 16 pixels.
     """
@@ -101,14 +105,19 @@ def picture(
     rays: int = 64,
 ) -> NDArray[np.uint8]:
     """As `render_png`, but the pixels: (h, w, 3) uint8, or (h, w, 4) on a transparent background."""
+    from dataclasses import replace
+
     import numpy as np
 
-    from .backends import choose_backend
     from .camera import Camera
     from .daylight import find_daylight
-    from .developing import binned, developed
-    from .shading import Shot, expose
-    from .surroundings import building
+    from .pipeline.device import choose_device
+    from .pipeline.frame import Looks
+    from .pipeline.gathering import gathered
+    from .pipeline.renderer import renderer_of
+    from .pipeline.solids import solids_of
+    from .pipeline.stills import still
+    from .pipeline.viewpoint import Frustum
 
     if background not in ("sky", "transparent"):
         raise ValueError(f"background: expected sky or transparent; found {background!r}")
@@ -116,53 +125,15 @@ def picture(
         raise ValueError(
             f"expected a size of at least 16 pixels and at least 1 sample and ray; found {size}, {samples}, {rays}"
         )
-    chosen = choose_backend(backend)
-    light = find_daylight(time_of_day)
-    triangles = building(layout)
+    daytime = find_daylight(time_of_day)
+    device = choose_device(backend)
+    solids = solids_of(layout)
     canvas = [(0.0, 0.0, 0.0), (layout.canvas.width, layout.canvas.height, 0.0)]
-    points = np.concatenate([np.array(canvas), triangles.positions.reshape(-1, 3)])
-    large = (size[0] * samples, size[1] * samples)
-    view = (camera or Camera()).look(points, large)
-    seen = expose(
-        Shot(
-            triangles,
-            view,
-            large,
-            light,
-            rays,
-            np.array([s.rect for s in layout.shapes] or [(0, 0, 1, 1)], np.float32),
-        ),
-        chosen,
-    )
-    shown = developed(seen.light, light.exposure)
-    alpha = None
-    if background == "sky":
-        shown = _with_sky(shown, seen, view.rays(large), view.eye, light)
-    else:
-        cover = np.where(seen.ground, seen.shade, seen.building)[..., None].astype(np.float32)
-        alpha = binned(cover, samples)
-        shown = np.where(seen.ground[..., None], np.array([0.06, 0.06, 0.08], np.float32), shown) * cover
-    small = binned(shown, samples)
-    if alpha is not None:
-        small = np.concatenate([small / np.maximum(alpha, 1e-4), alpha], axis=2)
-    return (np.clip(small, 0, 1) * 255 + 0.5).astype(np.uint8)
-
-
-def _with_sky(
-    shown: NDArray[np.float32],
-    seen: Exposure,
-    rays: NDArray[np.float32],
-    eye: NDArray[np.float64],
-    light: Daylight,
-) -> NDArray[np.float32]:
-    """The sky behind, and the far ground fading into it."""
-    import numpy as np
-
-    top, low = (np.asarray(colour, np.float32) for colour in light.backdrop)
-    slope = rays[..., 1] / np.linalg.norm(rays, axis=2)
-    sky = low + (top - low) * np.clip(slope / 0.5, 0, 1)[..., None] ** 0.7
-    distance = eye[1] / np.maximum(-rays[..., 1], 1e-4)
-    reach = float(np.linalg.norm(eye))
-    far = np.clip((distance - 1.3 * reach) / (7.0 * reach), 0, 1)
-    share = np.where(seen.building, 0, np.where(seen.ground, far**0.6, 1))[..., None]
-    return (shown * (1 - share) + sky * share).astype(np.float32)
+    view = (camera or Camera()).look(np.concatenate([np.array(canvas), solids.corners]), size)
+    frustum = replace(Frustum.of(view), reach=(0.4 * view.reach[0], _FAR))
+    cut = background == "transparent"
+    apart = float(np.abs(solids.box.mean(axis=0) - view.eye).max())
+    looks = Looks(haze=max(_HAZE, _CLEAR * apart), smooth=not cut, rays=rays, relief=False)
+    passes, buffers = gathered(rays, cut=cut)
+    with renderer_of(solids.scene, device, passes=passes, buffers=buffers) as renderer:
+        return still(renderer, frustum, daytime, size, looks, samples, of="cut" if cut else None)

@@ -31,7 +31,7 @@ class Archive:
 def bare_environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """Return an environment whose path holds no Node, no browser, nothing at all."""
     empty = tmp_path_factory.mktemp("bin")
-    dropped = ("PYTHONPATH", "VIRTUAL_ENV", "PYOPENGL_PLATFORM", "DISPLAY")
+    dropped = ("PYTHONPATH", "VIRTUAL_ENV", "DISPLAY")
     environment = {name: value for name, value in os.environ.items() if name not in dropped}
     environment["PATH"] = str(empty)
     assert shutil.which("node", path=environment["PATH"]) is None

@@ -2,10 +2,13 @@
 
 from .device import choose_device
 from .frame import Frame, Looks
+from .gathering import gathered
 from .passes import BUFFERS, PASSES, Buffer, Pass, arranged, without
 from .renderer import Renderer, renderer_of
 from .scene import Scene
+from .solids import Solids, solids_of
 from .stills import buffers_of, still
+from .together import together
 from .vertices import VERTEX
 from .viewpoint import CameraPath, Frustum, Viewpoint
 
@@ -21,11 +24,15 @@ __all__ = [
     "Pass",
     "Renderer",
     "Scene",
+    "Solids",
     "Viewpoint",
     "arranged",
     "buffers_of",
     "choose_device",
+    "gathered",
     "renderer_of",
+    "solids_of",
     "still",
+    "together",
     "without",
 ]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..texture.daytime import Daytime
 from .scene import Scene
-from .sunlight import sunlight
+from .sunlight import skylight, sunlight
 from .viewpoint import Frustum
 
 __all__ = ["Frame", "Looks", "visible"]
@@ -38,6 +38,8 @@ class Looks:
         Whether those far from any are, too.
     near
         Half the side of the fine map of shadows, metres; 0: as the height of the camera asks for.
+    rays
+        From how many directions the light of the sky is gathered, by passes that do (`gathering`).
     """
 
     shadow: bool = True
@@ -50,6 +52,7 @@ class Looks:
     samples: bool = False
     everywhere: bool = False
     near: float = 0.0
+    rays: int = 0
 
     @property
     def color_only(self) -> bool:
@@ -81,9 +84,11 @@ class Frame:
         sun = sunlight(
             self.daytime.towards, frustum, scene.box if scene.sunny is None else scene.sunny, looks.near
         )
+        gathered = skylight(self.daytime.towards, scene.solid_box, looks.rays) if looks.rays else {}
         shades = (float(self.runs("shadow")), float(self.runs("occlusion")))
         return {
             **self.daytime.uniforms(),
+            **gathered,
             "camera": frustum.matrix,
             "sun_near": sun.near,
             "sun_far": sun.far,

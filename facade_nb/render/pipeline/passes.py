@@ -79,7 +79,7 @@ class Pass:
     draws
         ``mesh``: the scene's triangles, seen through the matrix `through`; ``screen``: every pixel.
     through
-        The name of that matrix.
+        The name of that matrix. A pass that draws the screen is given it, too: it looks something up in a map.
     turning
         Whether it draws those chunks of the mesh that turn to whoever looks, or the others.
     adds

@@ -174,7 +174,7 @@ class Renderer:
 
     def _unchanged(self, own: Pass, uniforms: dict[str, Any]) -> bool:
         """Whether a map of shadows is still that of the last picture: it depends on its matrix alone."""
-        if not own.through.startswith("sun"):
+        if own.draws != "mesh" or not own.through.startswith("sun"):
             return False
         matrix = uniforms[own.through].tobytes()
         same = self._maps.get(own.name) == matrix

@@ -43,6 +43,8 @@ class Scene:
         Where seeds are any numbers: each once. `seed` of a vertex is then the place of its own, and 0.
     sunny
         Least and greatest coordinates (2, 3) of what is in the maps of shadows. None: all of it.
+    solid
+        Those of what throws shadows: all but the ground. None: as `sunny`.
     """
 
     vertices: np.ndarray
@@ -51,6 +53,7 @@ class Scene:
     given_chunks: np.ndarray | None = field(default=None)
     seeds: tuple[Seed, ...] = ()
     sunny: NDArray[np.float64] | None = None
+    solid: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         if self.vertices.dtype != VERTEX:
@@ -87,6 +90,11 @@ class Scene:
         if not len(self.chunks):
             return np.zeros((2, 3))
         return np.stack([self.chunks["low"].min(axis=0), self.chunks["high"].max(axis=0)]).astype(np.float64)
+
+    @property
+    def solid_box(self) -> NDArray[np.float64]:
+        """Least and greatest coordinates (2, 3) of what throws shadows, metres."""
+        return next(own for own in (self.solid, self.sunny, self.box) if own is not None)
 
     @property
     def defines(self) -> tuple[str, ...]:

@@ -38,8 +38,9 @@ def still(
     looks: Looks = _LOOKS,
     samples: int = 1,
     tell: Callable[[float], None] | None = None,
+    of: str | None = None,
 ) -> NDArray[np.uint8]:
-    """A picture (h, w, 3), row 0 at the top.
+    """A picture (h, w, 3), row 0 at the top; with alpha (h, w, 4) where `of` is a buffer that is cut out.
 
     Parameters
     ----------
@@ -47,6 +48,8 @@ def still(
         Each pixel is the mean of `samples` × `samples` points.
     tell
         Told after each piece what part of the picture there is.
+    of
+        The buffer that is wanted in place of the picture. What is transparent in it counts for nothing in a mean.
 
     Raises
     ------
@@ -56,18 +59,17 @@ def still(
     if min(pixels) < 1 or samples < 1:
         raise ValueError(f"expected at least one pixel and sample; found {pixels}, {samples}")
     width, height = pixels
-    found = np.empty((height, width, 3), np.uint8)
+    found = np.empty((height, width, 4 if of else 3), np.uint8)
+    name = of or shown(looks)
     look = _LOOK * height / (frustum.window[3] - frustum.window[1])
     pieces = list(_pieces(pixels, samples, _EVEN * ceil((look + _RIM) / _EVEN)))
     for number, (left, top, wide, tall, rim) in enumerate(pieces):
         box = (left - rim, top - rim, left + wide + rim, top + tall + rim)
         part = frustum.crop(box[0] / width, 1 - box[3] / height, box[2] / width, 1 - box[1] / height)
         size = ((wide + 2 * rim) * samples, (tall + 2 * rim) * samples)
-        drawn = renderer.draw(Frame(renderer.scene, part, daytime, size, looks), (shown(looks),))[
-            shown(looks)
-        ]
+        drawn = renderer.draw(Frame(renderer.scene, part, daytime, size, looks), (name,))[name]
         edge = rim * samples
-        inner = drawn[edge : edge + tall * samples, edge : edge + wide * samples, :3]
+        inner = drawn[edge : edge + tall * samples, edge : edge + wide * samples, : found.shape[2]]
         found[top : top + tall, left : left + wide] = _mean(inner, samples)
         if tell is not None:
             tell((number + 1) / len(pieces))
@@ -92,12 +94,22 @@ def _pieces(pixels: tuple[int, int], samples: int, rim: int) -> Iterator[tuple[i
 
 
 def _mean(pixels: NDArray[np.uint8], samples: int) -> NDArray[np.uint8]:
+    """Means of `samples` × `samples` pixels; colours count as much as their alpha, where there is one."""
     if samples == 1:
         return pixels
-    height, width = pixels.shape[0] // samples, pixels.shape[1] // samples
-    sums = pixels.reshape(height, samples, width, samples, 3).sum(axis=(1, 3), dtype=np.uint32)
+    height, width, channels = pixels.shape[0] // samples, pixels.shape[1] // samples, pixels.shape[2]
+
+    def sums(values: NDArray[Any]) -> NDArray[np.uint32]:
+        parts = values.reshape(height, samples, width, samples, -1)
+        return np.asarray(parts.sum(axis=(1, 3), dtype=np.uint32))
+
     count = samples * samples
-    return ((2 * sums + count) // (2 * count)).astype(np.uint8)
+    if channels == 3:
+        return ((2 * sums(pixels) + count) // (2 * count)).astype(np.uint8)
+    alpha = sums(pixels[..., 3:])
+    colour = sums(pixels[..., :3].astype(np.uint32) * pixels[..., 3:])
+    mean = (2 * colour + alpha) // np.maximum(2 * alpha, 1)
+    return np.concatenate([mean, (2 * alpha + count) // (2 * count)], axis=2).astype(np.uint8)
 
 
 def buffers_of(

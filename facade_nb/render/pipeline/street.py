@@ -15,7 +15,7 @@ from ..texture.grammar import Grammar
 from .scene import Scene
 from .vertices import VERTEX
 
-__all__ = ["KERB", "PAVEMENT", "ground", "street"]
+__all__ = ["KERB", "PAVEMENT", "PAVING", "ground", "street"]
 
 PAVEMENT, KERB = 3.2, 0.16
 """Width of the pavement before houses and of its kerb, metres."""
@@ -23,7 +23,7 @@ PAVEMENT, KERB = 3.2, 0.16
 _FAR = 1500.0
 """How far the ground reaches, metres."""
 
-_TEXT = """
+PAVING = """
     Slabs -> Layer(Flags, Even, Worn, Trodden)
     Flags -> Mat(Color, Rep:paving, 0, 0, 0.28, 0.28)
     Even -> Mat(Color, 0, 0.61, 0.595, 0.57, 0.5)
@@ -39,7 +39,7 @@ _TEXT = """
 
 @lru_cache(maxsize=1)
 def _paved() -> Grammar:
-    return Grammar.parse(_TEXT)
+    return Grammar.parse(PAVING)
 
 
 def street(facades: Sequence[Facade]) -> Scene:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot
+from itertools import product
+from math import cos, hypot, pi, sin, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,13 +13,16 @@ from numpy.typing import NDArray
 from .passes import SHADOW
 from .viewpoint import Frustum
 
-__all__ = ["MAPS", "Sunlight", "sunlight"]
+__all__ = ["MAPS", "Sunlight", "skylight", "sunlight"]
 
 _NEAR, _RISE, _MOST = 55.0, 2.4, 700.0
 """Half the side of the fine map, metres: for an eye on the ground, more for each metre of height, at most."""
 
 _FAR = 3000.0
 """Half the side of the coarse map, metres, at most."""
+
+_PAD = 0.1
+"""Metres around what a view of all of it shows."""
 
 MAPS = {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR}
 """The same, for who draws the maps elsewhere."""
@@ -66,6 +71,39 @@ def sunlight(
         _parallel(axes, centre, all_of_it, box),
         (2 * half / SHADOW, 2 * all_of_it / SHADOW),
     )
+
+
+def skylight(towards: tuple[float, float, float], box: NDArray[np.float64], rays: int) -> dict[str, Any]:
+    """Views (4, 4) of a whole box: from the sun, and from so many directions of the sky, even over the half sphere.
+
+    Returns
+    -------
+    dict
+        ``sun_whole``, ``sky_0`` and so on, and ``rays``.
+    """
+    corners = np.array(list(product(*box.T)))
+    found: dict[str, Any] = {"rays": float(rays), "sun_whole": _whole(np.array(towards), corners)}
+    for k in range(rays):
+        height, angle = (k + 0.5) / rays, k * pi * (3 - sqrt(5))
+        flat = sqrt(1 - height**2)
+        way = np.array([flat * cos(angle), height, flat * sin(angle)])
+        found[f"sky_{k}"] = _whole(way, corners)
+    return found
+
+
+def _whole(towards: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A parallel view (4, 4) of all `points` (n, 3), with a little around, from the direction of a light."""
+    ahead = -towards
+    helper = np.array([0.0, 1.0, 0.0]) if abs(ahead[1]) < 0.95 else np.array([1.0, 0.0, 0.0])
+    right = np.cross(ahead, helper)
+    right /= np.sqrt((right * right).sum())
+    axes = np.stack([right, np.cross(right, ahead), ahead])
+    spots = (points[:, None] * axes).sum(axis=2)
+    low, high = spots.min(axis=0) - _PAD, spots.max(axis=0) + _PAD
+    matrix = np.eye(4)
+    matrix[:3, :3] = 2 * axes / (high - low)[:, None]
+    matrix[:3, 3] = -(high + low) / (high - low)
+    return matrix
 
 
 def _parallel(

@@ -22,10 +22,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..daylight import floats
-from ..surfaces import linear
+from ..developing import floats, linear
 
-__all__ = ["Daytime", "light"]
+__all__ = ["Colour", "Daytime", "light"]
 
 Floats = NDArray[np.float32]
 Colour = tuple[float, float, float]

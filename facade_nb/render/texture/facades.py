@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..daylight import floats
+from ..developing import floats
 from .grammar import Grammar
 
 __all__ = ["Facade", "box"]

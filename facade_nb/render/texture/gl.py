@@ -75,7 +75,7 @@ class GlPainter:
         except Exception as error:
             return (
                 f"{self.name}: no OpenGL 3.3 context can be made ({error}); a driver may be missing; on Debian or "
-                f"Ubuntu: {self._install}; the backend 'cpu' works everywhere"
+                f"Ubuntu: {self._install}"
             )
         return ""
 
@@ -255,7 +255,7 @@ _INSTALL_EGL = "sudo apt-get install --no-install-recommends libegl1 libgl1-mesa
 
 def _no_osmesa() -> str:
     if not sys.platform.startswith("linux"):
-        return f"works on Linux only, and this is {sys.platform}; the backend 'cpu' works everywhere"
+        return f"works on Linux only, and this is {sys.platform}"
     if find_osmesa() is None:
         return f"no OSMesa found; on Debian or Ubuntu: {_INSTALL_OSMESA}"
     return ""
@@ -270,7 +270,7 @@ def _make_osmesa() -> Any:
 
 def _no_egl() -> str:
     if not sys.platform.startswith("linux"):
-        return f"works on Linux only, and this is {sys.platform}; the backend 'cpu' works everywhere"
+        return f"works on Linux only, and this is {sys.platform}"
     name = ctypes.util.find_library("EGL")
     try:
         if name is None:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..daylight import floats
-from ..developing import developed
+from ..developing import developed, floats
 from .antialias import averaged
 from .daytime import Daytime, light
 from .evaluating import Question

@@ -78,7 +78,7 @@ def choose_painter(name: str | None = None) -> Painter:
         known = ", ".join(PAINTERS)
         raise ValueError(f"backend: expected one of {known}; found {name!r}{nearest(name, PAINTERS)}")
     if PAINTERS[name].why_not:
-        raise BackendError(PAINTERS[name].why_not)
+        raise BackendError(f"{PAINTERS[name].why_not}; the backend 'cpu' works everywhere")
     return PAINTERS[name]
 
 

@@ -14,6 +14,7 @@ import pytest
 from facade_nb.render import Grammar
 from facade_nb.render.camera import Camera
 from facade_nb.render.pipeline.frame import visible
+from facade_nb.render.pipeline.gathering import gathered
 from facade_nb.render.pipeline.passes import (
     BARE,
     BUFFERS,
@@ -84,7 +85,15 @@ class TestPasses:
     def test_shaders_compile_for_desktops_and_browsers(self, profile: str) -> None:
         """Those of every list of passes, with what each defines, and with all its options."""
         assert shutil.which("glslangValidator"), "apt-get install glslang-tools"
-        every = (*PASSES, *FACADE, *BARE, *PAGE, *seen_through(2)[0])
+        every = (
+            *PASSES,
+            *FACADE,
+            *BARE,
+            *PAGE,
+            *seen_through(2)[0],
+            *gathered(2, cut=True)[0],
+            *seen_through(1, *gathered(1))[0],
+        )
         sources = {shader(own.vertex, profile): "vert" for own in every}
         for own in every:
             options = tuple(name.upper() for name in own.options if name != "color_only")
@@ -140,8 +149,12 @@ class TestViewpoint:
         )
 
     def test_a_shift_lens_is_one_as_well(self) -> None:
-        view = Camera().look(np.array([[0.0, 0, 0], [9.0, 12.0, 0]]), (640, 480))
-        assert Frustum.of(view).matrix == pytest.approx(view.matrix)
+        view = Camera(azimuth=20.0, height=3.0).look(np.array([[0.0, 0, 0], [9.0, 12.0, 0]]), (640, 480))
+        matrix = Frustum.of(view).matrix
+        middle = view.eye + 7.0 * view.ahead + 7.0 * np.mean(view.window[::2]) * view.right
+        low, high = (matrix @ (middle[0], middle[1] + up, middle[2], 1.0) for up in (0.0, 5.0))
+        assert low[0] / low[3] == pytest.approx(0) and high[0] / high[3] == pytest.approx(0)  # upright
+        assert low[3] == pytest.approx(7.0) and view.window[1] + view.window[3] != pytest.approx(0)
 
     @pytest.mark.parametrize(
         "given", [{"pitch": 90.0}, {"angle": 180.0}, {"eye": (0.0, float("nan"), 0.0)}, {"yaw": float("inf")}]

@@ -1,7 +1,7 @@
 // Light that comes from each pixel, linear: sun, sky and what the ground throws back, lamps (NumPy: daytime.py).
 #include "light.glsl"
 #include "pixel.glsl"
-#ifndef ALONE
+#if !defined(ALONE) && !defined(GATHERED)
 #include "sunlit.glsl"
 #endif
 #include "view.glsl"
@@ -12,6 +12,9 @@ uniform highp sampler2D specular;
 uniform highp sampler2D facing;
 #ifndef ALONE
 uniform highp sampler2D softened;
+#ifdef GATHERED
+uniform highp sampler2D sunny;
+#endif
 uniform vec2 shades;  // 1: there are shadows; 1: there is occlusion
 #endif
 
@@ -47,6 +50,10 @@ void main() {
   vec4 own = drawn(normal, share);
 #ifdef ALONE
   float sees = 1.0;
+#elif defined(GATHERED) && defined(BEHIND)
+  float sees = 1.0;  // what is gathered is that of what stands in front
+#elif defined(GATHERED)
+  float sees = shades.x > 0.0 ? drawn(sunny, share).r : 1.0;
 #else
   float sees = shades.x > 0.0 && dot(face.xyz, towards) > 0.0 ? sunlit(point, face.xyz) : 1.0;
 #endif

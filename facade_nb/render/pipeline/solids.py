@@ -1,0 +1,189 @@
+"""A solved layout as a scene of the pipeline: its solids, the body behind them, and the ground.
+
+Each triangle carries a façade, as all in a scene do: the surface of a material, metres along it and up it, or a pane
+with the room behind it. The pipeline sees no difference (docs/pipeline.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...solver.model.layout import Layout
+from ..scene import Triangles
+from ..surroundings import building
+from .finishes import Finishes, finishes
+from .scene import CHUNK, Scene
+from .vertices import VERTEX
+
+__all__ = ["BODY", "GROUND", "Solids", "solids_of", "solids_scene"]
+
+BODY, GROUND = -1, -2
+"""What a triangle belongs to that is no shape's: the house behind its façade, or the ground."""
+
+_FAR = 1500.0
+"""How far the ground reaches, metres."""
+
+_LEVEL = 0.97
+"""From that cosine on a surface lies flat: its pattern runs east and south."""
+
+_ROUND = 1e-3
+"""A triangle is a round body's where the normals of its corners are so far from its own."""
+
+Floats = NDArray[np.float64]
+Rect = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solids:
+    """A scene of solids.
+
+    Attributes
+    ----------
+    scene
+        What the pipeline draws.
+    shapes
+        (t,) for each triangle of the scene which shape of the layout it belongs to, `BODY` or `GROUND`.
+    box
+        Least and greatest coordinates (2, 3) of what stands on the ground, metres.
+    """
+
+    scene: Scene
+    shapes: NDArray[np.int64]
+    box: Floats
+
+    @property
+    def corners(self) -> Floats:
+        """Corners (3 t, 3) of the triangles that stand on the ground."""
+        own = self.scene.indices.reshape(-1, 3)[self.shapes != GROUND].reshape(-1)
+        return self.scene.vertices["position"][own].astype(np.float64)
+
+
+def solids_of(layout: Layout, *, ground: bool = True) -> Solids:
+    """The scene of a layout: the façade is in the plane z = 0, its lower left corner the origin.
+
+    Raises
+    ------
+    DesignError
+        For a shape with an unknown geometry or material.
+    """
+    return solids_scene(building(layout), [shape.rect for shape in layout.shapes], ground=ground)
+
+
+def solids_scene(triangles: Triangles, rects: Sequence[Rect], *, ground: bool = True) -> Solids:
+    """The scene of triangles; `rects`: those of the shapes that they name, metres. Rooms fill these."""
+    coats = finishes(triangles.material_names)
+    count = len(triangles.positions)
+    vertices = np.zeros((count, 3), VERTEX)
+    vertices["position"] = triangles.positions
+    corners = triangles.positions.astype(np.float64)
+    axes = _axes(corners)
+    vertices["normal"], vertices["tangent"] = axes[:, None, 2], axes[:, None, 0]
+    local = np.stack([(corners * axes[:, None, k]).sum(axis=2) for k in (0, 1)], axis=2)
+    _spread(vertices, local, triangles.materials, coats)
+    _rounded(vertices, local, triangles, axes, coats)
+    _glazed(vertices, triangles, axes, rects, coats)
+    flat: np.ndarray = vertices.reshape(-1)
+    shapes = triangles.shapes.astype(np.int64)
+    points = corners.reshape(-1, 3)
+    box = np.stack([points.min(axis=0), points.max(axis=0)]) if count else np.zeros((2, 3))
+    chunks = [(0, 3 * count, box[0], box[1])] if count else []
+    indices = np.arange(3 * count, dtype=np.uint32)
+    if ground:
+        own = _ground(box, coats)
+        chunks.append((len(indices), 6, own["position"].min(axis=0), own["position"].max(axis=0)))
+        square = np.array([0, 1, 2, 0, 2, 3], np.uint32) + np.uint32(len(flat))
+        flat, indices = np.concatenate([flat, own]), np.concatenate([indices, square])
+        shapes = np.append(shapes, [GROUND, GROUND])
+    # A low sun throws shadows some way beyond the house.
+    aside = np.array([1.0, 0.0, 1.0]) * (2.5 * (box[1, 1] - box[0, 1]) + 4)
+    sunny = np.stack([np.minimum(box[0], (np.inf, 0, np.inf)) - aside, box[1] + aside])
+    made = np.array(chunks, CHUNK)
+    return Solids(Scene(flat, indices, coats.grammar, made, sunny=sunny, solid=box), shapes, box)
+
+
+def _axes(corners: Floats) -> Floats:
+    """For each triangle (t, 3, 3): along it, level; up it; out of it."""
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    out = np.cross(a, b)
+    out /= np.maximum(np.sqrt((out * out).sum(axis=1, keepdims=True)), 1e-30)
+    along = np.stack([out[:, 2], np.zeros(len(out)), -out[:, 0]], axis=1)  # up × out
+    level = np.abs(out[:, 1]) > _LEVEL
+    along[level] = np.array([1.0, 0.0, 0.0]) - out[level, :1] * out[level]
+    along /= np.sqrt((along * along).sum(axis=1, keepdims=True))
+    return np.stack([along, np.cross(out, along), out], axis=1)
+
+
+def _spread(vertices: np.ndarray, local: Floats, materials: NDArray[np.int64], coats: Finishes) -> None:
+    """Each material on one endless façade, whose pattern begins at the origin."""
+    for number, (start, period) in enumerate(zip(coats.flat, coats.period, strict=True)):
+        own = materials == number
+        if not own.any():
+            continue
+        low = local[own].min(axis=(0, 1))
+        place = local[own] + np.ceil(np.maximum(-low, 0) / period + 1) * period
+        vertices["place"][own] = place
+        vertices["size"][own] = np.ceil(place.max(axis=(0, 1)) + 1)
+        vertices["start"][own] = start
+
+
+def _rounded(
+    vertices: np.ndarray, local: Floats, triangles: Triangles, axes: Floats, coats: Finishes
+) -> None:
+    """Sides of round bodies: each is a façade, across which its normal turns."""
+    turned = triangles.normals.astype(np.float64) - axes[:, None, 2]
+    own = np.flatnonzero((np.abs(turned).max(axis=2) > _ROUND).all(axis=1))
+    if not len(own):
+        return
+    # Its middle is where the normal is its own: between the corners to the left and those to the right.
+    bent = (turned[own] * axes[own][:, None, 0]).sum(axis=2)
+    x = local[own][:, :, 0]
+    middle = _middle(x, bent)
+    wide = 2 * np.abs(x - middle[:, None]).max(axis=1)
+    low = local[own][:, :, 1].min(axis=1)
+    place = np.stack([x - middle[:, None] + wide[:, None] / 2, local[own][:, :, 1] - low[:, None]], axis=2)
+    vertices["place"][own] = place
+    tall = place[:, :, 1].max(axis=1)
+    vertices["size"][own] = np.stack([wide, tall], axis=1)[:, None]
+    vertices["start"][own] = coats.round[triangles.materials[own]][:, None]
+
+
+def _middle(x: Floats, bent: Floats) -> Floats:
+    """Where on a line from the corner whose normal leans most to the left to that most to the right it does not."""
+    rows = np.arange(len(x))
+    left, right = bent.argmin(axis=1), bent.argmax(axis=1)
+    low, high = bent[rows, left], bent[rows, right]
+    share = np.clip(-low / np.maximum(high - low, 1e-9), 0, 1)
+    return np.asarray(x[rows, left] + share * (x[rows, right] - x[rows, left]))
+
+
+def _glazed(
+    vertices: np.ndarray, triangles: Triangles, axes: Floats, rects: Sequence[Rect], coats: Finishes
+) -> None:
+    """Panes that look to the front: all those of a shape look into one room, which is as large as the shape."""
+    if not coats.glass.any():
+        return
+    own = np.flatnonzero(coats.glass[triangles.materials] & (triangles.shapes >= 0) & (axes[:, 2, 2] > 0.99))
+    if not len(own):
+        return
+    shape = triangles.shapes[own]
+    every = np.array(rects, np.float64)
+    vertices["place"][own] = triangles.positions[own][:, :, :2] - every[shape][:, None, :2]
+    vertices["size"][own] = (every[shape, 2:] - every[shape, :2])[:, None]
+    vertices["start"][own] = coats.pane
+    vertices["seed"][own] = np.stack([(37 * shape + 11) % 16384, (101 * shape + 7) % 16384], axis=1)[:, None]
+
+
+def _ground(box: Floats, coats: Finishes) -> np.ndarray:
+    """A square of paving around what stands there, level with its feet."""
+    made = np.zeros(4, VERTEX)
+    middle = np.round((box[0] + box[1]) / 2)[[0, 2]]
+    spots = np.array([(-1, 1), (1, 1), (1, -1), (-1, -1)]) * _FAR
+    made["position"][:, 0], made["position"][:, 2] = spots[:, 0] + middle[0], spots[:, 1] + middle[1]
+    made["place"] = spots * (1, -1) + _FAR
+    made["size"], made["start"] = 2 * _FAR, coats.ground
+    made["normal"], made["tangent"] = (0, 1, 0), (1, 0, 0)
+    return made
