@@ -4,8 +4,8 @@ Usage: python scripts/run_tests.py [NAME ...]
 
 Without names it runs everything in `STEPS`. Each step's output is printed as a whole when the step is over. A step
 that fails does not keep the others from running; the exit status is 1 if any failed. Stopped by a signal, it ends the
-steps that are still running, prints what they have printed by then, and sums up all the same. Run with the Python of
-`.venv`, after scripts/setup.py.
+steps that are still running, prints what they have printed by then, and sums up all the same. However a step ends,
+no process that came of it goes on. Run with the Python of `.venv`, after scripts/setup.py.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
+from families import Family
+
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ROOT / ".venv" / "bin"
 TOOLS = ROOT / "node_modules" / ".bin"
@@ -31,6 +33,7 @@ PYTEST = (PYTHON, "-m", "pytest", "-q", "--durations=8")
 CORES = os.cpu_count() or 1
 NICE = ("nice", "-n", "10") if shutil.which("nice") else ()
 GRACE = 20.0  # seconds that a step has to end when it is told to
+LOOK = 5.0  # seconds between looks at what a step has started
 
 
 @dataclass(frozen=True)
@@ -117,24 +120,35 @@ class Runner:
                 start_new_session=True,  # a signal to all is for this process to pass on
             )
             status: int | None = None
+            family = Family(process.pid)
+            watch = asyncio.create_task(_watch(family))
             try:
                 status = await process.wait()
             except asyncio.CancelledError:
-                await _end(process)
+                await _end(process, family)
+            watch.cancel()
+            await asyncio.to_thread(family.end)
+            await process.wait()
             seconds = time.monotonic() - start
             self.results[name] = Result(status, seconds, _show(name, seconds, out))
             for _ in range(step.cores):
                 self._free.release()
 
 
-async def _end(process: asyncio.subprocess.Process) -> None:
-    """End a step as Ctrl+C does: pytest then sums up what it has got to. What it has started and left goes, too."""
+async def _watch(family: Family) -> None:
+    """Remember what a step starts: when its parents have been killed it can't be told any more whose it was."""
+    while True:
+        family.look()
+        await asyncio.sleep(LOOK)
+
+
+async def _end(process: asyncio.subprocess.Process, family: Family) -> None:
+    """End a step as Ctrl+C does: pytest then sums up what it has got to."""
+    family.look()
     if process.returncode is None:
         process.send_signal(signal.SIGINT)
     with contextlib.suppress(TimeoutError):
         await asyncio.wait_for(process.wait(), GRACE)
-    with contextlib.suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)
 
 
 def _show(name: str, seconds: float, out: BinaryIO) -> str:

@@ -12,6 +12,7 @@ from PIL import Image
 
 from facade_nb.design.errors import DesignError, GrammarError
 from facade_nb.render import Grammar
+from facade_nb.render.texture import atlas
 from facade_nb.render.tiles import DEFAULT_SIZE, TileError, TileSet, folder
 
 
@@ -172,13 +173,16 @@ def test_what_is_named_is_read_and_nothing_else(tmp_path: Path, monkeypatch: pyt
     assert read == ["wall-7"]
 
 
-def test_more_tiles_than_fit_one_image(tmp_path: Path) -> None:
+def test_more_tiles_than_fit_one_image(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sixty of 1024 pixels a side; here an image is as much smaller as its tiles are."""
+    assert atlas.MAX_TEXELS == 67108864
+    monkeypatch.setattr(atlas, "MAX_TEXELS", atlas.MAX_TEXELS // 256)
     for k in range(60):
         _image(tmp_path / f"w{k}.png", (16, 16))
-    tiles = TileSet.from_folder(tmp_path, size=1024, builtin=False)
+    tiles = TileSet.from_folder(tmp_path, size=64, builtin=False)
     rules = "\n".join(f"R{k} -> Mat(Color, Fit:w{k}, 0, 0, 1, 1)" for k in range(60))
     grammar = Grammar.parse(rules, tiles)
-    with pytest.raises(DesignError, match="the 60 tiles that are named take more than 67108864 pixels"):
+    with pytest.raises(DesignError, match="the 60 tiles that are named take more than 262144 pixels"):
         grammar.evaluate([(0.5, 0.5)], (1, 1))
 
 
