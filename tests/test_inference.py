@@ -102,7 +102,7 @@ def test_a_door_stays_below_its_windows_as_the_rest_grows() -> None:
 
 
 # Seeds that nothing was tuned on; docs/surveys.md has the figures of more of them.
-@pytest.mark.parametrize("seed", [1007, 1015])
+@pytest.mark.parametrize("seed", [1007, 2007])
 def test_random_facades_are_met_and_grow(seed: int) -> None:
     openings, width, height = random_facade(seed)
     design = infer(openings, width, height)
