@@ -68,8 +68,11 @@ def renumbered(names: Names) -> Names:
     return tuple(tuple(numbers.setdefault(s, len(numbers)) for s in line) for line in names)
 
 
-def fit(lines: Sequence[Line], names: Names, canvas: float) -> Axis | None:
-    """Least squares over the places of all openings, with every line as long as the canvas; None where that fails."""
+def fit(lines: Sequence[Line], names: Names, canvas: float, *, mirrors: bool) -> Axis | None:
+    """Least squares over the places of all openings, with every line as long as the canvas; None where that fails.
+
+    Without `mirrors` patterns do not reflect: along y, windows would stand upside down.
+    """
     names = renumbered(names)
     n = 1 + max(symbol for line in names for symbol in line)
     normal = np.zeros((n + len(lines), n + len(lines)))
@@ -98,7 +101,12 @@ def fit(lines: Sequence[Line], names: Names, canvas: float) -> Axis | None:
     if sizes.min() < _LEAST or np.abs(totals @ sizes - canvas).max() > 0.02 + 1e-3 * totals.sum(axis=1).max():
         return None
     spans = tuple(np.stack([low @ sizes, high @ sizes], axis=1) for low, high in parts)
-    return Axis(names, tuple(float(size) for size in sizes), spans, sum(letters(word) for word in names))
+    return Axis(
+        names,
+        tuple(float(size) for size in sizes),
+        spans,
+        sum(letters(word, mirrors=mirrors) for word in names),
+    )
 
 
 def measured(lines: Sequence[Line]) -> Axis:

@@ -17,6 +17,8 @@ __all__ = ["Expression", "Leaf", "Mirror", "Run", "Series", "leaves", "letters",
 
 _RUN, _MIRROR = 0.1, 0.15
 """What a count and a reflection weigh, in letters: they decide between expressions with as many letters."""
+_FAR = 1_000_000
+"""More letters than any word has."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,15 +67,15 @@ def leaves(expression: Expression) -> Iterator[int]:
             yield from leaves(body)
 
 
-def letters(word: Sequence[int]) -> int:
+def letters(word: Sequence[int], *, mirrors: bool = True) -> int:
     """How many letters the shortest expression of a word has."""
-    return _solved(_canonical(word))[1] if word else 0
+    return _solved(_canonical(word), _FAR if mirrors else 0)[1] if word else 0
 
 
 def shortest(word: Sequence[int], reach: int | None = None) -> Expression:
     """The shortest expression of a word of at least one letter, without reflections that make more than `reach`."""
     names = list(dict.fromkeys(word))
-    return _renamed(_solved(_canonical(word), 1_000_000 if reach is None else reach)[0], names)
+    return _renamed(_solved(_canonical(word), _FAR if reach is None else reach)[0], names)
 
 
 def _canonical(word: Sequence[int]) -> tuple[int, ...]:
@@ -95,7 +97,7 @@ def _renamed(expression: Expression, names: Sequence[int]) -> Expression:
 
 
 @lru_cache(maxsize=20_000)
-def _solved(word: tuple[int, ...], reach: int = 1_000_000) -> tuple[Expression, int]:
+def _solved(word: tuple[int, ...], reach: int) -> tuple[Expression, int]:
     """The shortest expression of a word, and its letters: the best of each part of it, the short ones first."""
     n = len(word)
     text = "".join(map(chr, word))

@@ -53,8 +53,8 @@ def search(openings: Sequence[Opening], width: float, height: float) -> Order:
     for structure in structures(openings, width, height):
         if not found:  # the exact one, which is there whatever else cannot be fitted
             found.append(_order(structure, target, measured(structure.x), measured(structure.y)))
-        along = list(_candidates(structure.y, height))
-        for x in _candidates(structure.x, width):
+        along = list(_candidates(structure.y, height, mirrors=False))
+        for x in _candidates(structure.x, width, mirrors=True):
             found += [_order(structure, target, x, y) for y in along]
     found.sort(key=lambda order: order.cost)
     best = found[0]
@@ -76,14 +76,14 @@ def _different(found: Sequence[Order]) -> Iterator[Order]:
                 return
 
 
-def _candidates(lines: Sequence[Line], canvas: float) -> Iterator[Axis]:
+def _candidates(lines: Sequence[Line], canvas: float, *, mirrors: bool) -> Iterator[Axis]:
     seen: set[Names] = set()
     for tolerance in _TOLERANCES:
         for symmetric in (0.0, _SYMMETRIC * tolerance):
             names = named(lines, tolerance, symmetric)
             if names not in seen:
                 seen.add(names)
-                axis = fit(lines, names, canvas)
+                axis = fit(lines, names, canvas, mirrors=mirrors)
                 if axis:
                     yield axis
 
@@ -106,11 +106,12 @@ def _polished(order: Order, target: NDArray[np.float64], width: float, height: f
                 best = order
                 lines = order.structure.x if axis == "x" else order.structure.y
                 own = order.x if axis == "x" else order.y
+                mirrors = axis == "x"
                 for names in _simpler(lines, own.names):
                     left[axis] -= sum(map(len, names))
-                    if order.agreement >= NEAR and _weight(names) >= _weight(own.names):
+                    if order.agreement >= NEAR and _weight(names, mirrors) >= _weight(own.names, mirrors):
                         continue
-                    fitted = fit(lines, names, width if axis == "x" else height)
+                    fitted = fit(lines, names, width if mirrors else height, mirrors=mirrors)
                     if fitted:
                         x, y = (fitted, order.y) if axis == "x" else (order.x, fitted)
                         other = _order(order.structure, target, x, y)
@@ -125,9 +126,11 @@ def _polished(order: Order, target: NDArray[np.float64], width: float, height: f
             return order
 
 
-def _weight(names: Names) -> float:
+def _weight(names: Names, mirrors: bool) -> float:
     """What symbols and letters of some lines weigh."""
-    return _SYMBOL * len({s for word in names for s in word}) + sum(letters(word) for word in names)
+    return _SYMBOL * len({s for word in names for s in word}) + sum(
+        letters(word, mirrors=mirrors) for word in names
+    )
 
 
 def _simpler(lines: Sequence[Line], names: Names) -> Iterator[Names]:
