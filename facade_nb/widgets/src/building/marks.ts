@@ -51,7 +51,7 @@ export function drawMarks(seen: Seen, shapes: Int32Array, marked: Marked, to: Im
       if (!rank && !hover) continue;
       const edge = (far: number) =>
         at(x - far, y) !== shape || at(x + far, y) !== shape || at(x, y - far) !== shape || at(x, y + far) !== shape;
-      if (hover && rank < 3) out[k] = edge(wide) ? bright : edge(2 * wide) ? shade : rank === 3 ? tint : 0;
+      if (hover && rank < 3) out[k] = edge(wide) ? bright : edge(2 * wide) ? shade : 0;
       else if (edge(rank === 3 ? 2 * wide : wide)) out[k] = colours[rank] as number;
       else if (rank === 3) out[k] = tint;
     }
