@@ -14,6 +14,8 @@ from .solver import (
     TraceView,
     WordsView,
 )
+from .studio.building import BuildingView
+from .studio.massing_view import MassingView, layout_mesh
 from .studio.model import Draft, FacadeModel, Selection
 from .studio.parts import (
     CanvasEditor,
@@ -26,13 +28,14 @@ from .studio.parts import (
     SymbolEditor,
     Toolbar,
 )
-from .studio.studio import MassingView, Studio
+from .studio.studio import Studio
 from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
 from .town import PipelineView, TownModel, TownProgress, TownView
 
 __all__ = [
     "AlignmentView",
     "AnalysisView",
+    "BuildingView",
     "CandidatesView",
     "CanvasEditor",
     "CounterEditor",
@@ -67,4 +70,5 @@ __all__ = [
     "TraceModel",
     "TraceView",
     "WordsView",
+    "layout_mesh",
 ]

@@ -208,9 +208,7 @@ def test_views_that_act_in_the_browser_do_so(opened: tuple[Marimo, Theme]) -> No
     found, _ = opened
     page = found.page
     page.get_by_role("button", name="Both", exact=True).click()
-    expect(found.part("massing")).to_have_text(
-        "The 3D view needs Jupyter: it cannot be shown in this application."
-    )
+    expect(found.part("building-canvas")).to_have_attribute("data-state", "sharp")
     page.get_by_role("button", name="Elevation", exact=True).click()
     played = page.locator(".fnb-part-solver .fnb-playbar")
     before = played.inner_text()

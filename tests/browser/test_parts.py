@@ -46,6 +46,7 @@ def test_parts_over_one_model_follow_each_other(show: Show) -> None:
         ("CanvasEditor", "Canvas height in metres"),
         ("Toolbar", "Undo (Ctrl+Z)"),
         ("ElevationView", "Elevation: arrow keys go from shape to shape"),
+        ("BuildingView", "Hour"),
         ("MassingView", "3D view: drag to orbit, scroll to zoom, click to pick"),
     ],
 )
@@ -145,7 +146,7 @@ def test_the_studio_works_in_other_applications(visit: Visit, app: App) -> None:
         field.press_sequentially("2")
         expect(page.locator(".fnb-elevation [data-layer=base]")).to_have_count(10)
         notebook.button("Both").click()
-        expect(page.locator(".fnb-massing canvas")).to_be_visible()
+        expect(page.locator(".fnb-building-canvas")).to_have_attribute("data-state", "sharp")
         assert notebook.take_problems() == []
 
 

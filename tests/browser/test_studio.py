@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 
 from .jupyter import Notebook
 from .keys import retype
-from .waiting import eventually, frames, until
+from .waiting import frames
 
 Show = Callable[[str], Notebook]
 
@@ -368,44 +368,15 @@ def test_text_of_the_user_is_never_markup(studio: Notebook) -> None:
     assert studio.page.locator(".fnb img[onerror]").count() == 0
 
 
-def test_the_3d_view_follows_and_picks(studio: Notebook) -> None:
-    page = studio.page
-    studio.button("3D").click()
-    canvas = page.locator(".fnb-massing canvas")
-    expect(canvas).to_be_visible()
-    studio.settle()
-    box = canvas.bounding_box()
-    assert box
-
-    def picked() -> None:  # three.js picks what it has drawn, which takes a while in software
-        canvas.click(position={"x": box["width"] / 2, "y": box["height"] / 2})
-        studio.settle()
-        assert page.locator("[data-picked]").count() > 0
-
-    eventually(page, picked)
-    studio.expect_python("model.selection.shape is not None", True)
-    before = canvas.screenshot()
-    studio.retype("Canvas width in metres", "9")
-    expect(page.locator(".fnb-counter[data-counter=k] .fnb-solved")).to_have_text("5")
-    until(page, lambda: canvas.screenshot() != before)
-    page.mouse.move(box["x"] + 100, box["y"] + 100)
-    page.mouse.down()
-    page.mouse.move(box["x"] + 260, box["y"] + 120, steps=5)
-    chosen = studio.python("model.selection.shape")
-    page.mouse.up()
-    studio.settle()
-    assert studio.python("model.selection.shape") == chosen  # an orbit is no pick
-
-
 def test_running_the_cell_again_leaks_no_context_and_no_thread(studio: Notebook) -> None:
     page = studio.page
-    contexts = "() => performance.memory && document.querySelectorAll('.fnb-massing canvas').length"
+    contexts = "() => globalThis[Symbol.for('facade_nb.pipeline.context')].made"
     threads = "__import__('threading').active_count()"
     before = studio.python(threads)
     for _ in range(10):
         studio.run()
         studio.button("3D").click()
-        expect(page.locator(".fnb-massing canvas")).to_be_visible()
+        expect(page.locator(".fnb-building-canvas")).not_to_have_attribute("data-state", "empty")
     assert page.evaluate(contexts) == 1
     assert studio.python(threads) <= before + 1
     assert [text for text in studio.take_problems() if "context" in text.lower()] == []

@@ -19,8 +19,8 @@ __all__ = ["pack"]
 _TYPES = ("u1", "i2", "i4", "f4", "f8")
 
 
-def pack(value: Any) -> bytes:
-    """Pack plain data that may hold NumPy arrays of one dimension.
+def pack(value: Any, level: int = 6) -> bytes:
+    """Pack plain data that may hold NumPy arrays of one dimension; `level`: how hard it is deflated, 1 to 9.
 
     Raises
     ------
@@ -53,7 +53,7 @@ def pack(value: Any) -> bytes:
 
     text = json.dumps(plain(value), ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
     head = _padded(len(text).to_bytes(4, "little") + text)
-    return zlib.compress(head + b"".join(blocks), 6)
+    return zlib.compress(head + b"".join(blocks), level)
 
 
 def _padded(data: bytes) -> bytes:

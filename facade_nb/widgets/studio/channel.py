@@ -14,9 +14,9 @@ from ...render import GEOMETRIES, MATERIALS, elevation_svg
 from ...solver import Layout
 from ..shared.bundled import Message
 from .commands import COMMANDS
-from .extras import Extras
 from .model import FacadeModel
 from .requests import REQUESTS
+from .scenery import Scenery
 from .wire import describe_design, describe_drafts, describe_faults, describe_selection, describe_status
 from .words import describe_modes
 
@@ -32,7 +32,7 @@ The front end has one message under way, so this is also how long a solve is lef
 """
 
 
-class Channel(Extras):
+class Channel(Scenery):
     """One model's line to the browser. Get it by `Channel.of`: there is one per model."""
 
     front = "studio"
@@ -74,6 +74,7 @@ class Channel(Extras):
         self._forget_timer()
         self.svg = ""
         self._empty_extras()
+        self._drop_mesh()
 
     def close(self) -> None:
         """Close the wire; the model lives on."""
@@ -110,6 +111,7 @@ class Channel(Extras):
         self.drafts = describe_drafts(self.model)
         self.selection = describe_selection(self.model)
         self._describe_extras(self.theme)
+        self._describe_scenery()
 
     def _draw(self, layout: Layout) -> str:
         prefix = (
@@ -135,6 +137,11 @@ class Channel(Extras):
 
     def _answer(self, message: Message) -> None:
         """Carry out what the front end asks for; whatever happens, it is answered."""
+        if (
+            message.get("op") == "tiles"
+        ):  # of no consequence for the design, and of no place in the line of edits
+            self._answer_tiles(message)
+            return
         tag = {"client": message.get("client", ""), "seq": message.get("seq", 0)}
         reply: dict[str, Any] | None = None
         self._answering = True

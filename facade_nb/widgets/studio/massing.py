@@ -16,7 +16,7 @@ from ...render.materials import find_material, rgb
 from ...solver import Layout
 from .model import FacadeModel, Selection
 
-__all__ = ["Massing"]
+__all__ = ["Massing", "layout_mesh"]
 
 _PAUSE = 0.06
 """Seconds between a change of the model and the 3D view's following, so that it never delays the elevation."""
@@ -53,7 +53,7 @@ class Massing:
         self._geometry = _geometry(1)
         self.mesh = three.Mesh(
             self._geometry,
-            three.MeshStandardMaterial(vertexColors="VertexColors", roughness=0.85, metalness=0.0),
+            _paint(),
         )
         centre, eye = self._stand(self._canvas)
         self._camera = three.PerspectiveCamera(position=eye, fov=_FIELD, near=0.1, far=2000)
@@ -196,3 +196,21 @@ def _close_geometry(geometry: three.BufferGeometry) -> None:
     for attribute in geometry.attributes.values():
         attribute.close()
     geometry.close()
+
+
+def layout_mesh(layout: Layout) -> three.Mesh:
+    """A layout as one mesh, with the elevation's colours at its corners."""
+    triangles = build_scene(layout).triangles()
+    fills = [rgb(find_material(name).fill) for name in triangles.material_names]
+    palette = np.array(fills, np.float32).reshape(-1, 3) / 255
+    content = {
+        "position": triangles.positions.reshape(-1, 3),
+        "normal": triangles.normals.reshape(-1, 3),
+        "color": np.repeat(palette[triangles.materials], 3, axis=0),
+    }
+    attributes = {name: three.BufferAttribute(own, normalized=False) for name, own in content.items()}
+    return three.Mesh(three.BufferGeometry(attributes=attributes), _paint())
+
+
+def _paint() -> three.MeshStandardMaterial:
+    return three.MeshStandardMaterial(vertexColors="VertexColors", roughness=0.85, metalness=0.0)

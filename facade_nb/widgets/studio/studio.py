@@ -1,67 +1,22 @@
-"""The widgets with a 3D view: the view alone, and the Studio, which has every part."""
+"""The Studio: every part in one."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ipywidgets import Widget, widget_serialization
-from traitlets import Enum, Instance, Int
+from traitlets import Enum, Int
 
 from ...design import Design
+from .building import BuildingView
 from .keeping import Keeper, kept_path, studio_name
 from .model import FacadeModel
-from .parts import FIRST, Part
+from .parts import FIRST
 
-if TYPE_CHECKING:
-    from .massing import Massing
-
-__all__ = ["MassingView", "Studio"]
+__all__ = ["Studio"]
 
 
-class MassingView(Part):
-    """The 3D view: drag to orbit, scroll to zoom, click to pick a shape."""
-
-    _shows = "massing"
-    _pictured = True
-
-    renderer = Instance(Widget, allow_none=True).tag(sync=True, **widget_serialization)
-
-    def __init__(self, *args: Any, **traits: Any) -> None:
-        self._massing: Massing | None = None
-        self._views: set[str] = set()
-        super().__init__(*args, **traits)
-        self.on_msg(self._on_request)
-
-    def close(self) -> None:
-        """Close the view, its 3D picture with it."""
-        self._dismantle()
-        super().close()
-
-    def _on_request(self, _: Widget, message: dict[str, Any], __: list[Any]) -> None:
-        """Make the 3D picture when a view asks for it; close it when the last one has gone."""
-        if message.get("op") != "renderer":
-            return
-        if message["here"]:
-            self._views.add(message["client"])
-            if self._massing is None:
-                from .massing import Massing  # pythreejs takes a while to import, and many never look at 3D
-
-                self._massing = Massing(self.model)
-                self.renderer = self._massing.renderer
-        else:
-            self._views.discard(message["client"])
-            if not self._views:
-                self._dismantle()
-
-    def _dismantle(self) -> None:
-        if self._massing is not None:
-            self.renderer = None
-            self._massing.close()
-            self._massing = None
-
-
-class Studio(MassingView):
+class Studio(BuildingView):
     """Everything in one: façade, patterns, layers, symbols, counters, canvas, toolbar and status line.
 
     Parameters
@@ -71,7 +26,7 @@ class Studio(MassingView):
     height
         Height of the façade and of the panel beside it, in pixels.
     view
-        ``"elevation"``, ``"massing"`` (3D), ``"both"``, ``"exploded"`` (the layers drawn apart) or ``"compare"``
+        ``"elevation"``, ``"building"`` (3D), ``"both"``, ``"exploded"`` (the layers drawn apart) or ``"compare"``
         (two snapshots side by side).
     name
         Under which the design is kept beside the notebook while it is edited, so that it outlives the kernel. None: by
@@ -81,7 +36,7 @@ class Studio(MassingView):
 
     _shows = "studio"
 
-    view = Enum(["elevation", "both", "massing", "exploded", "compare"], "elevation").tag(sync=True)
+    view = Enum(["elevation", "both", "building", "exploded", "compare"], "elevation").tag(sync=True)
     height = Int(600).tag(sync=True)
 
     def __init__(
@@ -93,7 +48,6 @@ class Studio(MassingView):
     ) -> None:
         super().__init__(model, **traits)
         self._keep(name, own=not isinstance(model, FacadeModel))
-        self.observe(self._on_view, "view")
 
     def _keep(self, name: str | None, *, own: bool) -> None:
         """Keep the design beside the notebook, if it is this studio's to keep."""
@@ -106,7 +60,3 @@ class Studio(MassingView):
             self.channel.keeper = Keeper(self.model, kept_path(*place), self.channel.tell_stage)
             self.model.wait(FIRST)
             self.channel.publish()
-
-    def _on_view(self, _: object) -> None:
-        if self._massing is not None:
-            self._massing.show(self.view in ("massing", "both"))

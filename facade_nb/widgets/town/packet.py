@@ -25,7 +25,7 @@ from .model import TownModel
 from .places import EYE, edges_of
 from .tiles import question_of
 
-__all__ = ["BLOCK", "Blob", "blobs_of", "described", "head_piece", "needs_of", "row"]
+__all__ = ["BLOCK", "Blob", "blobs_of", "described", "head_piece", "hours", "needs_of", "row"]
 
 _LOOKS = Looks()
 
@@ -100,7 +100,7 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
         "passes": passes_of(PASSES),
         "buffers": [asdict(own) for own in BUFFERS],
         "shaders": _shaders(model),
-        "hours": _hours(),
+        "hours": hours(),
         "sunlight": {**MAPS, "side": SHADOW},
         "looks": {"haze": _LOOKS.haze, "reach": _LOOKS.reach},
         "stride": VERTEX.itemsize,
@@ -137,7 +137,8 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
 
 
 @lru_cache(maxsize=1)
-def _hours() -> list[dict[str, Any]]:
+def hours() -> list[dict[str, Any]]:
+    """The light of the hours that the browser has."""
     return [Daytime.at(hour).uniforms() for hour in HOURS]
 
 

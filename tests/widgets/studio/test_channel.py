@@ -157,10 +157,11 @@ def test_the_state_survives_a_round_trip() -> None:
     line.set("patterns/Bx/text", "A(B")
     line.ask("select", shape=2)
     state = line.channel.get_state()
+    assert [state.pop(name) for name in ("works", "mesh")] == [b"", b""]  # nobody looks at the building
     text = json.dumps(state, allow_nan=False)
     other = Channel.of(FacadeModel())
     other.set_state({key: value for key, value in json.loads(text).items() if not key.startswith("_")})
-    assert other.get_state() == state
+    assert other.get_state() == {**state, "works": b"", "mesh": b""}
 
 
 def test_every_part_keeps_its_state_in_a_round_trip() -> None:
@@ -312,7 +313,7 @@ def test_a_channel_that_nobody_looks_at_is_small_and_wakes_for_the_next_view() -
         line.channel._handle_custom_msg({"op": "view", "client": client, "here": here}, [])
     assert line.channel.svg != ""
     line.channel._handle_custom_msg({"op": "view", "client": "two", "here": False}, [])
-    assert len(json.dumps(line.channel.get_state())) < 10_000
+    assert len(json.dumps(line.channel.get_state(), default=repr)) < 10_000
     line.model.enter(("canvas", "width"), 7.0)
     assert line.channel.svg == ""
     line.channel._handle_custom_msg({"op": "wake"}, [])

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from facade_nb import widgets
-from facade_nb.widgets import FacadeModel, MassingView, Part, Studio
+from facade_nb.widgets import FacadeModel, MassingView, Part, Studio, layout_mesh
 from facade_nb.widgets.shared.bundled import AS_RUN
 from facade_nb.widgets.studio.massing import Massing
 
@@ -135,6 +135,18 @@ def test_the_camera_keeps_its_direction_when_the_canvas_changes() -> None:
     assert np.allclose(direction / np.linalg.norm(direction), after / np.linalg.norm(after))
     assert massing._orbit.target == pytest.approx((6.0, 1.5, 0.0))
     assert np.linalg.norm(after) > np.linalg.norm(direction)
+    massing.close()
+
+
+def test_a_layout_is_a_pythreejs_mesh() -> None:
+    layout = FacadeModel(house()).layout
+    assert layout is not None
+    mesh = layout_mesh(layout)
+    massing = Massing(FacadeModel(house()))
+    count = 3 * len(massing._shapes)
+    for name in ("position", "normal", "color"):
+        own = mesh.geometry.attributes[name].array
+        assert np.array_equal(own, massing.mesh.geometry.attributes[name].array[:count])
     massing.close()
 
 

@@ -8,6 +8,8 @@ import "../styles/views.css";
 import "../styles/stage.css";
 import "../styles/panel.css";
 import "../styles/patterns.css";
+import "../styles/building.css";
+import { building } from "../building/view.ts";
 import { absence } from "../shared/absence.ts";
 import { h, mark } from "../shared/dom.ts";
 import { keepKeys } from "../shared/keys.ts";
@@ -43,6 +45,8 @@ const adding =
 const PARTS: Record<string, Make> = {
   studio,
   elevation: (context) => h("div", { class: "fnb-alone" }, elevation(context), inspector(context), statusLine(context)),
+  building: (context, model) =>
+    h("div", { class: "fnb-alone" }, building(context, model), inspector(context), statusLine(context)),
   massing: (context, model) => h("div", { class: "fnb-alone" }, massing(context, model, context.signal)),
   patterns: adding("pattern", "Patterns", patterns),
   symbols: adding("symbol", "Symbols", symbols),

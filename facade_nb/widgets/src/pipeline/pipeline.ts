@@ -121,6 +121,10 @@ export class Pipeline {
   /** Take other shaders, textures or passes; what stays is kept. */
   replace(source: Source): void {
     const gl = context().whyNot ? null : this.gl();
+    if (source.vertices.length !== this.source.vertices.length || source.indices.length !== this.source.indices.length)
+      this.dropMesh(context().lost ? null : gl);
+    else if (source.vertices !== this.source.vertices || source.indices !== this.source.indices)
+      for (const name of ["vertices", "indices"]) this.changed(name);
     for (const [name, own] of Object.entries(source.textures)) {
       if (this.source.textures[name]?.content === own.content) continue;
       const old = this.held.get(name);
@@ -129,6 +133,16 @@ export class Pipeline {
       this.due = this.due.filter((part) => part.name !== name);
     }
     this.source = source;
+  }
+
+  /** Forget the mesh: there is another one, of another size. */
+  private dropMesh(gl: WebGL2RenderingContext | null): void {
+    for (const array of this.arrays.values()) gl?.deleteVertexArray(array);
+    if (this.mesh) for (const own of Object.values(this.mesh)) gl?.deleteBuffer(own);
+    this.arrays.clear();
+    this.mesh = null;
+    this.due = this.due.filter(({ name }) => name !== "vertices" && name !== "indices");
+    this.version += 1;
   }
 
   /** Say that bytes of vertices, indices or a texture have changed. */
@@ -267,8 +281,7 @@ export class Pipeline {
     if (gl) {
       for (const { texture } of [...this.held.values(), ...this.images.values()]) gl.deleteTexture(texture);
       for (const frame of this.frames.values()) gl.deleteFramebuffer(frame);
-      for (const array of this.arrays.values()) gl.deleteVertexArray(array);
-      if (this.mesh) for (const own of Object.values(this.mesh)) gl.deleteBuffer(own);
+      this.dropMesh(gl);
     }
     this.forget();
   }

@@ -37,7 +37,7 @@ export class Store {
   readonly kernel: Kernel;
 
   constructor(
-    private readonly channel: WidgetModel,
+    readonly channel: WidgetModel,
     private readonly signal: AbortSignal,
   ) {
     this.kernel = Kernel.of(channel);

@@ -1,3 +1,4 @@
+import { building } from "../building/view.ts";
 import { h, mark } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { canvas } from "./canvas.ts";
@@ -8,14 +9,13 @@ import { elevation } from "./elevation.ts";
 import { exploded } from "./exploded.ts";
 import { inspector } from "./inspector.ts";
 import { layers } from "./layers.ts";
-import { massing } from "./massing.ts";
 import { patterns } from "./patterns.ts";
 import { shapes } from "./shapes.ts";
 import { statusLine } from "./status.ts";
 import { symbols } from "./symbols.ts";
 import { toolbar } from "./toolbar.ts";
 
-const VIEWS = { elevation: "Elevation", both: "Both", massing: "3D", exploded: "Layers", compare: "Compare" } as const;
+const VIEWS = { elevation: "Elevation", both: "Both", building: "3D", exploded: "Layers", compare: "Compare" } as const;
 type View = keyof typeof VIEWS;
 /** Views that are made when they are first looked at. */
 const OTHERS: Partial<Record<View, MakePart>> = { exploded, compare };
@@ -47,7 +47,7 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
     if (picked) mark(dock, "data-used", true);
   });
 
-  let massingView: HTMLElement | null = null;
+  let solid: HTMLElement | null = null;
   const others = new Map<string, HTMLElement>();
   let apart = false;
   const tabs = (Object.keys(VIEWS) as View[]).map((view) => {
@@ -59,11 +59,11 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
     for (const other of tabs) mark(other.tab, "aria-pressed", String(other.view === view));
     mark(stage, "data-view", view);
     flat.hidden = view !== "elevation" && view !== "both";
-    if ((view === "massing" || view === "both") && !massingView) {
-      massingView = massing(context, model, signal);
-      stage.append(massingView);
+    if ((view === "building" || view === "both") && !solid) {
+      solid = building(context, model);
+      stage.append(solid);
     }
-    if (massingView) massingView.hidden = view !== "massing" && view !== "both";
+    if (solid) solid.hidden = view !== "building" && view !== "both";
     if ((view === "exploded") !== apart) {
       apart = !apart;
       store.ask({ op: "want", what: "exploded", on: apart });

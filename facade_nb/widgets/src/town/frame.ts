@@ -43,8 +43,17 @@ export interface Sunlight {
   texels: [near: number, far: number];
 }
 
-/** The views of the sun, for a direction towards it, a camera, and a scene's box. */
-export function sunlightOf(towards: Vector, frustum: Frustum, box: number[], own: Head["sunlight"]): Sunlight {
+/**
+ * The views of the sun, for a direction towards it, a camera, and a scene's box. `around`: the middle of the fine one, where
+ * that is not before the camera.
+ */
+export function sunlightOf(
+  towards: Vector,
+  frustum: Pick<Frustum, "eye" | "ahead">,
+  box: number[],
+  own: Head["sunlight"],
+  around?: Vector,
+): Sunlight {
   const ahead = towards.map((value) => -value) as Vector;
   const level = Math.max(Math.hypot(ahead[0], ahead[2]), 1e-9);
   const right: Vector = [-ahead[2] / level, 0, ahead[0] / level];
@@ -56,7 +65,7 @@ export function sunlightOf(towards: Vector, frustum: Frustum, box: number[], own
   const clip = (at: Vector) =>
     at.map((value, k) => Math.min(Math.max(value, low[k] as number), high[k] as number)) as Vector;
   const [ex, , ez] = frustum.eye;
-  const spot = clip([ex + frustum.ahead[0] * 0.7 * half, 0, ez + frustum.ahead[2] * 0.7 * half]);
+  const spot = clip(around ?? [ex + frustum.ahead[0] * 0.7 * half, 0, ez + frustum.ahead[2] * 0.7 * half]);
   const all = Math.min(whole, own.far);
   const centre = all === whole ? middle : clip([ex, 0, ez]);
   return {

@@ -2,13 +2,12 @@
 // between which the page can do other things. Anything that changes begins anew.
 
 import { context } from "../pipeline/context.ts";
-import type { Shown } from "../pipeline/pipeline.ts";
+import type { Pipeline, Shown } from "../pipeline/pipeline.ts";
 import { mark } from "../shared/dom.ts";
 import { rowsFor } from "../texture/painting.ts";
 import { fading } from "./fading.ts";
 import { frustumOf, type Sunlight, sunlightOf } from "./frame.ts";
-import type { Session } from "./session.ts";
-import type { Pass, Pixels, Values, Vector } from "./types.ts";
+import type { Head, Light, Pass, Pixels, Place, Values, Vector } from "./types.ts";
 
 const BUDGET = 48; // milliseconds of a frame in motion, and of a piece of the picture at rest
 const RESTED = 140; // milliseconds after which it becomes finer
@@ -23,6 +22,22 @@ export function coarser(factor: number, milliseconds: number): number {
   return FACTORS.findLast((own) => own >= wanted * 1.1 && own <= factor) === undefined
     ? factor
     : (FACTORS.find((own) => own >= wanted * 1.1) ?? factor);
+}
+
+/** What is drawn, and from where. */
+export interface Scenery {
+  /** Whether there is something to draw. */
+  readonly drawable: boolean;
+  readonly pipeline: Pipeline | null;
+  readonly head: Pick<Head, "box" | "sunlight"> | null;
+  readonly place: Place;
+  readonly hour: number;
+  readonly light: Light;
+  /** The sun's views, where they are not those of whoever stands at the place. */
+  sun?(): Sunlight;
+  values(pixels: Pixels, off?: readonly string[], part?: [number, number, number, number], sun?: Sunlight): Values;
+  passes(off?: readonly string[]): Pass[];
+  runs(through: Float64Array, pixels?: Pixels): Pixels[];
 }
 
 /** Views of the sun, and where one stood then. */
@@ -62,6 +77,8 @@ interface Options {
   off?: () => readonly string[];
   /** Which buffer is shown, and how; by default the last one. */
   shown?: () => [name: string, shown: Shown] | null;
+  /** How coarse it is in motion at most. */
+  coarsest?: number;
   /** Called after each picture. */
   told: (told: Told) => void;
   failed: (message: string) => void;
@@ -73,8 +90,8 @@ interface Options {
 
 export function painting(
   canvas: HTMLCanvasElement,
-  session: Session,
-  { off, shown, told, failed, rested, stated }: Options,
+  session: Scenery,
+  { off, shown, coarsest = Number.POSITIVE_INFINITY, told, failed, rested, stated }: Options,
 ): Painting {
   const paper = canvas.getContext("2d", { alpha: false, willReadFrequently: context().software });
   const fade = fading(paper);
@@ -99,6 +116,7 @@ export function painting(
   const sunHeld = (pixels: Pixels): Sunlight | undefined => {
     const { head, place, hour, light } = session;
     if (!head) return undefined;
+    if (session.sun) return session.sun();
     const [x, y, z, yaw] = place;
     const fits = (own: Held | undefined, k: 0 | 1, turns: boolean) =>
       own?.hour === hour &&
@@ -145,7 +163,7 @@ export function painting(
     const milliseconds = performance.now() - began;
     mark(canvas, "data-coarse", String(factor));
     told({ milliseconds, pixels, factor, spent: new Map() });
-    factor = coarser(factor, milliseconds);
+    factor = Math.min(coarsest, coarser(factor, milliseconds));
   };
   /** The pieces of a finer picture. */
   function* pieces(fine: number): Generator<void> {
