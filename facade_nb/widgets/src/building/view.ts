@@ -218,7 +218,7 @@ function tools(steer: Steering, signal: AbortSignal): HTMLElement {
     button("Further (−)", "minus", () => steer.zoom(1 / 0.75)),
     button("Nearer (+)", "plus", () => steer.zoom(0.75)),
     button("The whole building (0)", "fit", steer.home),
-    fullScreen(signal),
+    fullScreen(signal, () => false),
   );
 }
 
