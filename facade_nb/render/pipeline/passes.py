@@ -162,7 +162,7 @@ PASSES: tuple[Pass, ...] = (
          "Looks how much its neighbours hide of a point's surroundings.", when="occlusion"),
     Pass("soften", "soften.frag", ("occlusion",), ("softened",), "Evens that out.", when="occlusion"),
     Pass("light", "light.frag", ("color", "normal", "specular", "facing", "softened", "shadow_near", "shadow_far"),
-         ("light",), "Adds up sun, sky, ground and lamps."),
+         ("light",), "Adds up sun, sky, ground and lamps.", options=("relief",)),
     Pass("air", "air.frag", ("light", "facing"), ("air",), "Lets haze take what is far; draws the sky."),
     Pass("tone", "tone.frag", ("air",), ("toned",), "Exposes it."),
     Pass("edges", "smooth_edges.frag", ("toned", "facing", "normal"), ("picture",),
@@ -317,7 +317,11 @@ FACADE: tuple[Pass, ...] = (
         options=("relief", "samples", "everywhere", "color_only"),
     ),
     replace(
-        _FACADE["light"], reads=("color", "normal", "specular", "facing"), when="lit", defines=("ALONE",)
+        _FACADE["light"],
+        reads=("color", "normal", "specular", "facing"),
+        when="lit",
+        defines=("ALONE",),
+        options=(),
     ),
     replace(_FACADE["tone"], reads=("light",), defines=("ALONE", "air light"), when="lit"),
 )
