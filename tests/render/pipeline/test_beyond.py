@@ -45,7 +45,7 @@ def test_a_cornice_throws_a_shadow_as_long_as_the_sun_is_high(hour: float) -> No
     half = 12.0 * np.tan(np.radians(7.0)) * PIXELS[1] / PIXELS[0]
     height = 2.0 + half * (1 - (2 * np.arange(PIXELS[1]) + 1) / PIXELS[1])
     end = FOOT + BAND - OUT * up / out  # of the shadow of its upper edge
-    dark = (height > end + 0.1) & (height < FOOT - 0.03)
+    dark = (height > end + 0.1) & (height < FOOT - 0.06)
     bright = (height < end - 0.05) & (height > 0.3)
     assert dark.sum() > 3 and bright.sum() > 20
     assert share[dark].max() < 0.6, share[dark]

@@ -41,7 +41,7 @@ float open_at(ivec2 at, float depth) {
 #define BEYOND
 const float HIGHEST = 0.4;  // what relief stands out of a wall at the most, metres
 const float FARTHEST = 1.4; // a shadow's way from what throws it, metres
-const int LOOKS = 10;
+const int LOOKS = 14;
 
 // How much of the sun is left by what stands out of the same wall. Within its own tile relief knows its shadow; of other
 // tiles it is known what is seen of them. `surface`: from the eye; `high`: how far it stands out of the wall itself.
@@ -59,7 +59,7 @@ float beyond(vec3 surface, vec3 wall, float high, vec2 share) {
     if (there.w <= 0.0 || dot(there.xyz, wall) < 0.999) continue;
     float seen = there.w + out_;
     float above = dot(seen * ray_at(spot) - surface, wall) + high;
-    if (above > 0.02 && above < HIGHEST) left = min(left, 1.0 - smoothstep(0.01, 0.05, depth - seen));
+    if (above > 0.02 && above < HIGHEST) left = min(left, 1.0 - smoothstep(-0.02, 0.02, depth - seen));
   }
   return left;
 }
