@@ -11,6 +11,7 @@ import shapely
 from facade_nb.render.pipeline import VERTEX
 from facade_nb.render.pipeline.vertices import SEEDS
 from facade_nb.render.town import Town
+from facade_nb.render.town.cornices import CORNICES
 from facade_nb.render.town.mesh import CELL, NOBODY, build_mesh
 from facade_nb.render.town.plan import FLAT, GABLE, HIP, MANSARD, PARTY, SHED
 
