@@ -58,6 +58,10 @@ def _figure(canvas: Canvas, x: float, figure: Figure, side: float) -> None:
     canvas.lay(canvas.cover(canvas.disc_distance(x, 0.925 * h, 0.07 * h)), hair, height=0.08, gloss=0.1)
     face = canvas.cover(canvas.disc_distance(x + side * 0.004 * h, 0.908 * h, 0.052 * h))
     canvas.lay(face, skin, height=0.1, gloss=0.08)
+    for out in (-0.019, 0.019):
+        canvas.lay(canvas.cover(canvas.disc_distance(x + out * h, 0.915 * h, 0.0065 * h)), "#2a2320")
+    mouth = canvas.line_distance(at((-0.014, 0.884), (0.014, 0.884)), 0.006 * h)
+    canvas.lay(canvas.cover(mouth), "#9c5f55")
     if long:  # hair down to the shoulders
         for out in (-0.055, 0.055):
             limb(at((out, 0.93), (out * 1.1, 0.85)), 0.035, hair, 0.09)

@@ -1,4 +1,4 @@
-"""Cornices of flat roofs and mansards: they stand out of the walls that no neighbour touches, along their upper edge."""
+"""Cornices of flat roofs and mansards: they stand out of walls that no neighbour touches, along their upper edge."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ CORNICES = ("cornice.Stone", "cornice.Lead")
 """Rules of what is seen from below, and from above."""
 
 _DEEP, _TIP, _RISE = 0.8, 0.05, 0.03
-"""How far a cornice begins below the wall's end, as a part of how far it stands out; where its edge lies below that end;
-where it comes back to the wall above it, metres."""
+"""How far a cornice begins below the wall's end, as a part of how far it stands out; how far its edge lies below that
+end; where it comes back to the wall above it, metres."""
 
 _SHORTEST = 0.6
 """Walls that are shorter have none, metres."""

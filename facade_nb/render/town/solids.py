@@ -17,14 +17,15 @@ _HALF, _ROOF, _BELT, _NOSE, _LOW = 0.86, 0.6, 0.93, 0.74, 0.02
 """Half the width of a car and of its roof; its height below the windows, at its nose, and of its lower edge, metres."""
 
 _SHAPES = (
-    # From the tail: where the rear window begins and ends, where the windscreen ends and begins, as parts of the length;
-    # height of the roof, metres.
+    # From the tail: where the rear window begins and ends, where the windscreen ends and begins, as parts of the
+    # length; height of the roof, metres.
     (0.015, 0.13, 0.55, 0.70, 1.46),
     (0.14, 0.30, 0.58, 0.71, 1.42),
     (0.01, 0.05, 0.72, 0.84, 1.85),
 )
 
-RULES = tuple(f"car.{name}" for name in ("Side", "Cabin", "Screen", "Paint", "Front", "Back")) + (
+RULES = (
+    *(f"car.{name}" for name in ("Side", "Cabin", "Screen", "Paint", "Front", "Back")),
     "hedge.Leaves",
 )
 """Rules that their planes begin with."""

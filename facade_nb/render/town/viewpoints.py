@@ -45,7 +45,9 @@ def viewpoint(plan: Plan, view: View) -> Viewpoint:
     corner, along, out, free, across = _street(plan, spot)
     if view == "street":
         wide = min(0.45 * across, 5.5)
-        aside = _before_no_car(plan, (wide, 0.45 * across, 2.0), corner - along * 4.0, out, along * 9.0)
+        aside = _before_no_car(
+            plan, (wide, 0.45 * across, 0.3 * across, 2.0), corner - along * 4.0, out, along * 9.0
+        )
         eye_at = corner + out * aside - along * 4.0
         aim = corner + along * min(free, 40.0) + out * 0.55 * aside
         dx, dy = aim - eye_at
