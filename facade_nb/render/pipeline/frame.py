@@ -74,6 +74,8 @@ class Frame:
         """Whether a pass that asks for this runs."""
         if when == "shadow":
             return self.looks.shadow and any(self.daytime.sun)
+        if when == "lamps":
+            return self.daytime.lamps > 0 and self.looks.lit
         return bool(not when or getattr(self.looks, when))
 
     def uniforms(self) -> dict[str, Any]:

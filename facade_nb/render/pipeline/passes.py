@@ -88,12 +88,14 @@ class Pass:
         Whether a triangle is drawn from behind, too: shadows of a mesh that is open are whole all the same.
     defines
         Given to the shader.
+    sums
+        Whether what it draws of the mesh is summed up with what there is, whatever lies in front.
     under
         Whether it adds its outputs under what there is, where that is transparent, in place of overwriting it.
     after
         It runs only if this pass, which draws the mesh, has drawn something; empty: always.
     when
-        It runs only where this is true of the frame: ``sun``, ``shadow``, ``occlusion``, ``smooth``; empty: always.
+        It runs only where this is true of the frame: ``shadow``, ``lamps``, ``occlusion``, ``smooth``; empty: always.
     options
         Those that are true of the frame, such as ``relief``, are defined for the shader too, in capitals.
     tells
@@ -111,6 +113,7 @@ class Pass:
     turning: bool = False
     adds: bool = False
     both: bool = False
+    sums: bool = False
     under: bool = False
     after: str = ""
     defines: tuple[str, ...] = ()
@@ -162,7 +165,9 @@ PASSES: tuple[Pass, ...] = (
          "Looks how much its neighbours hide of a point's surroundings.", when="occlusion"),
     Pass("soften", "soften.frag", ("occlusion",), ("softened",), "Evens that out.", when="occlusion"),
     Pass("light", "light.frag", ("color", "normal", "specular", "facing", "softened", "shadow_near", "shadow_far"),
-         ("light",), "Adds up sun, sky, ground and lamps."),
+         ("light",), "Adds up sun, sky, ground and lamps.", options=("relief",)),
+    Pass("pools", "pools.frag", ("color", "normal", "facing"), ("light",), "Adds pools of light around street lamps.",
+         "pools.vert", "mesh", "camera", turning=True, adds=True, sums=True, when="lamps"),
     Pass("air", "air.frag", ("light", "facing"), ("air",), "Lets haze take what is far; draws the sky."),
     Pass("tone", "tone.frag", ("air",), ("toned",), "Exposes it."),
     Pass("edges", "smooth_edges.frag", ("toned", "facing", "normal"), ("picture",),
@@ -317,7 +322,11 @@ FACADE: tuple[Pass, ...] = (
         options=("relief", "samples", "everywhere", "color_only"),
     ),
     replace(
-        _FACADE["light"], reads=("color", "normal", "specular", "facing"), when="lit", defines=("ALONE",)
+        _FACADE["light"],
+        reads=("color", "normal", "specular", "facing"),
+        when="lit",
+        defines=("ALONE",),
+        options=(),
     ),
     replace(_FACADE["tone"], reads=("light",), defines=("ALONE", "air light"), when="lit"),
 )

@@ -205,13 +205,16 @@ class Renderer:
         if own.draws == "mesh":
             if not own.adds:
                 target.clear(depth=1.0)
-            context.enable(context.DEPTH_TEST | (0 if own.both else context.CULL_FACE))
+            context.enable(
+                (context.BLEND if own.sums else context.DEPTH_TEST) | (0 if own.both else context.CULL_FACE)
+            )
+            context.blend_func = context.ONE, context.ONE
             context.front_face, context.cull_face = "ccw", "back"
             for first, count in visible(self.scene, uniforms[own.through], own.turning):
                 mesh.render(context.TRIANGLES, vertices=count, first=first)
             if own.name in self._asked and not self._drew(own):
                 self._empty.add(own.name)
-            context.disable(context.DEPTH_TEST | context.CULL_FACE)
+            context.disable(context.DEPTH_TEST | context.CULL_FACE | context.BLEND)
         else:
             if own.under:
                 context.enable(context.BLEND)

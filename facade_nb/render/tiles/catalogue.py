@@ -14,6 +14,7 @@ from . import (
     masks,
     masonry,
     ornament,
+    passers,
     plain,
     rooms,
     street,
@@ -358,6 +359,9 @@ def _recipes() -> list[Recipe]:
             "spruce", 231, plain_, shade=0.6, relief=False),
         Recipe("street-lamp", green, 0.8, 4.4, "", greenery.post_lamp, "street lamp on its post", 251, plain_,
             relief=False),
+        Recipe("people", green, 2.8, 1.86, "", passers.people, "four figures, each in a quarter", 261, (),
+            shade=0.8, relief=False),
+        Recipe("wheel", green, 0.66, 0.66, "", passers.wheel, "wheel of a car", 262, (), shade=0.5, relief=False),
         *(
             Recipe(f"mask-{shape}", hole, 1.2, 2.1 if shape == "arch" else 1.8, "", _hole(shape),
                 what, 1, (), mask=True, shade=0)

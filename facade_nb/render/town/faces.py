@@ -30,11 +30,14 @@ class Faces:
         Arrays (t, 3) of indices into all vertices.
     owners
         The building of each vertex; -1: ground.
+    own
+        Which vertices tell what their face shows (`welding`): the last of all its triangles.
     """
 
     vertices: list[np.ndarray] = field(default_factory=list)
     triangles: list[Ints] = field(default_factory=list)
     owners: list[Ints] = field(default_factory=list)
+    own: list[NDArray[np.bool_]] = field(default_factory=list)
     count: int = 0
 
     def walls(
@@ -106,7 +109,7 @@ class Faces:
         """Add the faces that came last once more, the other way round, with the same vertices."""
         f, k = shape
         triangles = self.triangles[-1].reshape(f, k - 2, 3)[chosen]
-        self.triangles.append(triangles[..., ::-1].reshape(-1, 3))
+        self.triangles.append(triangles[..., [1, 0, 2]].reshape(-1, 3))
 
     def add(
         self,
@@ -123,7 +126,7 @@ class Faces:
         f, k = points.shape[:2]
         if not f:
             return
-        fan = np.array([[0, i, i + 1] for i in range(1, k - 1)])
+        fan = np.array([[i, i + 1, 0] for i in range(1, k - 1)])
         triangles = (np.arange(f)[:, None, None] * k + fan).reshape(-1, 3)
         size, start, seed, normal, tangent = (
             np.repeat(v, k, axis=0) for v in (size, start, seed, normal, tangent)
@@ -132,6 +135,7 @@ class Faces:
         self.loose(
             points.reshape(-1, 3), place.reshape(-1, 2), size, start, seed, normal, tangent, owner, triangles
         )
+        self.own[-1] = np.arange(f * k) % k == 0
 
     def loose(
         self,
@@ -153,6 +157,7 @@ class Faces:
         self.vertices.append(made)
         self.triangles.append(triangles + self.count)
         self.owners.append(np.asarray(owner, np.int64))
+        self.own.append(np.ones(len(made), bool))
         self.count += len(made)
 
 

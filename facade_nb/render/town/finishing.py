@@ -167,12 +167,17 @@ def finish(
 _OVER: Mapping[str, float] = {"detached": 0.5, "half-timbered": 0.4, "brickworks": 0.25}
 """How far roofs of some styles hang over, metres."""
 
+_CORNICES: Mapping[str, float] = {"gruenderzeit": 0.45, "slab": 0.1, "brickworks": 0.2, "detached": 0.25}
+"""How far cornices of flat roofs and mansards stand out, metres."""
+
 
 def _over(characters: Characters, kind: NDArray[np.uint8], styles: Sequence[Style]) -> Floats:
-    """How far roofs hang over, metres: those with a slope do, and those of sheds less."""
+    """How far roofs hang over, metres: those with a slope, those of sheds less; and cornices of the others."""
     over = np.array([_OVER.get(one.name, 0.35) for one in styles])[characters.style]
     over = np.where(characters.kind == OUTBUILDING, 0.2, over)
-    return np.where(np.isin(kind, (GABLE, HIP, SHED)), over, 0.0)
+    out = np.array([_CORNICES.get(one.name, 0.3) for one in styles])[characters.style]
+    out = np.where(characters.kind == OUTBUILDING, 0.06, out)
+    return np.where(np.isin(kind, (GABLE, HIP, SHED)), over, out)
 
 
 def _entrances(

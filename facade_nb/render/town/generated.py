@@ -21,6 +21,7 @@ from .plan import Plan
 from .rings import after, ring_numbers
 from .roles import STREET
 from .stages import Stages
+from .street_life import cars_of, hedges_of, people_of
 from .styles import Style
 
 __all__ = ["generate_plan"]
@@ -60,6 +61,12 @@ def generate_plan(buildings: int, seed: int, styles: Sequence[Style], stages: St
     stages.at(0.5, "roofs")
     plan = finish(walls, pairs, characters, styles, ground, seed, stages=stages)
     stages.at(0.68, "trees")
+    things = trees_of(plan, seed, _TREES) + chimneys_of(plan, seed) + along_kerbs(cells, built, seed)
+    stages.at(0.71, "street life")
+    people = people_of(plan, cells, built, things, seed)
     return replace(
-        plan, things=trees_of(plan, seed, _TREES) + chimneys_of(plan, seed) + along_kerbs(cells, built, seed)
+        plan,
+        things=things + people,
+        cars=cars_of(cells, built, count, seed),
+        hedges=hedges_of(plan, cells, district, built, things, seed),
     )

@@ -11,12 +11,15 @@ from numpy.typing import NDArray
 from ..pipeline.scene import CHUNK
 from ..texture import Grammar
 from .chance import Floats, length
+from .cornices import add_cornices
 from .faces import Faces
-from .plan import COURT, OUTBUILDING, PARTY, SIDE, STREET, Plan
+from .plan import COURT, FLAT, MANSARD, OUTBUILDING, PARTY, SIDE, STREET, Plan
 from .rings import Ints, offsets_of, ring_numbers
 from .roofing import Houses, cover
+from .solids import add_cars, add_hedges
 from .styles import Style
 from .things import stand
+from .welding import welded
 
 __all__ = ["NOBODY", "Mesh", "build_mesh"]
 
@@ -71,12 +74,19 @@ def build_mesh(plan: Plan, styles: Sequence[Style], grammar: Grammar) -> Mesh:
     starts = starts_of(grammar, styles)
     _walls(faces, plan, styles, starts)
     facades = faces.count // 4
-    cover(faces, _houses(plan, styles, starts))
-    houses = faces.count
+    over = _over(plan)
+    level = np.isin(plan.roof[plan.building[~plan.added]], (FLAT, MANSARD))
+    cover(faces, _houses(plan, styles, starts, np.where(level, 0.0, over)))
+    names = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
+    add_cornices(faces, plan, styles, np.where(level, over, 0.0), names)
+    built = faces.count
     _ground(faces, plan, grammar)
     ground = faces.count
+    add_cars(faces, plan.cars, names, -2)
+    add_hedges(faces, plan.hedges, names, -2 - len(plan.cars))
+    solids = faces.count
     stand(faces, plan.things, grammar)
-    return _chunked(faces, plan, facades, houses, ground)
+    return _chunked(faces, plan, facades, (built, ground, solids))
 
 
 def _walls(faces: Faces, plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> None:
@@ -100,15 +110,22 @@ def _walls(faces: Faces, plan: Plan, styles: Sequence[Style], starts: dict[str, 
     faces.walls(plan.corners[seen], ends[seen], plan.covered[seen], eaves[seen], start, seed, building[seen])
 
 
-def _houses(plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> Houses:
+def _over(plan: Plan) -> Floats:
+    """How far a roof or a cornice stands out along each edge between true corners, metres.
+
+    None does above a wall of which a neighbour covers a part.
+    """
+    true = ~plan.added
+    edge = np.cumsum(true) - 1
+    joined = np.bincount(edge, weights=plan.role == PARTY, minlength=int(true.sum())) > 0
+    return np.where(joined, 0.0, plan.over[plan.building[true]])
+
+
+def _houses(plan: Plan, styles: Sequence[Style], starts: dict[str, Floats], over: Floats) -> Houses:
     """The rings of true corners, and what roofs need to know."""
     true = ~plan.added
     counts = np.bincount(ring_numbers(plan.rings), weights=true, minlength=len(plan.ring_of)).astype(np.int64)
     works = np.array([one.name == "brickworks" for one in styles])[plan.style]
-    # No roof hangs over a wall of which a neighbour covers a part. Edges go from true corner to true corner.
-    edge = np.cumsum(true) - 1
-    joined = np.bincount(edge, weights=plan.role == PARTY, minlength=int(true.sum())) > 0
-    over = np.where(joined, 0.0, plan.over[plan.building[true]])
     return Houses(
         plan.corners[true],
         offsets_of(counts),
@@ -167,11 +184,18 @@ def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> None:
     )
 
 
-def _chunked(faces: Faces, plan: Plan, facades: int, houses: int, ground: int) -> Mesh:
-    """Order vertices and triangles by chunk and building."""
+def _chunked(faces: Faces, plan: Plan, facades: int, ends: tuple[int, int, int]) -> Mesh:
+    """Order vertices and triangles by chunk and building.
+
+    `ends`: so many vertices belong to houses; to these and the ground; to these and what else stands still.
+    """
     vertices = np.concatenate(faces.vertices)
-    triangles = np.concatenate(faces.triangles)
     owner = np.concatenate(faces.owners)
+    kept, triangles = welded(
+        vertices["position"], np.concatenate(faces.triangles), owner, np.concatenate(faces.own)
+    )
+    vertices, owner = vertices[kept], owner[kept]
+    houses, ground, solids = (int(np.searchsorted(kept, number)) for number in ends)
     middle = _middles(plan)
     cell = np.floor(middle / CELL).astype(np.int64)
     key = np.empty(len(vertices), np.int64)
@@ -185,8 +209,10 @@ def _chunked(faces: Faces, plan: Plan, facades: int, houses: int, ground: int) -
     key[houses:ground] = _code(
         np.floor(np.stack(sums, axis=1) / count[:, None] / 1000 / CELL).astype(np.int64)
     )[piece]
-    where = vertices["position"][ground:, ::2].astype(np.float64) * (1, -1)
-    key[ground:] = _TURNING + _code(np.floor(where / CELL).astype(np.int64))
+    middles = np.concatenate([plan.cars.at, plan.hedges.start])
+    key[ground:solids] = _code(np.floor(middles / CELL).astype(np.int64))[-2 - owner[ground:solids]]
+    where = vertices["position"][solids:, ::2].astype(np.float64) * (1, -1)
+    key[solids:] = _TURNING + _code(np.floor(where / CELL).astype(np.int64))
     order = np.lexsort((owner, key))
     moved = np.empty(len(order), np.int64)
     moved[order] = np.arange(len(order))

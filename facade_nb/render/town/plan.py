@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .chance import Floats
 from .rings import Ints, after, ring_numbers
 from .roles import COURT, PARTY, ROLES, SIDE, STREET
+from .street_life import NO_CARS, NO_HEDGES, Cars, Hedges
 from .things import NOTHING, Things
 
 __all__ = [
@@ -126,7 +127,9 @@ class Plan:
     over
         (b,) how far the roof hangs over walls that no neighbour touches, metres.
     things
-        Trees, lamps and what else stands about.
+        Trees, lamps, people and what else turns to whoever looks.
+    cars, hedges
+        What else stands in streets and before gardens.
     """
 
     corners: Floats
@@ -151,6 +154,8 @@ class Plan:
     over: Floats
     left_out: Mapping[str, int] = field(default_factory=dict)
     things: Things = NOTHING
+    cars: Cars = NO_CARS
+    hedges: Hedges = NO_HEDGES
 
     def __len__(self) -> int:
         return len(self.eaves)

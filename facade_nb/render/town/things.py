@@ -1,4 +1,4 @@
-"""What stands about in a town: trees, street lamps, chimneys. All turn to whoever looks."""
+"""What stands about in a town: trees, street lamps, chimneys, people. All turn to whoever looks."""
 
 from __future__ import annotations
 
@@ -20,19 +20,26 @@ __all__ = [
     "LIME",
     "MAPLE",
     "NOTHING",
+    "PEOPLE",
+    "PERSON",
     "RULES",
     "SPRUCE",
     "Things",
     "stand",
 ]
 
-LIME, MAPLE, BIRCH, SPRUCE, LAMP, CHIMNEY = range(6)
-"""Kinds of things."""
+LIME, MAPLE, BIRCH, SPRUCE, LAMP, CHIMNEY, PERSON = range(7)
+"""Kinds of things; people are all kinds from `PERSON` on."""
 
-KINDS = ("Lime", "Maple", "Birch", "Spruce", "Lamp", "Chimney")
-"""Their names, and those of their rules in the namespace ``life``."""
+KINDS = ("Lime", "Maple", "Birch", "Spruce", "Lamp", "Chimney", "First", "Second", "Third", "Fourth")
+"""Their names, and those of their rules in the namespaces ``life`` and ``people``."""
 
-RULES = tuple(f"life.{name}" for name in (*KINDS, *(f"Small{name}" for name in KINDS[: BIRCH + 1]), "Trunk"))
+PEOPLE = len(KINDS) - PERSON
+"""How many kinds of people there are."""
+
+_RULES = tuple(f"{'life' if kind < PERSON else 'people'}.{name}" for kind, name in enumerate(KINDS))
+
+RULES = (*_RULES, *(f"life.Small{name}" for name in KINDS[: BIRCH + 1]), "life.Trunk")
 """All rules that things begin with."""
 
 _LARGE = 8.6
@@ -104,9 +111,9 @@ _CROWNS = ((0.02, -0.01, 0.66, 0.78), (0.19, 0.04, 0.5, 0.6), (-0.17, -0.08, 0.5
 
 
 def stand(faces: Faces, things: Things, grammar: Grammar) -> None:
-    """Add things to a mesh. Their seed tells them apart; they belong to no building."""
+    """Add things to a mesh. They belong to no building; the seed of people tells them apart."""
     places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
-    rule = np.array([places[f"life.{name}"] for name in KINDS], float)
+    rule = np.array([places[name] for name in _RULES], float)
     large = things.take((things.kind <= BIRCH) & (things.tall >= _LARGE))
     for x, y, up, wide in _CROWNS:
         # Every second tree the other way round, so that a row of them has no rhythm.
@@ -124,10 +131,26 @@ def stand(faces: Faces, things: Things, grammar: Grammar) -> None:
     rule[: BIRCH + 1] = [places[f"life.Small{name}"] for name in KINDS[: BIRCH + 1]]
     posts = things.take(small | (things.kind >= SPRUCE))
     size = np.column_stack([posts.wide, posts.tall])
-    _turning(faces, posts.at, posts.foot + posts.tall / 2, size, rule[posts.kind], upright=True)
+    seed = np.where((posts.kind >= PERSON)[:, None], _seeds(posts.at), 0.0)
+    _turning(faces, posts.at, posts.foot + posts.tall / 2, size, rule[posts.kind], seed, upright=True)
 
 
-def _turning(faces: Faces, at: Floats, middle: Floats, size: Floats, start: Floats, *, upright: bool) -> None:
+def _seeds(at: Floats) -> Floats:
+    """Seeds that follow from where things stand, in steps of 1/64 m."""
+    mm = np.rint(at * 1000).astype(np.int64)
+    return ((mm * (7919, 104729) + mm[:, ::-1] * (15485863, 31)) % (1 << 20)) / 64.0
+
+
+def _turning(
+    faces: Faces,
+    at: Floats,
+    middle: Floats,
+    size: Floats,
+    start: Floats,
+    seed: Floats | None = None,
+    *,
+    upright: bool,
+) -> None:
     """Quads that turn to whoever looks: all four corners have the place of the middle (see `VERTEX`)."""
     count = len(at)
     size = millimetres(size)
@@ -138,7 +161,7 @@ def _turning(faces: Faces, at: Floats, middle: Floats, size: Floats, start: Floa
         (size[:, None] * spots).reshape(-1, 2),
         np.repeat(size, 4, axis=0),
         np.repeat(start, 4, axis=0),
-        np.zeros((4 * count, 2)),
+        np.zeros((4 * count, 2)) if seed is None else np.repeat(seed, 4, axis=0),
         np.zeros((4 * count, 3)),
         np.tile([0.0, 0.0, 1.0 if upright else 0.0], (4 * count, 1)),
         np.full(4 * count, -1),

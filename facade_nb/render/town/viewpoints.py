@@ -44,18 +44,36 @@ def viewpoint(plan: Plan, view: View) -> Viewpoint:
         return Viewpoint.towards(eye, (float(spot[0]), 0.0, float(-spot[1]) - 0.15 * away), 52.0)
     corner, along, out, free, across = _street(plan, spot)
     if view == "street":
-        aside = min(0.45 * across, 5.5)
+        wide = min(0.45 * across, 5.5)
+        aside = _before_no_car(
+            plan, (wide, 0.45 * across, 0.3 * across, 2.0), corner - along * 4.0, out, along * 9.0
+        )
         eye_at = corner + out * aside - along * 4.0
         aim = corner + along * min(free, 40.0) + out * 0.55 * aside
         dx, dy = aim - eye_at
         yaw = degrees(atan2(dx, dy))
         return Viewpoint((float(eye_at[0]), _EYE, float(-eye_at[1])), yaw, 7.0, 66.0)
-    back = min(0.7 * across, 6.5)
+    back = _before_no_car(plan, (min(0.7 * across, 6.5), 3.4, 2.6), corner + along * 1.0, out, -out * 6.0)
     eye_at = corner + along * 1.0 + out * back
     aim = corner + along * 3.6
     return Viewpoint.towards(
         (float(eye_at[0]), _EYE, float(-eye_at[1])), (float(aim[0]), 2.6, float(-aim[1])), 58.0
     )
+
+
+def _before_no_car(
+    plan: Plan, choice: tuple[float, ...], start: np.ndarray, out: np.ndarray, way: np.ndarray
+) -> float:
+    """How far out of a wall one stands: the first of a choice from where no car is in the way, else the last."""
+    for far in choice:
+        eye = start + out * far
+        line = shapely.LineString([eye, eye + way])
+        if (
+            not len(plan.cars)
+            or round(float(shapely.distance(line, shapely.points(plan.cars.at)).min()), 3) > 2.4
+        ):
+            return far
+    return choice[-1]
 
 
 def _middles(plan: Plan) -> np.ndarray:

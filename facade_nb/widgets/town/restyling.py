@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from ...design.errors import DesignError, Fault, nearest
 from ...render import Grammar
+from ...render.town.cornices import CORNICES
+from ...render.town.solids import RULES as SOLIDS
 from ...render.town.styles import GROUND, Style
 from ...render.town.things import RULES
 
@@ -21,7 +23,7 @@ _FACES = ("front", "street", "party", "gable", "roof", "flat", "plain", "side", 
 def start_names(styles: Sequence[Style]) -> tuple[str, ...]:
     """The rules that walls, roofs, ground and what stands about may begin with."""
     every = [rule for style in styles for rule in style.starts.values()]
-    return tuple(dict.fromkeys((*every, *GROUND.values(), *RULES)))
+    return tuple(dict.fromkeys((*every, *GROUND.values(), *RULES, *CORNICES, *SOLIDS)))
 
 
 class Starts:

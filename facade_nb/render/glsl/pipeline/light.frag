@@ -40,6 +40,34 @@ float open_at(ivec2 at, float depth) {
 }
 #endif
 
+#if defined(RELIEF) && !defined(ALONE) && !defined(BEHIND)
+#define BEYOND
+const float HIGHEST = 0.4;  // what relief stands out of a wall at the most, metres
+const float FARTHEST = 1.4; // a shadow's way from what throws it, metres
+const int LOOKS = 14;
+
+// How much of the sun is left by what stands out of the same wall. Within its own tile relief knows its shadow; of other
+// tiles it is known what is seen of them. `surface`: from the eye; `high`: how far it stands out of the wall itself.
+float beyond(vec3 surface, vec3 wall, float high, vec2 share) {
+  float far = min((HIGHEST - high) / max(dot(wall, towards), 1e-3), FARTHEST);
+  float left = 1.0;
+  for (int k = 0; k < LOOKS; ++k) {
+    vec3 at = surface + far * (float(k) + 0.5) / float(LOOKS) * towards;
+    float depth = dot(at, forward);
+    vec2 spot = (vec2(dot(at, across), dot(at, upward)) / max(depth, 1e-3) - window.xy) / window.zw;
+    if (depth <= 0.0 || any(lessThan(spot, vec2(0.0))) || any(greaterThanEqual(spot * share, vec2(1.0)))) break;
+    float out_ = textureLod(specular, spot * share, 0.0).a;
+    if (out_ > -0.01) continue;  // nothing stands out there
+    vec4 there = textureLod(facing, spot * share, 0.0);
+    if (there.w <= 0.0 || dot(there.xyz, wall) < 0.999) continue;
+    float seen = there.w + out_;
+    float above = dot(seen * ray_at(spot) - surface, wall) + high;
+    if (above > 0.02 && above < HIGHEST) left = min(left, 1.0 - smoothstep(-0.02, 0.02, depth - seen));
+  }
+  return left;
+}
+#endif
+
 void main() {
   vec2 share = share_of(facing);
   vec4 face = drawn(facing, share);
@@ -69,6 +97,12 @@ void main() {
     sees *= 3.0 - tint.a;
     tint.a = 1.0;
   }
+#ifdef BEYOND
+  if (sees > 0.0 && abs(face.y) < 0.2 && shine.a < 0.02 && parallel < 0.5) {
+    float high = -shine.a * abs(dot(ray, face.xyz));
+    sees = min(sees, beyond((face.w + shine.a) * ray, face.xyz, high, share));
+  }
+#endif
 #ifdef ALONE
   float covers = clamp(tint.a, 0.0, 1.0);  // at its outline a façade is as bright as inside, and covers less
   tint.rgb /= max(covers, 1e-6);

@@ -191,15 +191,15 @@ export class Pipeline {
     gl.enable(gl.SCISSOR_TEST);
     gl.scissor(0, low, size[0], high - low);
     if (pass.draws === "mesh") {
-      gl.enable(gl.DEPTH_TEST);
+      gl.enable(pass.sums ? gl.BLEND : gl.DEPTH_TEST);
+      gl.blendFunc(gl.ONE, gl.ONE);
       gl.depthFunc(gl.LESS);
       if ((piece.first ?? true) && !pass.adds) this.clear(gl, pass);
       if (!pass.both) gl.enable(gl.CULL_FACE);
       gl.bindVertexArray(this.array(gl, pass, program));
       this.draw(gl, halved(piece.runs ?? [], this.source.turning ?? Number.POSITIVE_INFINITY, !!pass.turning));
       gl.bindVertexArray(null);
-      gl.disable(gl.CULL_FACE);
-      gl.disable(gl.DEPTH_TEST);
+      for (const state of [gl.CULL_FACE, gl.DEPTH_TEST, gl.BLEND]) gl.disable(state);
       this.kept.set(pass.name, this.keyOf(pass, values));
     } else gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.disable(gl.SCISSOR_TEST);

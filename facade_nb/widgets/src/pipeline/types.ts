@@ -26,6 +26,8 @@ export interface Pass {
   turning?: boolean;
   /** It draws over what is there; nothing is cleared. */
   adds?: boolean;
+  /** Whether what it draws is summed up with what there is, whatever lies in front. */
+  sums?: boolean;
   /** Whether a triangle is drawn from behind, too. */
   both?: boolean;
   when: string;

@@ -143,9 +143,10 @@ export class Session extends Entering<Entered> {
   passes(off: readonly string[] = []): Pass[] {
     if (!this.head) return [];
     const sun = isDay(this.light);
+    const lamps = (this.light.lamps as number[]).some((value) => value > 0);
     const written = new Set<string>();
     return (this.pipeline?.passes ?? []).filter(({ name, when, reads, writes }) => {
-      if (off.includes(name) || (when === "shadow" && !sun)) return false;
+      if (off.includes(name) || (when === "shadow" && !sun) || (when === "lamps" && !lamps)) return false;
       if (when === "chosen" && (this.chosen < 0 || !reads.every((own) => written.has(own)))) return false;
       for (const own of writes) written.add(own);
       return true;

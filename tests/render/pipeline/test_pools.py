@@ -1,0 +1,71 @@
+"""Street lamps throw pools of light on the ground, at night, and nothing else that turns does."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from facade_nb.render import Grammar
+from facade_nb.render.pipeline import Scene, Viewpoint, choose_device, renderer_of
+from facade_nb.render.pipeline.frame import Frame, Looks
+from facade_nb.render.pipeline.scene import CHUNK
+from facade_nb.render.pipeline.vertices import VERTEX
+from facade_nb.render.texture.daytime import Daytime
+from facade_nb.render.town import Town
+from facade_nb.render.town.things import LAMP
+
+PIXELS = (96, 72)
+SPOTS = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], np.float32)
+GRAMMAR = """
+Ground -> Mat(Color, 0, 0.5, 0.5, 0.5, 1)
+Post -> Mat(Color, 0, 0.1, 0.1, 0.1, 1)
+"""
+
+
+def scene(size: tuple[float, float]) -> Scene:
+    """A floor of 80 m, and what turns in its middle."""
+    grammar = Grammar.parse(GRAMMAR)
+    places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
+    made = np.zeros((2, 4), VERTEX)
+    floor, post = made
+    floor["place"], floor["size"], floor["start"] = SPOTS * 80, (80, 80), places["Ground"]
+    floor["position"] = np.stack([80 * SPOTS[:, 0] - 40, 0 * SPOTS[:, 0], 40 - 80 * SPOTS[:, 1]], axis=1)
+    floor["normal"], floor["tangent"] = (0, 1, 0), (1, 0, 0)
+    post["place"], post["size"], post["start"] = SPOTS * size, size, places["Post"]
+    post["position"], post["tangent"] = (0, size[1] / 2, 0), (0, 1, 0)
+    corners = np.array([0, 1, 2, 0, 2, 3], np.uint32) + 4 * np.arange(2, dtype=np.uint32)[:, None]
+    chunks = np.zeros(2, CHUNK)
+    chunks["first"], chunks["count"] = (0, 6), 6
+    chunks["low"], chunks["high"] = ((-40, 0, -40), (-5, 0, -5)), ((40, 0, 40), (5, 5, 5))
+    return Scene(made.reshape(-1), corners.reshape(-1), grammar, chunks)
+
+
+def lit(size: tuple[float, float], hour: float, eye: tuple[float, float, float]) -> np.ndarray:
+    """How bright the floor is below what turns, and 17 m from there."""
+    own = scene(size)
+    found = []
+    for x in (1.0, 17.0):
+        place = Viewpoint.towards(eye, (x, 0.0, 1.0), 4.0)
+        looks = Looks(haze=0.0, occlusion=False, smooth=False, shadow=False)
+        with renderer_of(own, choose_device()) as renderer:
+            drawn = renderer.draw(
+                Frame(own, place.frustum(PIXELS), Daytime.at(hour), PIXELS, looks), ["light"]
+            )
+        found.append(float(drawn["light"][PIXELS[1] // 2, PIXELS[0] // 2, :3].sum()))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("eye", [(4.0, 1.7, 9.0), (20.0, 30.0, 40.0)])
+def test_it_is_bright_below_a_lamp_at_night(eye: tuple[float, float, float]) -> None:
+    (night, dark), (day, also) = (lit((0.8, 4.4), hour, eye) for hour in (23.0, 13.0))
+    assert night > 1.8 * dark > 0
+    assert abs(day - also) < 0.02 * day  # by day lamps are out
+    plain = lit((0.7, 1.8), 23.0, eye)
+    assert abs(plain[0] - plain[1]) < 0.02 * plain[1]
+
+
+def test_nothing_but_lamps_has_their_size() -> None:
+    town = Town.generate(400, 3)
+    things = town.plan.things
+    alike = (things.wide == 0.8) & (things.tall == 4.4)
+    assert alike.any() and (alike == (things.kind == LAMP)).all()
