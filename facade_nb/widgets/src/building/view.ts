@@ -161,7 +161,7 @@ export function building(view: Context, model: WidgetModel): HTMLElement {
   );
   stage.append(
     hourSlider(model, () => store.kernel.save(model), signal),
-    tools(steer, signal),
+    tools(steer, view),
   );
 
   const describe = () =>
@@ -211,14 +211,14 @@ export function building(view: Context, model: WidgetModel): HTMLElement {
   return el;
 }
 
-function tools(steer: Steering, signal: AbortSignal): HTMLElement {
+function tools(steer: Steering, context: Context): HTMLElement {
   return h(
     "div",
     { class: "fnb-stage-tools", role: "toolbar", "aria-label": "View of the building", "data-local": true },
     button("Further (−)", "minus", () => steer.zoom(1 / 0.75)),
     button("Nearer (+)", "plus", () => steer.zoom(0.75)),
     button("The whole building (0)", "fit", steer.home),
-    fullScreen(signal, () => false),
+    fullScreen(context),
   );
 }
 

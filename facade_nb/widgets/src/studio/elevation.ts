@@ -275,10 +275,7 @@ export const elevation: MakePart = (context) => {
     button("Zoom out (−)", "minus", () => settle(() => zoom(0.8))),
     button("Zoom in (+)", "plus", () => settle(() => zoom(1.25))),
     button("Fit the façade into the view (0)", "fit", fit),
-    fullScreen(signal, () => {
-      const { layer, x, y } = store.get("selection");
-      return layer + x + y !== "";
-    }),
+    fullScreen(context),
   );
   sheet.addEventListener("pointerover", (event) => {
     const shape = shapeAt(event.target);

@@ -2,9 +2,14 @@
 
 import { mark } from "../shared/dom.ts";
 import { button } from "../shared/fields.ts";
+import type { Context } from "./common.ts";
 
-/** A button that gives the widget the whole screen, and takes it back; so does Escape, where nothing else is `held`. */
-export function fullScreen(signal: AbortSignal, held: () => boolean): HTMLButtonElement {
+/** A button that gives the widget the whole screen, and takes it back; so does Escape, where nothing is picked. */
+export function fullScreen({ store, signal }: Context): HTMLButtonElement {
+  const picked = () => {
+    const { layer, x, y } = store.get("selection");
+    return layer + x + y !== "";
+  };
   const root = () => el.closest<HTMLElement>(".fnb");
   // In a shadow tree the document names only what holds the tree.
   const on = () => {
@@ -36,7 +41,7 @@ export function fullScreen(signal: AbortSignal, held: () => boolean): HTMLButton
   document.addEventListener(
     "keydown",
     (event) => {
-      if (event.key === "Escape" && !event.defaultPrevented && !held() && on()) void leave();
+      if (event.key === "Escape" && !event.defaultPrevented && !picked() && on()) void leave();
     },
     { signal },
   );
