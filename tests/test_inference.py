@@ -48,28 +48,30 @@ def texts(design: Design) -> dict[str, str]:
     return {name: pattern.text for name, pattern in design.patterns.items()}
 
 
+@pytest.fixture(scope="module")
+def regular() -> Design:
+    """The design of the openings of `TestGrid`."""
+    return infer(TestGrid.OPENINGS, TestGrid.WIDTH, TestGrid.HEIGHT, "Grid")
+
+
 class TestGrid:
     OPENINGS, WIDTH, HEIGHT = grid(6, 4), 13.6, 12.3
 
-    @pytest.fixture(scope="class")
-    def design(self) -> Design:
-        return infer(self.OPENINGS, self.WIDTH, self.HEIGHT, "Grid")
-
-    def test_it_is_two_short_patterns(self, design: Design) -> None:
-        assert texts(design) == {"bays": "(a(Bb)^k)^.1", "storeys": "pP(qP)^n p"}
-        assert design.name == "Grid" and len(design.layers) == 1
-        layout = solve(design)
+    def test_it_is_two_short_patterns(self, regular: Design) -> None:
+        assert texts(regular) == {"bays": "(a(Bb)^k)^.1", "storeys": "pP(qP)^n p"}
+        assert regular.name == "Grid" and len(regular.layers) == 1
+        layout = solve(regular)
         assert compare(layout, self.OPENINGS) > 0.97 and not layout.holes
         assert not [shape for shape in layout.shapes if shape.mirrored[1]]  # windows would be upside down
 
     @pytest.mark.parametrize("by", [1.5, 2.0])
-    def test_it_grows_by_windows_as_large(self, design: Design, by: float) -> None:
-        layout = wide(design, by)
+    def test_it_grows_by_windows_as_large(self, regular: Design, by: float) -> None:
+        layout = wide(regular, by)
         assert len(glazed(layout)) == 4 * round(6 * by) + 4 * (round(6 * by) % 2)
         assert all(0.8 <= s.rect[2] - s.rect[0] <= 1.06 for s in glazed(layout))
 
-    def test_a_storey_more_on_a_higher_canvas(self, design: Design) -> None:
-        higher = solve(replace(design, canvas=Canvas(self.WIDTH, self.HEIGHT + 6)))
+    def test_a_storey_more_on_a_higher_canvas(self, regular: Design) -> None:
+        higher = solve(replace(regular, canvas=Canvas(self.WIDTH, self.HEIGHT + 6)))
         assert len(glazed(higher)) == 36
 
     def test_a_window_that_is_missing_is_an_exception_of_one(self) -> None:
@@ -78,11 +80,11 @@ class TestGrid:
         assert len(design.layers) == 1
         assert compare(solve(design), rest) > 0.95
 
-    def test_the_order_of_the_survey_and_its_last_bits_do_not_matter(self, design: Design) -> None:
+    def test_the_order_of_the_survey_and_its_last_bits_do_not_matter(self, regular: Design) -> None:
         shuffled = [
             {**o, "rect": [side + 1e-9 for side in o["rect"]]} for o in Random(1).sample(self.OPENINGS, 24)
         ]
-        assert infer(shuffled, self.WIDTH, self.HEIGHT, "Grid") == design
+        assert infer(shuffled, self.WIDTH, self.HEIGHT, "Grid") == regular
 
 
 def test_a_door_stays_below_its_windows_as_the_rest_grows() -> None:
