@@ -30,6 +30,7 @@ from tests.oracle.designs import design
 
 COMMANDS = {
     "solve": ["house.json"],
+    "infer": ["survey.json"],
     "render": ["grammar.txt", "--size", "2x2", "--pixels", "4x4", "--backend", "cpu", "--tiles", "tiles"],
     "town": ["--footprints", "town.geojson", "--path", "walk.json", "--pixels", "8x8"],
 }
@@ -37,6 +38,7 @@ COMMANDS = {
 
 INPUTS = {
     "solve": ["house.json"],
+    "infer": ["survey.json"],
     "render": ["grammar.txt", "tiles/wall.png", "tiles/Floor.JPG"],
     "town": ["town.geojson", "walk.json"],
 }
@@ -58,6 +60,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Where there are inputs for every command; the working directory."""
     monkeypatch.chdir(tmp_path)
     gallery.load("figure-8").to_json(tmp_path / "house.json")
+    opening = {"kind": "window", "rect": [1, 1, 2, 2]}
+    facade = {"building": "1", "width": 3, "height": 3, "openings": [opening]}
+    (tmp_path / "survey.json").write_text(json.dumps({"facades": [facade]}))
     (tmp_path / "grammar.txt").write_text("S -> Mat(Color, Rep:wall, 0, 0, 1, 1)")
     (tmp_path / "tiles").mkdir()
     for name in ("wall.png", "Floor.JPG"):
@@ -144,6 +149,7 @@ def test_every_command_says_what_it_reads_and_writes() -> None:
     assert set(commands()) == set(COMMANDS) == set(INPUTS)
     drawn = ["--svg", "--png", "--glb", "--obj", "--dxf", "--pdf", "--cityjson", "--schedule"]
     assert outputs("solve") == ["--out", "--trace", *drawn]
+    assert outputs("infer") == ["--out"]
     assert outputs("render") == ["--out", "--rules"]
     assert outputs("town") == ["--stats", "--out", "--animation"]
     for parser in commands().values():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import atan2, degrees, hypot
 from typing import Literal
 
@@ -11,6 +11,7 @@ import shapely
 
 from ..pipeline.viewpoint import Viewpoint
 from .plan import STREET, Plan
+from .things import PERSON
 
 __all__ = ["VIEWS", "View", "viewpoint"]
 
@@ -20,6 +21,9 @@ VIEWS: tuple[View, ...] = ("distance", "street", "close-up")
 
 _EYE = 1.65
 """Height of eyes, metres."""
+
+_ROOM = 3.6
+"""Metres from the middle of a car to the way that one looks: half its length, and room to see past it."""
 
 _CELL = 160.0
 _CANDIDATES = 60
@@ -45,35 +49,45 @@ def viewpoint(plan: Plan, view: View) -> Viewpoint:
     corner, along, out, free, across = _street(plan, spot)
     if view == "street":
         wide = min(0.45 * across, 5.5)
-        aside = _before_no_car(
-            plan, (wide, 0.45 * across, 0.3 * across, 2.0), corner - along * 4.0, out, along * 9.0
-        )
-        eye_at = corner + out * aside - along * 4.0
+        choice = [
+            (aside, back) for back in (4.0, 7.0, 1.0, 10.0) for aside in (wide, 0.45 * across, 0.3 * across)
+        ]
+        aside, back = _clear(plan, choice, corner, out, -along, along * 9.0)
+        eye_at = corner + out * aside - along * back
         aim = corner + along * min(free, 40.0) + out * 0.55 * aside
         dx, dy = aim - eye_at
         yaw = degrees(atan2(dx, dy))
         return Viewpoint((float(eye_at[0]), _EYE, float(-eye_at[1])), yaw, 7.0, 66.0)
-    back = _before_no_car(plan, (min(0.7 * across, 6.5), 3.4, 2.6), corner + along * 1.0, out, -out * 6.0)
-    eye_at = corner + along * 1.0 + out * back
-    aim = corner + along * 3.6
+    choice = [(away, side) for side in (1.0, 4.0, -2.0, 7.0) for away in (min(0.7 * across, 6.5), 3.4, 2.6)]
+    away, side = _clear(plan, choice, corner, out, along, along * 2.6 - out * 3.0)
+    eye_at = corner + along * side + out * away
+    aim = corner + along * (side + 2.6)
     return Viewpoint.towards(
         (float(eye_at[0]), _EYE, float(-eye_at[1])), (float(aim[0]), 2.6, float(-aim[1])), 58.0
     )
 
 
-def _before_no_car(
-    plan: Plan, choice: tuple[float, ...], start: np.ndarray, out: np.ndarray, way: np.ndarray
-) -> float:
-    """How far out of a wall one stands: the first of a choice from where no car is in the way, else the last."""
-    for far in choice:
-        eye = start + out * far
+def _clear(
+    plan: Plan,
+    choice: Sequence[tuple[float, float]],
+    start: np.ndarray,
+    out: np.ndarray,
+    along: np.ndarray,
+    way: np.ndarray,
+) -> tuple[float, float]:
+    """How far out of a wall and along it one stands: the first of a choice with no one in the way, else the freest."""
+    best = -1.0, choice[0]
+    others = [(plan.cars.at, 0.0), (plan.things.at[plan.things.kind >= PERSON], 1.5)]
+    for far, side in choice:
+        eye = start + out * far + along * side
         line = shapely.LineString([eye, eye + way])
-        if (
-            not len(plan.cars)
-            or round(float(shapely.distance(line, shapely.points(plan.cars.at)).min()), 3) > 2.4
-        ):
-            return far
-    return choice[-1]
+        near = _ROOM
+        for at, less in others:
+            if len(at):
+                near = min(near, round(float(shapely.distance(line, shapely.points(at)).min()) + less, 3))
+        if near > best[0]:
+            best = near, (far, side)
+    return best[1]
 
 
 def _middles(plan: Plan) -> np.ndarray:

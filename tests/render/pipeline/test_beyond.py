@@ -11,7 +11,7 @@ from facade_nb.render.pipeline.frame import Frame, Looks
 from facade_nb.render.texture.daytime import Daytime
 from facade_nb.render.texture.facades import Facade
 
-PIXELS = (120, 160)
+PIXELS = (180, 240)
 FOOT, BAND = 2.0, 0.2
 GRAMMAR = """
 Wall -> SplitY(Abs, 2, Plain, Abs, 0.2, Band, Rel, 1, Plain)
@@ -45,7 +45,7 @@ def test_a_cornice_throws_a_shadow_as_long_as_the_sun_is_high(hour: float) -> No
     half = 12.0 * np.tan(np.radians(7.0)) * PIXELS[1] / PIXELS[0]
     height = 2.0 + half * (1 - (2 * np.arange(PIXELS[1]) + 1) / PIXELS[1])
     end = FOOT + BAND - OUT * up / out  # of the shadow of its upper edge
-    dark = (height > end + 0.1) & (height < FOOT - 0.06)
+    dark = (height > end + 0.12) & (height < FOOT - 0.06)
     bright = (height < end - 0.05) & (height > 0.3)
     assert dark.sum() > 3 and bright.sum() > 20
     assert share[dark].max() < 0.6, share[dark]
