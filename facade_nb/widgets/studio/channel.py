@@ -161,6 +161,8 @@ class Channel(Scenery):
         # threads from passing it back and forth, and the event loop a turn.
         self.model.wait(_MOMENT)
         self._answering = False
+        if self._later is not None and self._answered.get("client") != tag["client"]:
+            self.publish()  # the answer to another view, which waits for it
         self._answered = tag
         self._publish_soon()
         if reply is not None:

@@ -118,6 +118,28 @@ def test_a_slow_solve_does_not_keep_the_fields_waiting() -> None:
     assert "svg" in line.updates[1]
 
 
+def test_each_of_two_views_is_answered_however_slow_the_solve(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(channel, "_PATIENCE", 60.0)
+    gate = threading.Event()
+
+    def slow(design: Design, *, should_stop: Callable[[], bool], **_: object) -> Layout:
+        while not gate.wait(0.002) and not should_stop():
+            pass
+        return solve(design)
+
+    async def session() -> list[dict[str, Any]]:
+        model = FacadeModel(house(), solve=slow)
+        line = Line(model)
+        line.ask("set", path=["canvas", "width"], value="7", client="one")
+        line.ask("set", path=["canvas", "height"], value="5", client="two")
+        gate.set()
+        while model.busy:
+            await asyncio.sleep(0.005)
+        return [update["ack"] for update in line.updates if "ack" in update]
+
+    assert asyncio.run(session()) == [{"client": "one", "seq": 1}, {"client": "two", "seq": 2}]
+
+
 def test_a_quick_solve_in_an_event_loop_is_one_message(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(channel, "_PATIENCE", 60.0)  # what is quick depends on the machine
 
