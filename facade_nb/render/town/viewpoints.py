@@ -49,9 +49,8 @@ def viewpoint(plan: Plan, view: View) -> Viewpoint:
     corner, along, out, free, across = _street(plan, spot)
     if view == "street":
         wide = min(0.45 * across, 5.5)
-        choice = [
-            (aside, back) for back in (4.0, 7.0, 1.0, 10.0) for aside in (wide, 0.45 * across, 0.3 * across)
-        ]
+        asides = (wide, 0.45 * across, 0.5 * across, 0.3 * across)
+        choice = [(aside, back) for back in (4.0, 7.0, 1.0, 10.0) for aside in asides]
         aside, back = _clear(plan, choice, corner, out, -along, along * 9.0)
         eye_at = corner + out * aside - along * back
         aim = corner + along * min(free, 40.0) + out * 0.55 * aside
