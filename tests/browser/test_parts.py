@@ -93,8 +93,10 @@ def test_a_busy_kernel_is_told_and_nothing_typed_is_lost(show: Show, tmp_path: P
     lab = show("Studio(model)")
     enough = tmp_path / "enough"
     lab.page.evaluate(
-        """code => { window.jupyterapp.shell.currentWidget.sessionContext.session.kernel
-            .requestExecute({code}) }""",
+        """code => {
+            const { kernel } = window.jupyterapp.shell.currentWidget.sessionContext.session;
+            kernel.requestExecute({code});
+        }""",
         BUSY.format(path=str(enough)),
     )
     field = lab.field("Pattern Bx")

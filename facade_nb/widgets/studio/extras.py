@@ -138,8 +138,8 @@ class Extras(ModelWire):
                 if shown and layout is not None
                 else ""
             )
-        if self._changed("letters", layout, layout and layout.design, self._wanted("letters")):
-            self.letters = describe_letters(layout) if self._wanted("letters") else {}
+        if self._changed("letters", layout, layout and layout.design):
+            self.letters = describe_letters(layout)
         self._words_soon()
         if self._changed("survey", layout, self.surveyed):
             self.survey = _survey(layout, self.surveyed)

@@ -51,7 +51,7 @@ def test_a_keystroke_is_answered_by_one_message_with_all_that_changed() -> None:
     line = Line()
     line.set("patterns/Bx/text", "A(BA)^2")
     (update,) = line.updates
-    assert set(update) == {"design", "status", "svg", "document", "stage", "ack"}
+    assert set(update) == {"design", "status", "svg", "document", "stage", "letters", "ack"}
     assert update["ack"] == {"client": "me", "seq": 1}
     assert update["svg"].count("data-shape") == len(line.model.layout.shapes)
     assert next(p for p in update["design"]["patterns"] if p["name"] == "Bx")["text"] == "A(BA)^2"

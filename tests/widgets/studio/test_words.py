@@ -52,8 +52,7 @@ def test_it_is_said_why_there_are_none() -> None:
 def test_letters_know_their_places_as_a_browser_counts() -> None:
     model = house()
     channel = Channel.of(model)
-    assert (channel.letters, channel.words) == ({}, {})
-    channel.want("letters", "me", True)
+    assert channel.words == {}
     model.enter("patterns.Bx.text", "A #😀\r\n\r\nB := B")
     assert model.drafts  # B does not stand in the control pattern
     model.enter("patterns.Bx.text", "#😀\r\nA(BA)^k")
@@ -64,15 +63,11 @@ def test_letters_know_their_places_as_a_browser_counts() -> None:
     assert "".join(written) == "ABABABA"
     ends = [end for *_, end, _ in told["letters"]]
     assert [start for _, _, start, *_ in told["letters"]] == [0.0, *ends[:-1]] and ends[-1] == 6.0
-    channel.want("letters", "me", False)
-    channel.publish()
-    assert channel.letters == {}
 
 
 def test_a_cut_letter_lies_from_its_first_piece_to_its_last() -> None:
     model = house()
     channel = Channel.of(model)
-    channel.want("letters", "me", True)
     channel.publish()
     assert model.layout is not None
     pieces = [one for one in model.layout.x.row("columns").letters if one.symbol == "e"]

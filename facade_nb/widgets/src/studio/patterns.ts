@@ -34,7 +34,6 @@ export const patterns: MakePart = (context) => {
       update();
     },
   };
-  store.ask({ op: "want", what: "letters", on: true });
   store.onReply((reply) => {
     if (reply.kind !== "renamed" || reply.what !== "pattern" || reply.name !== opened) return;
     opened = "";
