@@ -171,11 +171,11 @@ def test_a_click_picks_a_shape_and_the_inspector_tells_of_it(building: Shown) ->
     until(page, building.marked)  # the shape under the pointer
     page.mouse.click(*building.at(0.45, 0.45))
     building.lab.expect_python("model.selection.shape is not None", True)
-    expect(page.locator(".fnb-alone .fnb-inspector")).to_be_visible()
+    expect(page.locator(".fnb-inspector")).to_be_visible()
     chosen = building.lab.python("model.selection.shape")
     page.mouse.click(*building.at(0.02, 0.3))  # the sky
     building.lab.expect_python("model.selection.shape", None)
-    expect(page.locator(".fnb-alone .fnb-inspector")).to_have_count(0)
+    expect(page.locator(".fnb-inspector")).to_have_count(0)
     eventually(page, lambda: _equal(building.marked(), 0))
     building.told(f"model.select({chosen})")  # as a click in the elevation does
     until(page, building.marked)
