@@ -121,7 +121,6 @@ def apart(a: Any, b: Any) -> float:
     return float(np.abs(a - b).mean()) if a.shape == b.shape else 255.0
 
 
-@pytest.mark.parametrize(("turn", "rise", "hour"), [(24, 0, 10), (-140, 25, 21.5)])
 def test_a_lost_context_comes_back(building: Shown) -> None:
     before = building.stand()
     made = building.page.evaluate(f"() => {CONTEXT}.made")
@@ -134,6 +133,7 @@ def test_a_lost_context_comes_back(building: Shown) -> None:
     building.until(lambda image: apart(image, before) < 0.5 * apart(turned, before))
 
 
+@pytest.mark.parametrize(("turn", "rise", "hour"), [(24, 0, 10), (-140, 25, 21.5)])
 def test_the_picture_is_that_of_the_pipeline_in_python(
     building: Shown, turn: float, rise: float, hour: float
 ) -> None:
