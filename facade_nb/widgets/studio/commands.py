@@ -77,6 +77,17 @@ def _select(model: FacadeModel, message: Message) -> Reply:
     return None
 
 
+def _toggle(model: FacadeModel, message: Message) -> Reply:
+    # What is picked is known here alone: to a second click that comes before the answer to the first, too.
+    model.toggle(
+        layer=message.get("layer", ""),
+        x=message.get("x", ""),
+        y=message.get("y", ""),
+        add=message.get("add", False),
+    )
+    return None
+
+
 def _save(model: FacadeModel, _: Message) -> Reply:
     return {"kind": "file", "name": f"{file_name(model.design.name)}.json", "text": model.save()}
 
@@ -310,6 +321,7 @@ COMMANDS: dict[str, Callable[[FacadeModel, Message], Reply]] = {
     "undo": _undo,
     "redo": _redo,
     "select": _select,
+    "toggle": _toggle,
     "save": _save,
     "open": _open,
     "gallery": _gallery,

@@ -215,6 +215,24 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
             self.selection = Selection(None, layer, x, y, None, tuple((a, b) for a, b in more))
         self._changed()
 
+    def toggle(self, *, layer: str = "", x: str = "", y: str = "", add: bool = False) -> None:
+        """Pick a layer, a symbol or a pair, or nothing if it is what is picked.
+
+        With `add` the pair joins the picked pairs of its layer, or leaves them.
+        """
+        picked = self.selection
+        if add and picked.layer == layer and picked.x and picked.y:
+            pairs = [(picked.x, picked.y), *picked.more]
+            pairs = [pair for pair in pairs if pair != (x, y)] if (x, y) in pairs else [*pairs, (x, y)]
+            first, *more = pairs or [("", "")]
+            self.select(layer=layer, x=first[0], y=first[1], more=more)
+        elif not add and all(
+            not own or own == had for own, had in ((layer, picked.layer), (x, picked.x), (y, picked.y))
+        ):
+            self.select()
+        else:
+            self.select(layer=layer, x=x, y=y)
+
     # ---- solving -------------------------------------------------------------------------------------------------
 
     def wait(self, seconds: float | None = None) -> bool:

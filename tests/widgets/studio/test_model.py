@@ -189,6 +189,25 @@ def test_selection_leads_from_a_shape_to_its_layer_and_symbols_and_survives_a_ne
     assert model.selection == Selection()
 
 
+def test_what_is_picked_twice_is_picked_no_more_and_pairs_join_and_leave() -> None:
+    model = FacadeModel(house())
+    for what in ({"layer": "base"}, {"x": "A"}, {"y": "P"}):
+        model.toggle(**what)
+        assert model.selection == Selection(**what)
+        model.toggle(**what)
+        assert model.selection == Selection()
+    model.toggle(layer="base", x="A", y="P")
+    for pair in (("B", "P"), ("A", "Q"), ("A", "P"), ("A", "P")):
+        model.toggle(layer="base", x=pair[0], y=pair[1], add=True)
+    assert model.selection == Selection(None, "base", "B", "P", None, (("A", "Q"), ("A", "P")))
+    for pair in (("B", "P"), ("A", "Q"), ("A", "P")):
+        model.toggle(layer="base", x=pair[0], y=pair[1], add=True)
+    assert model.selection == Selection(None, "base")
+    model.toggle(layer="base", x="A", y="P", add=True)
+    model.toggle(layer="columns", x="C", y="P", add=True)
+    assert model.selection == Selection(None, "columns", "C", "P")
+
+
 def test_version_rises_once_per_change_when_all_is_consistent() -> None:
     model = FacadeModel(house())
     seen: list[tuple[float, float]] = []

@@ -103,7 +103,7 @@ function layerRow(context: Context, list: HTMLElement, first: LayerState): Row<L
   });
   el.addEventListener("click", (event) => {
     const inField = (event.target as Element).closest("button, select, input");
-    if (!inField) store.ask({ op: "select", layer: store.get("selection").layer === name ? "" : name });
+    if (!inField) store.ask({ op: "toggle", layer: name });
   });
   dragToReorder(grip, el, list, move, context.signal);
 

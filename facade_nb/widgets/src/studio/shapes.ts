@@ -13,20 +13,6 @@ export const shapes: MakePart = ({ store }) => {
   const none = emptyNote("This layer has no letters yet, or too many pairs to show.");
   layer.addEventListener("change", () => store.ask({ op: "select", layer: layer.value }));
 
-  const press = (pairs: Pairs, x: string, y: string, add: boolean) => {
-    const picked = store.get("selection");
-    const same = picked.layer === pairs.layer && picked.x !== "" && picked.y !== "";
-    const all: [string, string][] = same ? [[picked.x, picked.y], ...picked.more] : [];
-    if (!add || all.length === 0) {
-      store.ask({ op: "select", layer: pairs.layer, x, y });
-      return;
-    }
-    const had = all.some(([a, b]) => a === x && b === y);
-    const next = had ? all.filter(([a, b]) => a !== x || b !== y) : [...all, [x, y] as [string, string]];
-    const [first, ...more] = next;
-    store.ask({ op: "select", layer: pairs.layer, x: first?.[0] ?? "", y: first?.[1] ?? "", more });
-  };
-
   let shown = "";
   let cells = new Map<string, HTMLButtonElement>();
   const build = (pairs: Pairs) => {
@@ -62,9 +48,10 @@ export const shapes: MakePart = ({ store }) => {
             h("span", { class: "fnb-pair-key" }, cell?.key || "–"),
           );
           button.style.setProperty("--fnb-swatch", colourOf(cell?.material ?? "", swatches));
-          button.addEventListener("click", (event) =>
-            press(pairs, x, y, event.shiftKey || event.ctrlKey || event.metaKey),
-          );
+          button.addEventListener("click", (event) => {
+            const add = event.shiftKey || event.ctrlKey || event.metaKey;
+            store.ask({ ...(add ? { op: "toggle", add } : { op: "select" }), layer: pairs.layer, x, y });
+          });
           cells.set(`${x} ${y}`, button);
           return button;
         }),

@@ -74,9 +74,7 @@ function symbolRow({ store }: Context, first: SymbolState): Row<SymbolState> {
   const fresh = h("span", { class: "fnb-fresh", title: "It came by itself as you typed" }, "new");
   const unused = h("span", { class: "fnb-unused", title: "No pattern writes it" }, "unused");
   title.addEventListener("click", () => {
-    const { x, y } = store.get("selection");
-    const axis = symbol.axes === "y" ? "y" : "x";
-    store.ask({ op: "select", ...((axis === "x" ? x : y) === name ? {} : { [axis]: name }) });
+    store.ask({ op: "toggle", [symbol.axes === "y" ? "y" : "x"]: name });
   });
   const size = (key: "size" | "min" | "max", label: string, placeholder: string) =>
     numberField(store, {

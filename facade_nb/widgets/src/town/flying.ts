@@ -1,15 +1,15 @@
 // Flying and walking, with keys, pointer and wheel; paths that are played.
 
 import { pointing } from "../shared/pointing.ts";
+import { type Goings, Held, type Way } from "./held.ts";
 import { along, secondsOf } from "./path.ts";
 import type { Session } from "./session.ts";
 import type { Place, Stop } from "./types.ts";
 
-const LEAST = 60; // milliseconds that a key moves one for, however shortly it is pressed
-const LONGEST = 250; // and that a frame moves one for, however long it took
+const LONGEST = 250; // milliseconds that a frame plays of a path, however long it took
 const STRIDE = 2.6; // metres a second on foot
 
-const KEYS: Record<string, keyof Held> = {
+const KEYS: Record<string, Way> = {
   KeyW: "ahead",
   ArrowUp: "ahead",
   KeyS: "back",
@@ -24,31 +24,17 @@ const KEYS: Record<string, keyof Held> = {
   PageUp: "up",
 };
 
-interface Held {
-  ahead: boolean;
-  back: boolean;
-  left: boolean;
-  right: boolean;
-  turnLeft: boolean;
-  turnRight: boolean;
-  up: boolean;
-  down: boolean;
-}
-
 const limit = (value: number, low: number, high: number) => Math.min(high, Math.max(low, value));
 
-/** Where one is after some milliseconds of going on with these keys held. */
-export function moved(place: Place, held: Partial<Held>, milliseconds: number, fast: boolean, eye = 0): Place {
-  const seconds = milliseconds / 1000;
+/** Where one is after having gone each way for some milliseconds. */
+export function moved(place: Place, gone: Goings, fast: boolean, eye = 0): Place {
   const [x, y, z, yaw, pitch, angle] = place;
-  const turn = Number(!!held.turnRight) - Number(!!held.turnLeft);
-  const heading = yaw + 70 * turn * seconds;
+  const seconds = (there: Way, back: Way) => ((gone[there] ?? 0) - (gone[back] ?? 0)) / 1000;
+  const heading = yaw + 70 * seconds("turnRight", "turnLeft");
   const way = (heading * Math.PI) / 180;
-  const forth = Number(!!held.ahead) - Number(!!held.back);
-  const side = Number(!!held.right) - Number(!!held.left);
-  const rise = Number(!!held.up) - Number(!!held.down);
   const walking = eye > 0;
-  const speed = (walking ? STRIDE : limit(0.7 * y, 4, 160)) * (fast ? 4 : 1) * seconds;
+  const speed = (walking ? STRIDE : limit(0.7 * y, 4, 160)) * (fast ? 4 : 1);
+  const [forth, side, rise] = [seconds("ahead", "back"), seconds("right", "left"), seconds("up", "down")];
   const steep = walking ? 0 : (pitch * Math.PI) / 180;
   return [
     x + speed * (forth * Math.sin(way) * Math.cos(steep) + side * Math.cos(way)),
@@ -88,8 +74,7 @@ interface Options {
 }
 
 export function flying(canvas: HTMLCanvasElement, session: Session, options: Options, signal: AbortSignal): Flying {
-  const held: Partial<Held> = {};
-  const pressed = new Map<keyof Held, number>();
+  const held = new Held();
   let [frame, before, fast] = [0, 0, false];
   let taken: { from: number; stops: Stop[] } | null = null;
   const own: Flying = {
@@ -164,14 +149,12 @@ export function flying(canvas: HTMLCanvasElement, session: Session, options: Opt
       if (own.time >= secondsOf(session.path)) play(false);
       options.changed();
     }
-    for (const [name, since] of pressed) if (!held[name] && now - since >= LEAST) pressed.delete(name);
-    const moving = Object.fromEntries([...pressed.keys()].map((name) => [name, true])) as Partial<Held>;
-    if (pressed.size) carry(moving, spent);
-    if (own.playing || pressed.size) frame = requestAnimationFrame(step);
+    if (held.moving) carry(held.take(now));
+    if (own.playing || held.moving) frame = requestAnimationFrame(step);
   };
-  const carry = (moving: Partial<Held>, milliseconds: number) => {
+  const carry = (gone: Goings) => {
     const from = session.place;
-    const to = moved(from, moving, milliseconds, fast, own.walking ? (session.head?.eye ?? 1.7) : 0);
+    const to = moved(from, gone, fast, own.walking ? (session.head?.eye ?? 1.7) : 0);
     if (own.walking && session.walls) [to[0], to[2]] = session.walls.walk([from[0], from[2]], [to[0], to[2]]);
     go(to);
   };
@@ -181,8 +164,7 @@ export function flying(canvas: HTMLCanvasElement, session: Session, options: Opt
     fast = event.shiftKey;
     const name = KEYS[event.code] ?? KEYS[event.key];
     if (name) {
-      if (!held[name]) pressed.set(name, performance.now());
-      held[name] = true;
+      held.press(name, event.timeStamp);
       play(false);
       begin();
     } else if (event.key === "Home") own.go(Object.values(session.head?.views ?? {})[0] ?? session.place);
@@ -197,10 +179,10 @@ export function flying(canvas: HTMLCanvasElement, session: Session, options: Opt
   canvas.addEventListener("keyup", (event) => {
     fast = event.shiftKey;
     const name = KEYS[event.code] ?? KEYS[event.key];
-    if (name) held[name] = false;
+    if (name) held.release(name, event.timeStamp);
   });
   canvas.addEventListener("blur", () => {
-    for (const name of Object.keys(held)) held[name as keyof Held] = false;
+    held.releaseAll(performance.now());
   });
   const dolly = (by: number) => {
     const [x, y, z, yaw, pitch, angle] = session.place;

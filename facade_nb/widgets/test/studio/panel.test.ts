@@ -237,7 +237,7 @@ describe("the table of pairs", () => {
     expect(cells[1]?.hasAttribute("data-shown")).toBe(false);
     expect(cells[2]?.getAttribute("aria-pressed")).toBe("true");
     cells[1]?.dispatchEvent(new MouseEvent("click", { shiftKey: true }));
-    expect(model.asked.at(-1)).toMatchObject({ op: "select", layer: "base", x: "A", y: "P", more: [["B", "Q"]] });
+    expect(model.asked.at(-1)).toMatchObject({ op: "toggle", add: true, layer: "base", x: "B", y: "Q" });
     end.abort();
   });
 });

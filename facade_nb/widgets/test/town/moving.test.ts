@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { bytesOf } from "../../src/solver/packing.ts";
 import { brief, rangeOf } from "../../src/town/buffers.ts";
 import { moved, turned } from "../../src/town/flying.ts";
+import { Held } from "../../src/town/held.ts";
 import { Loading, type Reply } from "../../src/town/loading.ts";
 import { coarser, FACTORS } from "../../src/town/painting.ts";
 import { buildingOf, seedOf } from "../../src/town/session.ts";
@@ -12,23 +13,58 @@ const HERE: Place = [10, 20, 30, 90, 0, 60];
 
 describe("a key", () => {
   it("goes where one looks: east, at a yaw of 90", () => {
-    const [x, y, z] = moved(HERE, { ahead: true }, 1000, false);
+    const [x, y, z] = moved(HERE, { ahead: 1000 }, false);
     expect(x).toBeGreaterThan(20);
     expect(y).toBe(20);
     expect(z).toBeCloseTo(30, 6);
-    expect(moved(HERE, { right: true }, 1000, false)[2]).toBeGreaterThan(40); // south lies on the right
+    expect(moved(HERE, { right: 1000 }, false)[2]).toBeGreaterThan(40); // south lies on the right
   });
   it("goes four times as far with Shift, and back by the other one", () => {
     const far = (place: Place) => place[0] - HERE[0];
-    expect(far(moved(HERE, { ahead: true }, 100, true))).toBeCloseTo(4 * far(moved(HERE, { ahead: true }, 100, false)));
-    expect(moved(moved(HERE, { ahead: true }, 100, false), { back: true }, 100, false)[0]).toBeCloseTo(10, 6);
+    expect(far(moved(HERE, { ahead: 100 }, true))).toBeCloseTo(4 * far(moved(HERE, { ahead: 100 }, false)));
+    expect(moved(moved(HERE, { ahead: 100 }, false), { back: 100 }, false)[0]).toBeCloseTo(10, 6);
   });
   it("follows the ground on foot, however one looks", () => {
-    const [, y] = moved([0, 1.7, 0, 0, 40, 60], { ahead: true, up: true }, 1000, false, 1.7);
+    const [, y] = moved([0, 1.7, 0, 0, 40, 60], { ahead: 1000, up: 1000 }, false, 1.7);
     expect(y).toBe(1.7);
   });
   it("does not go below the ground", () => {
-    expect(moved([0, 1, 0, 0, -80, 60], { ahead: true, down: true }, 9000, true)[1]).toBe(0.6);
+    expect(moved([0, 1, 0, 0, -80, 60], { ahead: 9000, down: 9000 }, true)[1]).toBe(0.6);
+  });
+});
+
+describe("a press", () => {
+  it("moves one as long as it lasted, however its frames come", () => {
+    for (const frames of [[110, 150, 260, 300], [500], [100, 190, 500]]) {
+      const held = new Held();
+      held.press("ahead", 100);
+      let gone = 0;
+      for (const [k, now] of frames.entries()) {
+        if (k === frames.length - 1) held.release("ahead", 280);
+        gone += held.take(now).ahead ?? 0;
+      }
+      expect(gone).toBe(180);
+      expect(held.moving).toBe(false);
+    }
+  });
+  it("moves one a little though it was let go before a frame came, be the frame ever so late", () => {
+    for (const now of [99, 101, 140, 900]) {
+      const held = new Held();
+      held.press("up", 100);
+      held.release("up", 101);
+      expect(held.take(now)).toEqual({ up: 60 });
+      expect(held.moving).toBe(false);
+    }
+  });
+  it("is one press while the keyboard repeats it; of a frame that hangs not all is gone", () => {
+    const held = new Held();
+    held.press("left", 0);
+    expect(held.take(10)).toEqual({ left: 10 });
+    held.press("left", 12);
+    expect(held.take(20)).toEqual({ left: 10 });
+    expect(held.take(5020)).toEqual({ left: 250 });
+    held.releaseAll(5025);
+    expect(held.take(5040)).toEqual({ left: 5 });
   });
 });
 
