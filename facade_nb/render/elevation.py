@@ -80,7 +80,7 @@ def elevation_svg(
         layers = layout.design is not None and bool(layout.design.layers)
         body += draw_empty(layout.canvas.width, layout.canvas.height, frame, style, layers=layers)
     body += _ground(frame, style)
-    if holes and layout.holes:
+    if holes and layout.holes and scene.solids:  # where nothing is drawn yet, nothing is missing
         body += draw_holes(layout.holes, frame, style, prefix)
     if dimensions:
         body += draw_dimensions(layout, frame, style)
