@@ -177,3 +177,7 @@ class ModelWire(Bundled):
     def __init__(self, model: Any, **traits: Any) -> None:
         self.model = model
         super().__init__(**traits)
+
+    def _receive(self, _: Widget, message: Message, buffers: list[Any]) -> None:
+        with self.model.turn:
+            super()._receive(_, message, buffers)

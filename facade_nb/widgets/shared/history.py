@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 from typing import Generic, TypeVar
 
+from .turns import Turns, by_turns
+
 __all__ = ["History", "Undoable"]
 
 T = TypeVar("T")
@@ -97,7 +99,7 @@ class History(Generic[T]):
         return state
 
 
-class Undoable(Generic[T]):
+class Undoable(Turns, Generic[T]):
     """What a model has that keeps its states in `_history` and can `_restore` one."""
 
     _history: History[T]
@@ -106,11 +108,13 @@ class Undoable(Generic[T]):
         """Make a state of the history the model's."""
         raise NotImplementedError
 
+    @by_turns
     def undo(self) -> None:
         """Go back one step; does nothing where there is none."""
         if self._history.can_undo:
             self._restore(self._history.undo())
 
+    @by_turns
     def redo(self) -> None:
         """Go forward again one step; does nothing where there is none."""
         if self._history.can_redo:

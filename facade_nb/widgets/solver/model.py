@@ -10,13 +10,14 @@ from traitlets import HasTraits, Instance, Int, List, Unicode
 
 from ...design import Design, DesignError, NoLayout
 from ...solver import Layout, Trace
+from ..shared.turns import Turns
 from ..studio.model import FacadeModel
 from .timeline import begun, locate, moment_of
 
 __all__ = ["TraceModel"]
 
 
-class TraceModel(HasTraits):
+class TraceModel(Turns, HasTraits):
     """What the views of one solve share. `TraceModel.of` gives it: there is one for each trace, and for each
     model that is followed.
 

@@ -15,6 +15,7 @@ from traitlets import Dict, Float, HasTraits, Int
 from ...design import Design, DesignError, Fault
 from ...design.errors import nearest
 from ...design.model import AXES
+from ..shared.turns import Turns, by_turns
 from .fields import Path, apply
 
 if TYPE_CHECKING:
@@ -48,6 +49,10 @@ class Handle(HasTraits):
         raise NotImplementedError
 
     def _on_value(self, change: Change) -> None:
+        with self._model.turn:
+            self._enter(change)
+
+    def _enter(self, change: Change) -> None:
         if change["new"] == self._held():
             return
         try:
@@ -76,7 +81,8 @@ class CounterHandle(Handle):
 
     def free(self) -> None:
         """Let the solver choose its value."""
-        self._model.edit(apply(self._model.design, self._path(), None), key=self._path())
+        with self._model.turn:
+            self._model.edit(apply(self._model.design, self._path(), None), key=self._path())
 
     def follow(self) -> None:
         """Say what the model says."""
@@ -125,7 +131,7 @@ class SizeHandle(Handle):
 Kind = TypeVar("Kind", bound=Handle)
 
 
-class Linkable(HasTraits):
+class Linkable(Turns, HasTraits):
     """The traits of a model that can be linked.
 
     A value that is not possible is refused with `DesignError`, and the trait stays what it was.
@@ -193,11 +199,13 @@ class Linkable(HasTraits):
         names = dict.fromkeys((*design.counters, *(name for own in patterns for name in own.counters)))
         return {name: design.counter(name).value for name in names}
 
+    @by_turns
     def _on_side(self, change: Change) -> None:
         side = change["name"]
         if change["new"] != getattr(self.design.canvas, side):
             self._try(lambda: apply(self.design, ("canvas", side), change["new"]), side)
 
+    @by_turns
     def _on_table(self, change: Change) -> None:
         """Take over the entries that are others than the design's; those that are missing stay as they are."""
         which, given = change["name"], change["new"]

@@ -17,6 +17,7 @@ from traitlets import Bool, Float, Instance, Int, Unicode
 from ...design import Design, DesignError, FacadeError, Fault, NoLayout
 from ...solver import Layout, Trace, solve
 from ..shared.history import History, Undoable
+from ..shared.turns import by_turns
 from . import newcomers
 from .background import LatestSolver, Outcome, Solve
 from .fields import Path
@@ -73,7 +74,8 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
 
     Notes
     -----
-    Edit from one thread only, the one that runs the event loop (in a notebook: cells and callbacks do).
+    Edits from several threads come one after the other, each made from what the one before has left: while a cell
+    runs, JupyterLab answers the views in a thread of its own.
     `width`, `height`, `sizes` and `counters` are traits to `link` and `interact` with (`Linkable`).
     """
 
@@ -119,6 +121,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
 
     # ---- editing -------------------------------------------------------------------------------------------------
 
+    @by_turns
     def edit(self, change: Design | Callable[[Design], Design], *, key: object = None) -> None:
         """Take over a new design.
 
@@ -137,6 +140,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         design = _valid(change if isinstance(change, Design) else change(self.design))
         self._take(_settle(*newcomers.tidy(design, self.newcomers), self.drafts), key=key)
 
+    @by_turns
     def enter(self, path: Path | str, value: Any) -> None:
         """Take over what was typed into a field; where that gives no valid design, keep it as the field's draft.
 
@@ -161,11 +165,13 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
             snapshot = _settle(design, fresh, others)
         self._take(snapshot, key=path)
 
+    @by_turns
     def discard(self, path: Path) -> None:
         """Forget the draft of a field."""
         left = {other: draft for other, draft in self.drafts.items() if other != path}
         self._take(_Snapshot(self.design, left, self.newcomers), key=None)
 
+    @by_turns
     def load(self, source: Design | str | FilePath) -> None:
         """Replace the design, as one step that can be undone.
 
@@ -188,6 +194,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         past, future = self._history.past, self._history.future
         return tuple(state.design for state in past), tuple(state.design for state in future)
 
+    @by_turns
     def resume(self, past: Sequence[Design], design: Design, future: Sequence[Design] = ()) -> None:
         """Go on with a design and the history that it had."""
         self._history.resume([*map(_Snapshot, past)], _Snapshot(design), [*map(_Snapshot, future)])
@@ -198,6 +205,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         """The design as JSON text; with `path` it is also written there, atomically. Drafts are not part of it."""
         return self.design.to_json(path)
 
+    @by_turns
     def select(
         self,
         shape: int | None = None,
@@ -215,6 +223,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
             self.selection = Selection(None, layer, x, y, None, tuple((a, b) for a, b in more))
         self._changed()
 
+    @by_turns
     def toggle(self, *, layer: str = "", x: str = "", y: str = "", add: bool = False) -> None:
         """Pick a layer, a symbol or a pair, or nothing if it is what is picked.
 
@@ -245,12 +254,14 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         """End the solve under way: the best layout that it has found is taken; without one, the last one stays."""
         self._solver.stop()
 
+    @by_turns
     def solve_for(self, seconds: float) -> None:
         """Solve again, and from now on, for so many seconds at most."""
         self.time_limit = seconds
         self._solve()
         self._changed()
 
+    @by_turns
     def follow(self) -> None:
         """Record a `trace` of each solve from now on. Views of the solver ask for it."""
         if not self._traced:
@@ -297,6 +308,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
             with suppress(RuntimeError):  # the loop was closed meanwhile: the outcome waits for `wait`
                 self._loop.call_soon_threadsafe(self._arrive)
 
+    @by_turns
     def _arrive(self) -> None:
         if self._collect():
             self._changed()

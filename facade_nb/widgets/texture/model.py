@@ -126,11 +126,12 @@ class TextureModel(Undoable[_Snapshot], HasTraits):
     @contextmanager
     def _editing(self, key: Hashable | None) -> Iterator[None]:
         """Say what is edited: what has one key, in quick succession, is one step."""
-        self._key = key
-        try:
-            yield
-        finally:
-            self._key = None
+        with self.turn:
+            self._key = key
+            try:
+                yield
+            finally:
+                self._key = None
 
     @property
     def _shown(self) -> str | None:

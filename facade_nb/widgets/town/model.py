@@ -237,11 +237,12 @@ class TownModel(Undoable[_Snapshot], HasTraits):
 
     @contextmanager
     def _editing(self, key: Hashable) -> Iterator[None]:
-        self._key = key
-        try:
-            yield
-        finally:
-            self._key = None
+        with self.turn:
+            self._key = key
+            try:
+                yield
+            finally:
+                self._key = None
 
     def _snapshot(self) -> _Snapshot:
         return _Snapshot(tuple(self._parts.values()), self.restyled, self.hour)

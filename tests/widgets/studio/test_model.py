@@ -6,6 +6,7 @@ import asyncio
 import gc
 import json
 import threading
+import time
 import weakref
 from collections.abc import Callable
 from dataclasses import replace
@@ -354,3 +355,25 @@ def test_models_are_collected_with_all_they_hold() -> None:
     del model
     gc.collect()
     assert dead() is None
+
+
+def test_edits_of_a_cell_and_of_a_view_at_once_are_all_kept() -> None:
+    """JupyterLab answers views in a thread of its own while a cell runs."""
+    model = FacadeModel(house())
+    slow = threading.Event()
+
+    def change(design: Design) -> Design:
+        """One that takes a while: what it is made from must not change meanwhile."""
+        slow.set()
+        time.sleep(0.05)
+        return replace(design, canvas=replace(design.canvas, width=7.0))
+
+    cell = threading.Thread(target=model.edit, args=(change,))
+    cell.start()
+    slow.wait()
+    model.enter(("symbols", "A", "size"), "0.6")
+    cell.join()
+    model.wait()
+    assert (model.design.canvas.width, model.design.symbols["A"].size) == (7.0, 0.6)
+    model.undo()
+    assert (model.design.canvas.width, model.design.symbols["A"].size) == (7.0, 1.0)
