@@ -13,9 +13,10 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
-from itertools import combinations
+from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations, cycle, product
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PIL import Image
@@ -134,6 +135,14 @@ NAMES: dict[str, Callable[[str], str]] = {
 KEPT = NAMES | {"a hard link": by_hard_link, "a descriptor": by_descriptor}
 
 
+def dealt(
+    these: Sequence[tuple[Any, ...]], those: Sequence[tuple[Any, ...]], each: int
+) -> list[tuple[Any, ...]]:
+    """All of `these`, `each` of `those` beside each of them, going round: every one of both kinds has its turn."""
+    going = cycle(those)
+    return [(*one, *next(going)) for one in these for _ in range(each)]
+
+
 def refused(capsys: pytest.CaptureFixture[str], folder: Path, command: list[str]) -> str:
     """Run a command that is at fault: nothing is touched. Returns what it says."""
     before = state(folder)
@@ -160,10 +169,13 @@ def test_every_command_says_what_it_reads_and_writes() -> None:
 
 
 class TestOneFile:
-    @pytest.mark.parametrize("other", KEPT)
     @pytest.mark.parametrize(
-        ("command", "output", "read"),
-        [(c, o, read) for c in COMMANDS for o in outputs(c) for read in INPUTS[c]],
+        ("command", "output", "read", "other"),
+        dealt(
+            [(c, o, read) for c in COMMANDS for o in outputs(c) for read in INPUTS[c]],
+            [(name,) for name in KEPT],
+            each=3,
+        ),
     )
     def test_input_and_output(
         self,
@@ -180,10 +192,13 @@ class TestOneFile:
         assert told.startswith(f"{output}: expected a file other than ") and repr(name) in told
         assert read in told or other == "a descriptor"
 
-    @pytest.mark.parametrize("there", [False, True])
-    @pytest.mark.parametrize("other", KEPT)
     @pytest.mark.parametrize(
-        ("command", "first", "second"), [(c, *pair) for c in COMMANDS for pair in combinations(outputs(c), 2)]
+        ("command", "first", "second", "other", "there"),
+        dealt(
+            [(c, *pair) for c in COMMANDS for pair in combinations(outputs(c), 2)],
+            list(product(KEPT, (False, True))),
+            each=3,
+        ),
     )
     def test_two_outputs(
         self,
@@ -267,6 +282,23 @@ class TestOneFile:
         refused(capsys, folder, ["solve", "house.json", "--out", "Straße", "--svg", "STRASSE"])
 
 
+NO_PLACES = [
+    ("none/a", "there is no folder"),
+    ("house.json/a", "Not a directory"),
+    ("deep", "it is a folder"),
+    ("deep/", "it is a folder"),
+    (".", "it is a folder"),
+    ("new/", "this is how a folder is written"),
+    ("", "expected the name of a file; found none"),
+    ("/proc/a", "No such file"),  # no one may make files there
+    ("/dev/fd/987", "Bad file descriptor"),
+    ("loop", "Too many levels of symbolic links"),
+    ("lost", "there is no folder"),
+    ("a" * 300, "File name too long"),
+]
+"""Names under which nothing can be written, and what is told of them."""
+
+
 class TestPlaces:
     """What cannot be written is told before anything is computed."""
 
@@ -281,23 +313,9 @@ class TestPlaces:
         monkeypatch.setattr("facade_nb.cli_town._town", refuse)
 
     @pytest.mark.parametrize(
-        ("name", "reason"),
-        [
-            ("none/a", "there is no folder"),
-            ("house.json/a", "Not a directory"),
-            ("deep", "it is a folder"),
-            ("deep/", "it is a folder"),
-            (".", "it is a folder"),
-            ("new/", "this is how a folder is written"),
-            ("", "expected the name of a file; found none"),
-            ("/proc/a", "No such file"),  # no one may make files there
-            ("/dev/fd/987", "Bad file descriptor"),
-            ("loop", "Too many levels of symbolic links"),
-            ("lost", "there is no folder"),
-            ("a" * 300, "File name too long"),
-        ],
+        ("command", "output", "name", "reason"),
+        dealt([(c, o) for c in COMMANDS for o in outputs(c)], NO_PLACES, each=5),
     )
-    @pytest.mark.parametrize(("command", "output"), [(c, o) for c in COMMANDS for o in outputs(c)])
     def test_no_place(
         self,
         command: str,
