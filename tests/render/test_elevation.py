@@ -192,7 +192,9 @@ def test_holes_show_only_when_asked_for() -> None:
     layout = replace(two_boxes(), holes=((0.0, 0.0, 1.0, 1.0),))
     assert 'class="hole"' not in elevation_svg(layout)
     assert elevation_svg(layout, holes=True).count('class="hole"') == 1
-    assert 'class="hole"' not in elevation_svg(replace(layout, shapes=()), holes=True)  # an empty canvas misses nothing
+    assert 'class="hole"' not in elevation_svg(
+        replace(layout, shapes=()), holes=True
+    )  # an empty canvas misses nothing
 
 
 def test_themes_differ_and_an_unknown_one_is_named() -> None:

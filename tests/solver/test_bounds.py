@@ -61,7 +61,7 @@ class TestAnyDesign:
         self, bound: str, objective: Objective, monkeypatch: pytest.MonkeyPatch
     ) -> None:
         touched = 0
-        for seed in range(24):
+        for seed in range(12):
             one = make_design(seed)
             full = whole(seed, objective.plain)
             with monkeypatch.context() as lower:

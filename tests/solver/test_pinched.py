@@ -41,7 +41,7 @@ def without(children: Callable[..., list[tuple[float, Path]]]) -> Callable[..., 
     return made
 
 
-@pytest.mark.parametrize("seed", range(200))
+@pytest.mark.parametrize("seed", range(80))
 def test_nothing_is_lost(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     case = random_case(60_000 + seed)
     found = search(case_group(case))

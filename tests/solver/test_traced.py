@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
@@ -29,6 +30,13 @@ def answer(of: Design, **options: Any) -> tuple[object, bool]:
         layout = solve(of, time_limit=None, **options)
     except NoLayout as error:
         return (error.axis, error.constraint, error.patterns, error.symbols), error.constraint != "memory"
+    if "trace" in options:
+        assert layout.trace.events
+        document = layout.trace.to_dict()
+        assert document["format"] == "facade-nb/trace/1"
+        json.dumps(document, allow_nan=False)  # raises where a number is none
+    else:
+        assert layout.trace is None
     return layout.to_dict(), layout.complete
 
 
