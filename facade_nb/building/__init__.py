@@ -1,0 +1,8 @@
+"""Buildings: several façades around the corner, with one height for all (docs/buildings.md)."""
+
+from .faces import Face, faces
+from .layout import BuildingLayout, SolvedFace
+from .model import Building, Corner, Roof
+from .solution import solve
+
+__all__ = ["Building", "BuildingLayout", "Corner", "Face", "Roof", "SolvedFace", "faces", "solve"]
