@@ -105,7 +105,10 @@ def _corners(building: Building) -> Iterator[Fault]:
                     )
     for k in range(count):
         following = (k + 1) % count
-        if any(n in building.corners and building.corners[n].design not in building.designs for n in (k, following)):
+        if any(
+            n in building.corners and building.corners[n].design not in building.designs
+            for n in (k, following)
+        ):
             continue
         (x, y), (u, v) = plan[k], plan[following]
         left = hypot(u - x, v - y) - cut(building, k) - cut(building, following)

@@ -90,7 +90,9 @@ def faces(building: Building) -> tuple[Face, ...]:
     for n, (name, design, start, end, first, last) in enumerate(found):
         before, after = found[n - 1], found[(n + 1) % len(found)]
         turns = turn(before[2], start, end), turn(start, end, after[3])
-        made.append(Face(name, design, start, end, turns, (_quoins(building, first), _quoins(building, last))))
+        made.append(
+            Face(name, design, start, end, turns, (_quoins(building, first), _quoins(building, last)))
+        )
     return tuple(made)
 
 

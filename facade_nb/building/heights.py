@@ -1,12 +1,12 @@
 """One height for all walls.
 
-Each design is aligned along y as it is alone. The *spine* of a design is the row that fills its wall from bottom to top;
-the spines of all designs are aligned with each other, in a group of their own. Then one least-squares problem sizes it all:
-as all letters of a symbol have one size, what that group makes of a spine holds in the wall that it is taken from. So the
-walls meet in the boundaries of that group.
+Each design is aligned along y as it is alone. The *spine* of a design is the row that fills its wall from bottom to
+top; the spines of all designs are aligned with each other, in a group of their own. Then one least-squares problem
+sizes it all: as all letters of a symbol have one size, what that group makes of a spine holds in the wall that it is taken
+from. So the walls meet in the boundaries of that group.
 
-Which words are chosen is decided over all designs together: the least J of all of them and of the spines' group, in which
-loose letters are dear (`LOOSE`), as walls that meet are seen together.
+Which words are chosen is decided over all designs together: the least J of all of them and of the spines' group, in
+which loose letters are dear (`LOOSE`), as walls that meet are seen together.
 """
 
 from __future__ import annotations
@@ -196,16 +196,16 @@ class Heights:
         by_key = dict(zip(self.joint.designs, solved, strict=True))
         rows = [
             by_key[key].candidate.words[self.joint.tagged(key, spine)].letters
-            for key, spine in reversed(spines.items())
+            for key, spine in reversed(list(spines.items()))
         ]
         canvas = self.joint.building.height
         objective = replace(self.objective, loose=max(LOOSE, self.objective.loose))
         group = make_group(rows, canvas, TOLERANCES[-1] * canvas, objective, check=self.clock.check)
-        found, sure = aligned(
+        taken, sure = aligned(
             group, lambda priced: self._sized(solved, (group, priced)), self.clock.check, most
         )
         best: _Found | None = None
-        for own in found:
+        for own in taken:
             best = own if best is None or own.beats(best) else best
         return best, sure
 
@@ -227,9 +227,7 @@ class Heights:
             return None
         named: dict[str, Word] = {name: word for own in solved for name, word in own.candidate.words.items()}
         counters = {name: value for own in solved for name, value in own.candidate.counters.items()}
-        whole = Solved(
-            Candidate(named, counters), tuple(groups), tuple(parts), sized, cost, columns
-        )
+        whole = Solved(Candidate(named, counters), tuple(groups), tuple(parts), sized, cost, columns)
         return _Found(cost, whole)
 
     @property

@@ -90,9 +90,7 @@ class BuildingLayout:
         for own in self.faces:
             if own.face.name == name:
                 return own
-        raise KeyError(
-            f"expected one of {', '.join(own.face.name for own in self.faces)}; found {name!r}"
-        )
+        raise KeyError(f"expected one of {', '.join(own.face.name for own in self.faces)}; found {name!r}")
 
     def explain(self) -> str:
         """What was solved, in a few lines: the heights, then each face."""

@@ -1,7 +1,8 @@
-"""The building: façades in plan, each with its design across, one height for all, corners and a roof (docs/buildings.md).
+"""The building: façades in plan, each with its design across, one height for all, corners and a roof.
 
-The plan is a polygon seen from above: x runs east, y north, metres, corners counter-clockwise. Wall k goes from corner k
-to the next one, and looks out to its right. Wall 0 of the plans made here looks south, to whoever looks at a picture.
+docs/buildings.md tells what it means. The plan is a polygon seen from above: x runs east, y north, metres, corners
+counter-clockwise. Wall k goes from corner k to the next one, and looks out to its right.
+Wall 0 of the plans made here looks south, to whoever looks at a picture.
 """
 
 from __future__ import annotations
@@ -127,8 +128,8 @@ class Building:
         height
             Of all façades; None: the greatest canvas height of the designs.
         rest
-            Other fields: `name`, `corners`, `roof`, `material`, `shared`. A corner may be given with its design itself, as
-            ``("quoins", design)`` or ``("chamfer", design, width)``.
+            Other fields: `name`, `corners`, `roof`, `material`, `shared`. A corner may be given with its design itself,
+            as ``("quoins", design)`` or ``("chamfer", design, width)``.
         """
         from .plans import built
 
@@ -191,7 +192,7 @@ class Building:
         self,
         *,
         objective: Objective | None = None,
-        time_limit: float | None = 10.0,
+        time_limit: float | None = 30.0,
         should_stop: Callable[[], bool] | None = None,
     ) -> BuildingLayout:
         """Solve it: heights together, then each wall across (see `solution.solve`)."""

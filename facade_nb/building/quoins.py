@@ -12,7 +12,7 @@ __all__ = ["folded"]
 _LEAST = 1e-6
 
 
-def folded(strip: Layout, name: str, length: float, *, left: bool) -> Iterator[PlacedShape]:
+def folded(strip: Layout, name: str, length: float, eaves: float, *, left: bool) -> Iterator[PlacedShape]:
     """The shapes of a strip that lie on one wall.
 
     Parameters
@@ -23,6 +23,8 @@ def folded(strip: Layout, name: str, length: float, *, left: bool) -> Iterator[P
         Of the corner: shapes stand on a layer named after it.
     length
         Of the wall, metres.
+    eaves
+        Where they end, metres up.
     left
         Whether the corner is at the wall's left end: then the strip's right half lies on it.
     """
@@ -31,7 +33,8 @@ def folded(strip: Layout, name: str, length: float, *, left: bool) -> Iterator[P
     for shape in strip.shapes:
         a, bottom, b, top = shape.rect
         a, b = max(a, low), min(b, high)
-        if b - a <= _LEAST:
+        top = min(top, eaves)
+        if b - a <= _LEAST or top - bottom <= _LEAST:
             continue
         start = length if not left and a + shift > length - _LEAST else a + shift
         end = length if not left and abs(b - high) <= _LEAST else b + shift

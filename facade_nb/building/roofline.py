@@ -6,14 +6,17 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ..design.model import Canvas
+from ..render.geometry import find_geometry
 from ..solver.model.layout import Layout, PlacedShape, Rect
 from .faces import Face
 from .model import Building
 
-__all__ = ["eaves_of", "is_dormer", "is_roof", "shown"]
+__all__ = ["eaves_of", "is_dormer", "is_roof", "shown", "wall_material"]
 
 _ROOFS = frozenset({"roof", "hip", "pitched"})
 _EPS = 1e-6
+_SETBACK = 0.3
+"""How far a wall stands back that is added behind a railing, metres."""
 
 
 def is_roof(shape: PlacedShape) -> bool:
@@ -33,12 +36,19 @@ def eaves_of(building: Building, layouts: Iterable[Layout]) -> float:
 
 
 def _top(layout: Layout) -> float | None:
-    """Where the walls of a design end; None where it says nothing of it, as a blind wall does not."""
+    """Where the walls of a design end; None where it says nothing of it, as a blind wall does not.
+
+    What does not fill its rectangle, as a railing does not, is no wall.
+    """
     if layout.design is None:
         return None
     roofs = [shape.rect for shape in layout.shapes if is_roof(shape)]
     return max(
-        (shape.rect[3] for shape in layout.shapes if not is_roof(shape) and not _before(shape.rect, roofs)),
+        (
+            shape.rect[3]
+            for shape in layout.shapes
+            if not is_roof(shape) and find_geometry(shape.geometry).full and not _before(shape.rect, roofs)
+        ),
         default=None,
     )
 
@@ -59,15 +69,18 @@ def shown(building: Building, face: Face, layout: Layout, eaves: float) -> Layou
         top = 0.0
     if top < eaves - _EPS:
         rect = (0.0, top, face.length, eaves)
-        material = _material(shapes, top) or building.material
-        shapes.append(PlacedShape("wall above", "wall", "wall", rect, material=material))
+        material = wall_material(shapes) or building.material
+        before = any(shape.rect[3] > top + _EPS for shape in shapes)
+        offset = -_SETBACK if before else 0.0  # behind what stands there
+        shapes.insert(0, PlacedShape("wall above", "wall", "wall", rect, material=material, offset=offset))
     highest = max((shape.rect[3] for shape in shapes), default=eaves)
     canvas = Canvas(face.length, max(eaves, highest))
     return replace(layout, canvas=canvas, shapes=tuple(shapes))
 
 
-def _material(shapes: Sequence[PlacedShape], top: float) -> str | None:
-    """What the wall is made of below its top."""
-    near = [shape for shape in shapes if abs(shape.rect[3] - top) < _EPS and shape.kind == "wall"]
-    wide = max(near or [s for s in shapes if s.kind == "wall"], key=lambda s: s.rect[2] - s.rect[0], default=None)
-    return None if wide is None else wide.material
+def wall_material(shapes: Sequence[PlacedShape]) -> str | None:
+    """What the walls among some shapes are made of, at their highest; None: there are none."""
+    walls = [shape for shape in shapes if shape.kind == "wall" and find_geometry(shape.geometry).full]
+    top = max((shape.rect[3] for shape in walls), default=0.0)
+    near = [shape for shape in walls if shape.rect[3] > top - 1.0]
+    return max(near, key=lambda shape: shape.rect[2] - shape.rect[0]).material if near else None

@@ -16,11 +16,11 @@ from ..solver.model.problem import axis_problem
 from ..solver.solution import TOLERANCES, AxisAnswer, compose, solve_axis
 from ..solver.words.enumeration import across
 from .faces import Face, faces, width_of
+from .heights import Heights
 from .layout import BuildingLayout, SolvedFace
 from .model import Building
 from .quoins import folded
 from .roofline import eaves_of, shown
-from .heights import Heights
 from .vertical import Joint, names_up
 
 __all__ = ["solve"]
@@ -33,7 +33,7 @@ def solve(
     building: Building,
     *,
     objective: Objective | None = None,
-    time_limit: float | None = 10.0,
+    time_limit: float | None = 30.0,
     should_stop: Callable[[], bool] | None = None,
 ) -> BuildingLayout:
     """Solve a building.
@@ -53,7 +53,7 @@ def solve(
     Raises
     ------
     NoLayout
-        If there is no layout, or none was found in time. It says of which wall, or of the heights, and what is to blame.
+        If there is no layout, or none was found in time. It says of which wall, or of the heights, and why.
     """
     run = _Run(building, objective, time_limit, should_stop)
     heights, widths = run.answers()
@@ -63,8 +63,9 @@ def solve(
         design = replace(building.designs[key], canvas=Canvas(width, building.height))
         laid[key, width] = compose(design, answer, parts.get(key) or AxisAnswer(AxisLayout()))
     around = faces(building)
-    whole = [_layout(building, face, laid) for face in around]
-    eaves = eaves_of(building, whole)
+    bare = [_layout(building, face, laid) for face in around]
+    eaves = eaves_of(building, bare)
+    whole = [_with_quoins(building, face, own, laid, eaves) for face, own in zip(around, bare, strict=True)]
     solved = tuple(
         SolvedFace(face, layout, shown(building, face, layout, eaves))
         for face, layout in zip(around, whole, strict=True)
@@ -76,28 +77,24 @@ def solve(
     ]
     warnings += [f"{own.face.name}: {text}" for own in solved for text in own.layout.warnings]
     complete = heights.complete and all(answer.complete for answer in widths.values())
-    return BuildingLayout(
-        building, solved, heights.layout, eaves, tuple(dict.fromkeys(warnings)), complete
-    )
+    return BuildingLayout(building, solved, heights.layout, eaves, tuple(dict.fromkeys(warnings)), complete)
 
 
 def _layout(building: Building, face: Face, laid: Mapping[_Width, Layout]) -> Layout:
-    """Of a face, with the quoins at its ends."""
-    if face.design is None:
-        return _blind(building, face)
-    own = laid[face.design, round(face.length, 6)]
-    return _with_quoins(building, face, own, laid)
+    """Of a face, without quoins."""
+    return _blind(building, face) if face.design is None else laid[face.design, round(face.length, 6)]
 
 
 def _with_quoins(
-    building: Building, face: Face, own: Layout, laid: Mapping[_Width, Layout]
+    building: Building, face: Face, own: Layout, laid: Mapping[_Width, Layout], eaves: float
 ) -> Layout:
+    """The layout with the quoins at its ends, which end at the eaves."""
     added: list[PlacedShape] = []
     for side, quoins in enumerate(face.quoins):
         if quoins is not None:
             number, corner = quoins
             strip = laid[corner.design, round(width_of(building, corner), 6)]
-            added += folded(strip, f"corner {number + 1}", face.length, left=side == 0)
+            added += folded(strip, f"corner {number + 1}", face.length, eaves, left=side == 0)
     return replace(own, shapes=(*own.shapes, *added)) if added else own
 
 
@@ -140,9 +137,7 @@ class _Run:
             return up, wide
         return self._together(held, _cost(up, wide))
 
-    def _together(
-        self, held: Sequence[str], floor: float
-    ) -> tuple[AxisAnswer, dict[_Width, AxisAnswer]]:
+    def _together(self, held: Sequence[str], floor: float) -> tuple[AxisAnswer, dict[_Width, AxisAnswer]]:
         """Where counters tie heights to widths: the best over all values that they may have on both."""
         best: tuple[AxisAnswer, dict[_Width, AxisAnswer]] | None = None
         failure: NoLayout | None = None
@@ -189,7 +184,7 @@ class _Run:
         """One axis, in its share of the time that is left."""
         left = None if self._end is None else max(self._end - monotonic(), 0.0)
         if left is not None:
-            left /= share
+            left /= min(share, 2)  # most are quick, and leave their time to others
         try:
             return solve_axis(
                 design, axis, objective=self.objective, time_limit=left, should_stop=self.should_stop

@@ -1,16 +1,16 @@
 """Spines aligned with each other: opaque rows without gaps, in columns that all of them fill.
 
 Two spines are searched best first, over all ways to cut them into the same number of columns. What has been cut off is
-tried as it is found: where no sizes of the symbols make it, nothing that begins like it is looked at. Of more spines, the
-best alignment is asked of the solver's search; where that cannot be sized, its columns are joined until they can be, and
-what comes of it may not be the best.
+tried as it is found: where no sizes of the symbols make it, nothing that begins like it is looked at. Of more spines,
+the best alignment is asked of the solver's search. Where that cannot be sized, its columns are joined until they can
+be, and parted again where that is better; what comes of it may not be the best.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from heapq import heappop, heappush
-from itertools import count, islice, product
+from itertools import count, islice, pairwise, product
 from math import inf
 from typing import TypeVar
 
@@ -57,7 +57,9 @@ def aligned(
     run = GroupSearch([group], "best", _PATHS, check, None)
     while not run.done:
         run.advance(inf)
-    full = [priced for priced in run.ties if not any(o.empty for column in priced.structure[0] for o in column)]
+    full = [
+        priced for priced in run.ties if not any(o.empty for column in priced.structure[0] for o in column)
+    ]
     found = [own for priced in full if (own := fits(priced)) is not None]
     if found or run.floor >= most:
         return found, not run.cut
@@ -92,10 +94,14 @@ def _pair(group: Group, fits: Callable[[Priced], T | None], check: Effort, most:
         for j in range(m - 1, -1, -1):
             check()
             rest[i, j] = min(
-                cost((i, j), (p, q)) + rest.get((p, q), inf) for p in range(i + 1, n + 1) for q in range(j + 1, m + 1)
+                cost((i, j), (p, q)) + rest.get((p, q), inf)
+                for p in range(i + 1, n + 1)
+                for q in range(j + 1, m + 1)
             )
     tick = count()
-    queue: list[tuple[float, int, float, tuple[_Cut, ...], bool]] = [(least + rest[0, 0], 0, 0.0, ((0, 0),), False)]
+    queue: list[tuple[float, int, float, tuple[_Cut, ...], bool]] = [
+        (least + rest[0, 0], 0, 0.0, ((0, 0),), False)
+    ]
     best, found = most, []
     while queue:
         floor, _, spent, path, done = heappop(queue)
@@ -202,7 +208,7 @@ def _parted(
     path = list(cuts)
     for _ in range(len(group.bands[0].letters)):
         gains: list[tuple[float, int, _Cut]] = []
-        for k, (a, b) in enumerate(zip(path, path[1:], strict=False)):
+        for k, (a, b) in enumerate(pairwise(path)):
             check()
             now = cost(a, b)
             for middle in islice(product(*(range(s + 1, e) for s, e in zip(a, b, strict=True))), _PARTS):
@@ -224,16 +230,14 @@ def _parted(
 
 def _priced(group: Group, cuts: Sequence[_Cut]) -> Priced | None:
     """The alignment with some boundaries; None: its columns are out of tolerance."""
-    rows = [
-        list(_elements(band, [cut[b] for cut in cuts])) for b, band in enumerate(group.bands)
-    ]
+    rows = [list(_elements(band, [cut[b] for cut in cuts])) for b, band in enumerate(group.bands)]
     columns: Columns = tuple(zip(*rows, strict=True))
     return price([group], (columns,))
 
 
 def _elements(band: Band, stops: Sequence[int]) -> Iterator[Option]:
     position: Position = 0
-    for start, end in zip(stops, stops[1:], strict=False):
+    for start, end in pairwise(stops):
         option = next(o for o in band.options(position) if o.letters == tuple(range(start, end)))
         position = option.target
         yield option
