@@ -2,8 +2,8 @@
 
 Each design is aligned along y as it is alone. The *spine* of a design is the row that fills its wall from bottom to
 top; the spines of all designs are aligned with each other, in a group of their own. Then one least-squares problem
-sizes it all: as all letters of a symbol have one size, what that group makes of a spine holds in the wall that it is taken
-from. So the walls meet in the boundaries of that group.
+sizes it all: as all letters of a symbol have one size, what that group makes of a spine holds in the wall that it is
+taken from. So the walls meet in the boundaries of that group.
 
 Which words are chosen is decided over all designs together: the least J of all of them and of the spines' group, in
 which loose letters are dear (`LOOSE`), as walls that meet are seen together.
