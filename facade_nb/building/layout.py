@@ -61,6 +61,8 @@ class BuildingLayout:
         What there is to say, each beginning with the face or ``heights``.
     complete
         False if a limit cut the search short, on some wall or for the heights.
+    strips
+        The layouts of quoins before they are folded, by design.
     """
 
     building: Building
@@ -69,6 +71,7 @@ class BuildingLayout:
     eaves: float
     warnings: tuple[str, ...] = ()
     complete: bool = True
+    strips: Mapping[str, Layout] = field(default_factory=dict)
 
     @property
     def name(self) -> str:

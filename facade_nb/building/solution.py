@@ -77,7 +77,14 @@ def solve(
     ]
     warnings += [f"{own.face.name}: {text}" for own in solved for text in own.layout.warnings]
     complete = heights.complete and all(answer.complete for answer in widths.values())
-    return BuildingLayout(building, solved, heights.layout, eaves, tuple(dict.fromkeys(warnings)), complete)
+    strips = {
+        own.design: laid[own.design, round(width_of(building, own), 6)]
+        for own in building.corners.values()
+        if own.kind == "quoins"
+    }
+    return BuildingLayout(
+        building, solved, heights.layout, eaves, tuple(dict.fromkeys(warnings)), complete, strips
+    )
 
 
 def _layout(building: Building, face: Face, laid: Mapping[_Width, Layout]) -> Layout:

@@ -83,19 +83,17 @@ def chamfer(
             "symbols": {
                 "A": {"size": pier},
                 "B": {"size": width - 2 * pier},
-                "D": {"size": ground * 0.75},
-                "T": {"size": ground * 0.25},
+                "G": {"size": ground},
                 "W": {"size": storey * 0.55},
                 "P": {"size": storey * 0.3},
                 "H": {"size": storey * 0.15},
             },
-            "patterns": {"across": "A B A", "up": "D T (P W H)^n"},
+            "patterns": {"across": "A B A", "up": "G (P W H)^n"},
             "layers": [{"name": "corner", "x": {"pattern": "across"}, "y": {"pattern": "up"}}],
             "shapes": {
                 "* *": {"kind": "wall", "geometry": "box", "material": material, "thickness": 0.35},
-                "* D": {"kind": "wall", "material": base},
-                "* T": {"kind": "wall", "material": base},
-                "B D": {"kind": "door", "geometry": "door", "material": "oak"},
+                "* G": {"kind": "wall", "material": base},
+                "B G": {"kind": "door", "geometry": "door", "material": "oak"},
                 "B W": {"kind": "window", "geometry": "window", "material": "painted-wood"},
             },
         }

@@ -26,7 +26,7 @@ def examples() -> list[tuple[Building, Camera]]:
         height=10,
         corners={
             0: ("quoins", quoins()),
-            1: ("chamfer", chamfer(ground=3.45, storey=2.7)),
+            1: ("chamfer", chamfer(ground=3.2, storey=2.9)),
             2: ("quoins", quoins()),
         },
         roof=Roof("hip", material="slate"),
@@ -56,8 +56,7 @@ def main() -> None:
     """Draw it."""
     sheet = Image.new("RGB", (SIZE[0] * 3, SIZE[1]))
     for k, (building, camera) in enumerate(examples()):
-        # of the yard's corner the sun is to be seen
-        hour = "evening" if k == 1 else "morning"
+        hour = "overcast" if k == 1 else "morning"  # the yard looks away from the sun
         data = building.solve().render_png(size=SIZE, camera=camera, time_of_day=hour, rays=48)
         sheet.paste(Image.open(BytesIO(data)), (k * SIZE[0], 0))
     sheet.save(PICTURE, quality=88, optimize=True)
