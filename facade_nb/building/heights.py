@@ -42,6 +42,9 @@ LOOSE = 2.0
 _MISS = 0.25
 """Words of a spine are tried whose preferred sizes miss the height by at most so much of it."""
 
+_SQUEEZED = 0.7
+"""No symbol gets smaller by meeting others than so much of what it would be, and would like to be."""
+
 Values = Mapping[str, int]
 """Counters under their joint names."""
 
@@ -219,9 +222,12 @@ class Heights:
             groups.append(group)
             parts.append((priced, 0))
             cost, columns = cost + priced.cost, columns + priced.columns
-        symbols = self._symbols
+        symbols = self.joint.everything.symbols if spines is None else self._bounded(solved)
         sized = size_axis(
-            groups, tuple(parts), self.joint.building.height, lambda name: symbols.get(name) or Symbol(name)
+            groups,
+            tuple(parts),
+            self.joint.building.height,
+            lambda name: symbols.get(name) or Symbol(name),
         )
         if sized is None:
             return None
@@ -230,9 +236,16 @@ class Heights:
         whole = Solved(Candidate(named, counters), tuple(groups), tuple(parts), sized, cost, columns)
         return _Found(cost, whole)
 
-    @property
-    def _symbols(self) -> Mapping[str, Symbol]:
-        return self.joint.everything.symbols
+    def _bounded(self, solved: Sequence[Solved]) -> Mapping[str, Symbol]:
+        """The symbols, of which none may be squeezed by what its wall meets: a ledge stays a ledge."""
+        found = dict(self.joint.everything.symbols)
+        for own in solved:
+            for name, size in own.sized.sizes.items():
+                symbol = found[name]
+                if symbol.size is not None:
+                    least = _SQUEEZED * min(symbol.size, size)
+                    found[name] = replace(symbol, min=least if symbol.min is None else max(least, symbol.min))
+        return found
 
     def _answer(
         self, spines: Mapping[str, Layer], found: _Found, complete: bool, sure: bool, floor: float

@@ -9,7 +9,7 @@ import pytest
 
 from facade_nb import Building, NoLayout, gallery, solve
 from facade_nb.building import Corner
-from facade_nb.building.treatments import quoins
+from facade_nb.building.treatments import chamfer, quoins
 from facade_nb.design import Design
 from facade_nb.design.model import Canvas, Counter
 from tests.building.houses import FRONT, SIDE, corner_house
@@ -91,6 +91,12 @@ def test_the_heights_are_the_best_there_are(height):
     layout = Building.rectangle(9.0, 7.2, [FRONT, SIDE, None, None], height=height).solve()
     assert layout.heights.proven
     assert layout.heights.cost == pytest.approx(by_hand(height), abs=1e-6)
+
+
+def test_a_ledge_stays_a_ledge_where_walls_meet():
+    house = gallery.load("apartment-house")
+    layout = Building.row([(14.0, house), (2.6, chamfer(ground=3.2, storey=2.9))], 9.0, height=10.0).solve()
+    assert layout.heights.sizes["Y of Apartment house"] >= 0.7 * 0.25 - 1e-9
 
 
 def test_one_design_on_all_walls_is_as_it_is_alone():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from html import escape
@@ -22,6 +23,8 @@ from .studio import Studio
 __all__ = ["BuildingStudio"]
 
 _NEAR = 1e-9
+_TALL = 240
+"""Pixels that the strip is high at most."""
 
 
 class BuildingStudio(VBox):
@@ -202,11 +205,14 @@ def _strip_of(layout: BuildingLayout, wall: str) -> str:
     from ...building.developed import GAP
     from ...building.vertical import SPINES
 
-    whole = layout.developed
+    svg = layout.elevation_svg()
+    scale, (origin, _), (width, height) = _drawn(svg)
+    svg = svg.replace("<svg ", '<svg style="width:100%;height:auto;display:block" ', 1)
     at, marks = 0.0, []
     for own in layout.faces:
         chosen = own.face.name == wall
-        left, wide = 100 * at / whole.canvas.width, 100 * own.face.length / whole.canvas.width
+        left = 100 * (origin + at * scale) / width
+        wide = 100 * own.face.length * scale / width
         style = (
             "border-top:3px solid currentColor;font-weight:bold" if chosen else "border-top:1px solid #8888"
         )
@@ -220,9 +226,23 @@ def _strip_of(layout: BuildingLayout, wall: str) -> str:
     if shared is not None:
         told = f"Walls meet at {', '.join(f'{stop:.2f}' for stop in shared.columns)} m."
     notes = "".join(f"<div>{escape(text)}</div>" for text in layout.warnings)
-    svg = layout.elevation_svg().replace("<svg ", '<svg style="width:100%;height:auto;max-height:220px" ', 1)
     return (
-        f'<div class="facade-nb-around">{svg}'
+        f'<div class="facade-nb-around" style="max-width:{_TALL * width / height:.0f}px">{svg}'
         f'<div style="position:relative;height:1.8em">{"".join(marks)}</div>'
         f'<div style="font-size:smaller">{escape(told)}{notes}</div></div>'
     )
+
+
+def _drawn(svg: str) -> tuple[float, tuple[float, float], tuple[float, float]]:
+    """Pixels per metre of an elevation, where its lower left corner is, and how large it is."""
+    head = svg[: svg.index(">")]
+
+    def numbers(name: str) -> list[float]:
+        return [float(value) for value in re.split(r"[ ,]+", head.split(f'{name}="', 1)[1].split('"', 1)[0])]
+
+    (scale,), (x, y), (_, _, width, height) = (
+        numbers("data-scale"),
+        numbers("data-origin"),
+        numbers("viewBox"),
+    )
+    return scale, (x, y), (width, height)
