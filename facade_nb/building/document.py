@@ -18,18 +18,12 @@ from ..design.model import Design
 from ..design.sections import DocumentReader
 from .model import ROOFS, TREATMENTS, Building, Corner, Point, Roof
 
-__all__ = ["FORMAT", "is_building", "read", "read_json", "write", "write_json"]
+__all__ = ["FORMAT", "read", "read_json", "write", "write_json"]
 
 FORMAT = "facade-nb/building/1"
 """What a document's `format` says."""
 
 _FIELDS = ("format", *(field.name for field in fields(Building)))
-
-
-def is_building(document: object) -> bool:
-    """Whether a document says that it is a building's, in this version or another."""
-    said = document.get("format") if isinstance(document, Mapping) else None
-    return isinstance(said, str) and said.startswith("facade-nb/building/")
 
 
 def read(document: Mapping[str, Any]) -> Building:
