@@ -11,10 +11,12 @@ from .design import Design, DesignError, NoLayout
 from .solver import Layout, solve
 
 if TYPE_CHECKING:
+    from .building import Building
     from .comparison import complexity
     from .variations import contact_sheet, sweep, vary
 
 __all__ = [
+    "Building",
     "Design",
     "DesignError",
     "Layout",
@@ -35,6 +37,10 @@ def __getattr__(name: str) -> object:  # loaded when asked for, so that importin
         import facade_nb.gallery as gallery
 
         return gallery
+    if name == "Building":
+        from .building import Building
+
+        return Building
     if name == "complexity":
         from .comparison import complexity
 

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from . import Design, DesignError, Layout, NoLayout, __version__, solve
+from .cli_building import read_building, solve_building
 from .cli_ending import ended, say
 from .cli_files import STANDARD_OUTPUT, Output, Source, check, write
 from .cli_infer import add_infer
@@ -56,10 +57,12 @@ def command_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True)
     solving = commands.add_parser(
         "solve",
-        help="solve a design",
-        description="Solve a design. Without --out the layout goes to standard output.",
+        help="solve a design or a building",
+        description="Solve a design, or a building of several façades. Without --out it goes to standard output.",
     )
-    solving.add_argument("design", type=Source, metavar="DESIGN.json", help="the design document")
+    solving.add_argument(
+        "design", type=Source, metavar="DESIGN.json", help="the document of a design or a building"
+    )
     for name, what in (
         ("out", "the layout document (JSON)"),
         ("trace", "what the solver did, as events (JSON)"),
@@ -106,6 +109,9 @@ def _seconds(text: str) -> float:
 
 
 def _solve(options: argparse.Namespace) -> int:
+    building = read_building(Path(options.design))
+    if building is not None:
+        return solve_building(building, options, list(_beside(options)))
     design = Design.from_json(Path(options.design))
     try:
         layout = solve(design, trace=options.trace is not None, time_limit=options.time_limit)

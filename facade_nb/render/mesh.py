@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     import trimesh
     from trimesh.visual.material import PBRMaterial
 
-__all__ = ["node_name", "to_glb", "to_trimesh", "write_glb"]
+__all__ = ["EMPTY", "finish", "node_name", "paint", "to_glb", "to_trimesh", "write_glb"]
 
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963  # what a view of the buffer is for, in glTF's numbers
 
 _NOTHING = b'{"asset":{"version":"2.0"},"scene":0,"scenes":[{}]} '
-_EMPTY = struct.pack("<4sIIII", b"glTF", 2, 20 + len(_NOTHING), len(_NOTHING), 0x4E4F534A) + _NOTHING
+EMPTY = struct.pack("<4sIIII", b"glTF", 2, 20 + len(_NOTHING), len(_NOTHING), 0x4E4F534A) + _NOTHING
 """A GLB file without anything in it, which trimesh does not write: header, then one chunk of JSON."""
 
 
@@ -52,7 +52,7 @@ def to_trimesh(scene: Scene) -> trimesh.Scene:
             key = (solid.parts, slot, name)
             if key not in made:
                 if name not in paints:
-                    paints[name] = _paint(name)
+                    paints[name] = paint(name)
                 body = trimesh.Trimesh(
                     vertices=local.vertices[local.faces[chosen]].reshape(-1, 3),
                     faces=np.arange(3 * count).reshape(-1, 3),
@@ -85,13 +85,13 @@ def to_glb(layout: Layout) -> bytes:
     solids = build_scene(layout)
     scene = to_trimesh(solids)
     if not scene.geometry:
-        return _EMPTY
+        return EMPTY
 
-    def finish(tree: dict[str, Any]) -> None:
+    def tidy(tree: dict[str, Any]) -> None:
         _one_node_a_shape(tree, solids)
-        _finish(tree)
+        finish(tree)
 
-    return scene.export(file_type="glb", include_normals=True, tree_postprocessor=finish)
+    return scene.export(file_type="glb", include_normals=True, tree_postprocessor=tidy)
 
 
 def write_glb(layout: Layout, path: str | Path) -> Path:
@@ -147,7 +147,7 @@ def _one_node_a_shape(tree: dict[str, Any], scene: Scene) -> None:
     tree["scenes"] = [{"nodes": list(range(len(nodes)))}]
 
 
-def _finish(tree: dict[str, Any]) -> None:
+def finish(tree: dict[str, Any]) -> None:
     """Say what each view of the buffer is for, which trimesh leaves open."""
     for mesh in tree["meshes"]:
         for primitive in mesh["primitives"]:
@@ -160,7 +160,8 @@ def _view(tree: dict[str, Any], accessor: int) -> dict[str, Any]:
     return tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
 
 
-def _paint(name: str) -> PBRMaterial:
+def paint(name: str) -> PBRMaterial:
+    """A material as glTF has it."""
     from trimesh.visual.material import PBRMaterial
 
     material = find_material(name)

@@ -14,8 +14,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .camera import Camera
+    from .pipeline.solids import Solids
 
-__all__ = ["picture", "render_png"]
+__all__ = ["picture", "png_of", "render_png", "scene_picture"]
 
 _FAR = 4000.0
 """How far one sees, metres."""
@@ -73,8 +74,6 @@ def render_png(
     ValueError
         For an unknown time of day, background or backend, or a size below 16 pixels.
     """
-    from PIL import Image
-
     pixels = picture(
         layout,
         size,
@@ -85,6 +84,13 @@ def render_png(
         samples=samples,
         rays=rays,
     )
+    return png_of(pixels, path)
+
+
+def png_of(pixels: NDArray[np.uint8], path: str | Path | None = None) -> bytes:
+    """Return pixels as a PNG file, and write it to a path, if there is one, atomically."""
+    from PIL import Image
+
     stream = BytesIO()
     Image.fromarray(pixels).save(stream, "PNG")
     data = stream.getvalue()
@@ -105,6 +111,38 @@ def picture(
     rays: int = 64,
 ) -> NDArray[np.uint8]:
     """As `render_png`, but the pixels: (h, w, 3) uint8, or (h, w, 4) on a transparent background."""
+    import numpy as np
+
+    from .pipeline.solids import solids_of
+
+    solids = solids_of(layout)
+    canvas = [(0.0, 0.0, 0.0), (layout.canvas.width, layout.canvas.height, 0.0)]
+    return scene_picture(
+        solids,
+        np.concatenate([np.array(canvas), solids.corners]),
+        size,
+        camera,
+        time_of_day=time_of_day,
+        background=background,
+        backend=backend,
+        samples=samples,
+        rays=rays,
+    )
+
+
+def scene_picture(
+    solids: Solids,
+    points: NDArray[np.float64],
+    size: tuple[int, int] = (1600, 1000),
+    camera: Camera | None = None,
+    *,
+    time_of_day: str = "morning",
+    background: str = "sky",
+    backend: str | None = None,
+    samples: int = 2,
+    rays: int = 64,
+) -> NDArray[np.uint8]:
+    """The pixels of a picture of solids; `points` (n, 3) are what has to be in it."""
     from dataclasses import replace
 
     import numpy as np
@@ -115,7 +153,6 @@ def picture(
     from .pipeline.frame import Looks
     from .pipeline.gathering import gathered
     from .pipeline.renderer import renderer_of
-    from .pipeline.solids import solids_of
     from .pipeline.stills import still
     from .pipeline.viewpoint import Frustum
 
@@ -127,9 +164,7 @@ def picture(
         )
     daytime = find_daylight(time_of_day)
     device = choose_device(backend)
-    solids = solids_of(layout)
-    canvas = [(0.0, 0.0, 0.0), (layout.canvas.width, layout.canvas.height, 0.0)]
-    view = (camera or Camera()).look(np.concatenate([np.array(canvas), solids.corners]), size)
+    view = (camera or Camera()).look(points, size)
     frustum = replace(Frustum.of(view), reach=(0.4 * view.reach[0], _FAR))
     cut = background == "transparent"
     apart = float(np.abs(solids.box.mean(axis=0) - view.eye).max())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
 from itertools import product
 from math import inf
@@ -33,7 +33,7 @@ from .trace import Recorder, stage
 from .words.enumeration import across
 from .words.instances import Range
 
-__all__ = ["TOLERANCES", "forget", "solve"]
+__all__ = ["TOLERANCES", "AxisAnswer", "compose", "forget", "solve", "solve_axis"]
 
 TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
 """Fractions of the canvas; the paper's schedule, and, by its last, what the default objective works within."""
@@ -122,6 +122,79 @@ def solve(
     return replace(layout, trace=log.trace())
 
 
+@dataclass(frozen=True, slots=True)
+class AxisAnswer:
+    """One axis of a design, solved by itself.
+
+    Attributes
+    ----------
+    layout
+        Where its letters stand.
+    columns
+        Number of columns, summed over groups.
+    problem, best
+        What was asked, and what the search came to; None where nothing was.
+    """
+
+    layout: AxisLayout
+    counters: Mapping[str, int] = field(default_factory=dict)
+    columns: int = 0
+    warnings: tuple[str, ...] = ()
+    complete: bool = True
+    problem: AxisProblem | None = field(default=None, repr=False)
+    best: Best | None = field(default=None, repr=False)
+
+
+def solve_axis(
+    design: Design,
+    axis: Axis,
+    *,
+    objective: Objective | None = None,
+    time_limit: float | None = 10.0,
+    should_stop: Callable[[], bool] | None = None,
+) -> AxisAnswer:
+    """Solve one axis of a design, whatever the other one is; `compose` makes a layout of two such answers.
+
+    A counter that stands on both axes has the value that suits this one. What is raised is what `solve` raises.
+    """
+    clock = Clock(time_limit, should_stop)
+    chosen = objective or Objective()
+    try:
+        with session():
+            run = _Run(design, chosen, TOLERANCES, "best", clock, None)
+            try:
+                return run.answer(axis)
+            except (Stopped, MemoryError) as stop:
+                clock.full = clock.full or not isinstance(stop, Stopped) or stop.full
+                raise ran_out(design, clock, list(run.problems.values())) from None
+            finally:
+                run.close()
+    except NoLayout as error:
+        error.__context__ = None
+        raise error.with_traceback(None) from None
+    finally:
+        clock.close()
+
+
+def compose(design: Design, x: AxisAnswer, y: AxisAnswer) -> Layout:
+    """The layout of a design whose axes have been solved apart."""
+    shapes = merge(design, x.layout, y.layout)
+    holes = find_holes(design.canvas, shapes)
+    told = hole_warnings(design, x.layout, y.layout, holes)
+    return Layout(
+        design.name,
+        design.canvas,
+        dict(sorted({**y.counters, **x.counters}.items())),
+        x.layout,
+        y.layout,
+        shapes,
+        holes,
+        (*x.warnings, *y.warnings, *told),
+        x.complete and y.complete,
+        design,
+    )
+
+
 def forget() -> None:
     """Let go of all that is kept for what an edit leaves alone: answers of axes and groups, words of patterns."""
     CACHE.clear()
@@ -175,6 +248,12 @@ class _Run:
         if compiled.without:
             layout = replace(layout, warnings=(*layout.warnings, _SLOWLY))
         return layout
+
+    def answer(self, axis: Axis) -> AxisAnswer:
+        """One axis alone."""
+        self.shared = []
+        walk, best = self._solved((axis,))[axis]
+        return self._answer(axis, walk, best)
 
     def close(self) -> None:
         """Let go of all that was searched, except by a trace, which is still to be read."""
@@ -489,17 +568,11 @@ class _Run:
         axes: dict[Axis, AxisLayout] = {}
         complete = True
         for axis in AXES:
-            walk, best = solved[axis]
-            answer = best.solved
-            assert answer is not None
-            counters.update(answer.candidate.counters)
-            axes[axis] = axis_layout(self.design, walk.problem, best, answer)
-            complete = complete and best.complete
-            warnings += axis_warnings(walk, answer)
-            if not axes[axis].proven:
-                warnings += cut_warnings(walk, best, self.clock)
-            if self.trace is not None:
-                self.trace.answer(walk, answer, axes[axis], best.complete)
+            own = self._answer(axis, *solved[axis])
+            counters.update(own.counters)
+            axes[axis] = own.layout
+            complete = complete and own.complete
+            warnings += own.warnings
         with stage(self.trace, "", "merging"):
             shapes, holes, told = self._merged(axes)
             warnings += told
@@ -514,6 +587,26 @@ class _Run:
             tuple(warnings),
             complete,
             self.design,
+        )
+
+    def _answer(self, axis: Axis, walk: AxisSearch, best: Best) -> AxisAnswer:
+        """What the best of an axis comes to, with what there is to say about it."""
+        answer = best.solved
+        assert answer is not None
+        made = axis_layout(self.design, walk.problem, best, answer)
+        warnings = list(axis_warnings(walk, answer))
+        if not made.proven:
+            warnings += cut_warnings(walk, best, self.clock)
+        if self.trace is not None:
+            self.trace.answer(walk, answer, made, best.complete)
+        return AxisAnswer(
+            made,
+            dict(answer.candidate.counters),
+            answer.columns,
+            tuple(warnings),
+            best.complete,
+            walk.problem,
+            best,
         )
 
     def _merged(

@@ -14,6 +14,7 @@ from .solver import (
     TraceView,
     WordsView,
 )
+from .studio.around import BuildingStudio
 from .studio.building import BuildingView
 from .studio.massing_view import MassingView, layout_mesh
 from .studio.model import Draft, FacadeModel, Selection
@@ -35,6 +36,7 @@ from .town import PipelineView, TownModel, TownProgress, TownView
 __all__ = [
     "AlignmentView",
     "AnalysisView",
+    "BuildingStudio",
     "BuildingView",
     "CandidatesView",
     "CanvasEditor",

@@ -8,30 +8,40 @@ All surfaces lie in its plane and look at the street.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...design.files import write_atomically
 from ...solver.model.layout import Layout, PlacedShape
 from .schedule import OTHER
 
-__all__ = ["to_cityjson", "write_cityjson"]
+__all__ = ["STEP", "Surfaces", "document_of", "surfaces_of", "to_cityjson", "write_cityjson"]
 
-_STEP = 0.0001
+STEP = 0.0001
 """Metres: what a whole number of the file stands for."""
 
 _OPENINGS = {"window": "Window", "door": "Door"}
 _ROOF = "roof"
 
 
-def to_cityjson(layout: Layout) -> str:
-    """Return a layout as CityJSON.
+class Surfaces(NamedTuple):
+    """The surfaces of a façade in its plane.
 
-    There is a ``WallSurface`` for each connected piece of wall (whatever is no window, door or roof counts as wall), a
-    ``RoofSurface`` for each piece of roof, and a ``Window`` or ``Door`` for each shape of that kind, the child of the
-    wall around it. An opening of a later layer is cut out of those it covers.
+    Attributes
+    ----------
+    polygons
+        Shapely polygons, each with the number of its surface. Outer rings run counter-clockwise.
+    surfaces
+        What CityJSON says of each; `parent` and `children` are numbers of others.
     """
+
+    polygons: list[tuple[Any, int]]
+    surfaces: list[dict[str, Any]]
+
+
+def surfaces_of(layout: Layout) -> Surfaces:
+    """Walls with their openings cut out of them, roofs, windows and doors (see `to_cityjson`)."""
     import shapely
 
     openings = [(index, shape) for index, shape in enumerate(layout.shapes) if shape.kind in _OPENINGS]
@@ -41,60 +51,93 @@ def to_cityjson(layout: Layout) -> str:
     for shape in layout.shapes:
         if shape.kind not in _OPENINGS:
             (roofs if shape.kind == _ROOF else walls).append(_box(shape))
-    cut = shapely.union_all([area for _, area in areas], grid_size=_STEP)
-    roof = shapely.difference(shapely.union_all(roofs, grid_size=_STEP), cut, grid_size=_STEP)
-    wall = shapely.union_all(walls, grid_size=_STEP)
-    wall = shapely.difference(shapely.difference(wall, cut, grid_size=_STEP), roof, grid_size=_STEP)
+    cut = shapely.union_all([area for _, area in areas], grid_size=STEP)
+    roof = shapely.difference(shapely.union_all(roofs, grid_size=STEP), cut, grid_size=STEP)
+    wall = shapely.union_all(walls, grid_size=STEP)
+    wall = shapely.difference(shapely.difference(wall, cut, grid_size=STEP), roof, grid_size=STEP)
 
-    points: dict[tuple[int, int], int] = {}
-    boundaries: list[Any] = []
-    values: list[int] = []
+    found: list[tuple[Any, int]] = []
     surfaces: list[dict[str, Any]] = []
-
-    def add(polygon: Any, surface: int) -> None:
-        boundaries.append(list(_rings(polygon, points)))
-        values.append(surface)
-
     pieces = list(_polygons(wall))
     covers = list(_polygons(roof))
-    for kind, found in (("WallSurface", pieces), ("RoofSurface", covers)):
-        for polygon in found:
-            add(polygon, len(surfaces))
+    for kind, polygons in (("WallSurface", pieces), ("RoofSurface", covers)):
+        for polygon in polygons:
+            found.append((polygon, len(surfaces)))
             surfaces.append({"type": kind})
     around = [*pieces, *covers]
     for position, area in areas:
         index, shape = openings[position]
         own = len(surfaces)
         surfaces.append({"type": _OPENINGS[shape.kind], **_told(shape, index)})
-        for polygon in _polygons(area):
-            add(polygon, own)
+        found += [(polygon, own) for polygon in _polygons(area)]
         parent = _parent(area, around, len(pieces))
         if parent is not None:
             surfaces[own]["parent"] = parent
             surfaces[parent].setdefault("children", []).append(own)
+    return Surfaces(found, surfaces)
+
+
+def to_cityjson(layout: Layout) -> str:
+    """Return a layout as CityJSON.
+
+    There is a ``WallSurface`` for each connected piece of wall (whatever is no window, door or roof counts as wall), a
+    ``RoofSurface`` for each piece of roof, and a ``Window`` or ``Door`` for each shape of that kind, the child of the
+    wall around it. An opening of a later layer is cut out of those it covers.
+    """
+    found = surfaces_of(layout)
+    points: dict[tuple[int, int], int] = {}
+    boundaries = [list(_rings(polygon, points)) for polygon, _ in found.polygons]
+    canvas = layout.canvas
+    return document_of(
+        layout.name,
+        boundaries,
+        [surface for _, surface in found.polygons],
+        found.surfaces,
+        [(x, 0, y) for x, y in points],
+        (0.0, 0.0, 0.0, canvas.width, 0.0, canvas.height),
+        "facade",
+    )
+
+
+def document_of(
+    name: str,
+    boundaries: list[Any],
+    values: list[int],
+    surfaces: list[dict[str, Any]],
+    vertices: Sequence[tuple[int, int, int]],
+    extent: tuple[float, ...],
+    untitled: str,
+) -> str:
+    """The document of one building.
+
+    Parameters
+    ----------
+    boundaries, values, surfaces
+        Rings of indices for each polygon, the surface that it belongs to, and what is said of the surfaces.
+    vertices
+        In steps of `STEP`.
+    extent
+        Least x, y, z and greatest, metres.
+    """
     geometry = {
         "type": "MultiSurface",
         "lod": "3",
         "boundaries": boundaries,
         "semantics": {"surfaces": surfaces, "values": values},
     }
-    canvas = layout.canvas
     document = {
         "type": "CityJSON",
         "version": "2.0",
-        "transform": {"scale": [_STEP, _STEP, _STEP], "translate": [0.0, 0.0, 0.0]},
-        "metadata": {
-            "title": layout.name or "facade",
-            "geographicalExtent": [0.0, 0.0, 0.0, canvas.width, 0.0, canvas.height],
-        },
+        "transform": {"scale": [STEP, STEP, STEP], "translate": [0.0, 0.0, 0.0]},
+        "metadata": {"title": name or untitled, "geographicalExtent": list(extent)},
         "CityObjects": {
             "building-1": {
                 "type": "Building",
-                "attributes": {"name": layout.name},
+                "attributes": {"name": name},
                 "geometry": [geometry] if boundaries else [],
             }
         },
-        "vertices": [[x, 0, y] for x, y in points],
+        "vertices": [list(vertex) for vertex in vertices],
     }
     return json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -114,7 +157,7 @@ def write_cityjson(layout: Layout, path: str | Path) -> Path:
 def _box(shape: PlacedShape) -> Any:
     import shapely
 
-    return shapely.box(*(round(value / _STEP) * _STEP for value in shape.rect))
+    return shapely.box(*(round(value / STEP) * STEP for value in shape.rect))
 
 
 def _free(boxes: list[Any]) -> list[tuple[int, Any]]:
@@ -128,8 +171,8 @@ def _free(boxes: list[Any]) -> list[tuple[int, Any]]:
     result = []
     for k, box in enumerate(boxes):
         later = [boxes[j] for j in second[first == k] if j > k]
-        rest = shapely.difference(box, shapely.union_all(later), grid_size=_STEP) if later else box
-        if rest.area > _STEP**2:
+        rest = shapely.difference(box, shapely.union_all(later), grid_size=STEP) if later else box
+        if rest.area > STEP**2:
             result.append((k, rest))
     return result
 
@@ -140,14 +183,14 @@ def _polygons(shape: Any) -> Iterator[Any]:
     for part in shapely.get_parts(
         shapely.orient_polygons(shape)
     ):  # outer rings counter-clockwise, holes clockwise
-        if part.geom_type == "Polygon" and part.area > _STEP**2:
+        if part.geom_type == "Polygon" and part.area > STEP**2:
             yield part
 
 
 def _rings(polygon: Any, points: dict[tuple[int, int], int]) -> Iterator[list[int]]:
     """The rings of a polygon as indices of points, seen from the street; the first is not repeated at the end."""
     for ring in (polygon.exterior, *polygon.interiors):
-        corners = [(round(x / _STEP), round(y / _STEP)) for x, y in ring.coords[:-1]]
+        corners = [(round(x / STEP), round(y / STEP)) for x, y in ring.coords[:-1]]
         yield [points.setdefault(corner, len(points)) for corner in corners]
 
 
@@ -157,7 +200,7 @@ def _parent(area: Any, around: list[Any], walls: int) -> int | None:
         return None
     shared = [float(area.boundary.intersection(piece.boundary).length) for piece in around]
     best = max(range(len(around)), key=lambda k: (round(shared[k], 6), k < walls, -k))
-    if shared[best] > _STEP:
+    if shared[best] > STEP:
         return best
     return min(range(len(around)), key=lambda k: (k >= walls, float(area.distance(around[k])), k))
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
 from ...design.files import write_together
 from ...design.targets import locate
@@ -11,7 +12,19 @@ from ...solver.model.layout import Layout
 from ..materials import find_material, rgb
 from ..scene import Solid, build_scene
 
-__all__ = ["materials_beside", "to_obj", "write_obj"]
+if TYPE_CHECKING:
+    from ..meshing import Mesh
+
+__all__ = ["Piece", "materials_beside", "obj_of", "to_obj", "write_obj"]
+
+
+class Piece(NamedTuple):
+    """A mesh to be written, with the names of its object and its group, and the materials of its slots."""
+
+    name: str
+    group: str
+    mesh: Mesh
+    materials: Mapping[str, str]
 
 
 def to_obj(layout: Layout, materials: str = "") -> tuple[str, str]:
@@ -32,12 +45,16 @@ def to_obj(layout: Layout, materials: str = "") -> tuple[str, str]:
     DesignError
         For a shape with an unknown geometry or material.
     """
-    scene = build_scene(layout)
+    return obj_of(map(_piece, build_scene(layout).solids), materials)
+
+
+def obj_of(pieces: Iterable[Piece], materials: str = "") -> tuple[str, str]:
+    """Meshes as OBJ, and their materials as MTL (see `to_obj`)."""
     head = ["# facade_nb; metres, y up"]
     if materials:
         head.append(f"mtllib {materials}")
     names: dict[str, None] = {}
-    body = list(_bodies(scene.solids, names))
+    body = list(_bodies(pieces, names))
     return "\n".join([*head, *body]) + "\n", "\n".join(_paints(names)) + "\n"
 
 
@@ -71,18 +88,23 @@ def write_obj(layout: Layout, path: str | Path) -> Path:
     return Path(path)
 
 
-def _bodies(solids: Iterable[Solid], names: dict[str, None]) -> Iterator[str]:
+def _piece(solid: Solid) -> Piece:
+    shape = solid.shape
+    x, y = shape.number
+    name = f"{shape.layer}/{shape.x}[{x}] {shape.y}[{y}]"
+    return Piece(name, f"{shape.layer}/{shape.x} {shape.y}", solid.mesh(), solid.materials)
+
+
+def _bodies(pieces: Iterable[Piece], names: dict[str, None]) -> Iterator[str]:
     import numpy as np
 
     from ..meshing import corner_normals
 
     points = directions = 0
-    for solid in solids:
-        shape = solid.shape
-        x, y = shape.number
-        yield f"o {_line(f'{shape.layer}/{shape.x}[{x}] {shape.y}[{y}]')}"
-        yield f"g {_line(f'{shape.layer}/{shape.x} {shape.y}')}"
-        mesh = solid.mesh()
+    for piece in pieces:
+        mesh = piece.mesh
+        yield f"o {_line(piece.name)}"
+        yield f"g {_line(piece.group)}"
         if not len(mesh.faces):  # wholly covered, or too small to be told from nothing
             continue
         vertices, corner = np.unique(mesh.vertices.round(6), axis=0, return_inverse=True)
@@ -95,7 +117,7 @@ def _bodies(solids: Iterable[Solid], names: dict[str, None]) -> Iterator[str]:
             chosen = mesh.slots == slot
             if not chosen.any():
                 continue
-            material = solid.materials[name]
+            material = piece.materials[name]
             names.setdefault(material)
             yield f"usemtl {_word(material)}"
             for (a, b, c), (p, q, r) in zip(faces[chosen], turns[chosen], strict=True):

@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 from ...solver.model.layout import Layout
 from ..scene import Triangles
 from ..surroundings import building
+from ..texture.grammar import Grammar
 from .finishes import Finishes, finishes
 from .scene import CHUNK, Scene
 from .vertices import VERTEX
 
-__all__ = ["BODY", "GROUND", "Solids", "solids_of", "solids_scene"]
+__all__ = ["BODY", "GROUND", "Solids", "combined", "solids_of", "solids_scene"]
 
 BODY, GROUND = -1, -2
 """What a triangle belongs to that is no shape's: the house behind its façade, or the ground."""
@@ -61,6 +62,14 @@ class Solids:
         own = self.scene.indices.reshape(-1, 3)[self.shapes != GROUND].reshape(-1)
         return self.scene.vertices["position"][own].astype(np.float64)
 
+    def moved(self, origin: Floats, axes: Floats) -> Solids:
+        """The same elsewhere: `axes` (3, 3) are where x, y and z point from there. Of solids without ground."""
+        vertices = self.scene.vertices.copy()
+        for name in ("normal", "tangent"):
+            vertices[name] = vertices[name] @ axes
+        vertices["position"] = vertices["position"].astype(np.float64) @ axes + origin
+        return _whole(vertices, self.shapes, self.scene.grammar)
+
 
 def solids_of(layout: Layout, *, ground: bool = True) -> Solids:
     """The scene of a layout: the façade is in the plane z = 0, its lower left corner the origin.
@@ -86,13 +95,28 @@ def solids_scene(triangles: Triangles, rects: Sequence[Rect], *, ground: bool = 
     _spread(vertices, local, triangles.materials, coats)
     _rounded(vertices, local, triangles, axes, coats)
     _glazed(vertices, triangles, axes, rects, coats)
-    flat: np.ndarray = vertices.reshape(-1)
     shapes = triangles.shapes.astype(np.int64)
-    points = corners.reshape(-1, 3)
+    return _whole(vertices.reshape(-1), shapes, coats.grammar, coats if ground else None)
+
+
+def combined(parts: Sequence[Solids], materials: tuple[str, ...], *, ground: bool = True) -> Solids:
+    """Solids without ground as one scene. All of them have been made of triangles with these `materials`."""
+    coats = finishes(materials)
+    vertices = np.concatenate([part.scene.vertices for part in parts])
+    shapes = np.concatenate([part.shapes for part in parts])
+    return _whole(vertices, shapes, coats.grammar, coats if ground else None)
+
+
+def _whole(
+    flat: np.ndarray, shapes: NDArray[np.int64], grammar: Grammar, coats: Finishes | None = None
+) -> Solids:
+    """The scene of vertices, three a triangle, and with `coats` the ground around them."""
+    count = len(flat) // 3
+    points = flat["position"].astype(np.float64)
     box = np.stack([points.min(axis=0), points.max(axis=0)]) if count else np.zeros((2, 3))
     chunks = [(0, 3 * count, box[0], box[1])] if count else []
     indices = np.arange(3 * count, dtype=np.uint32)
-    if ground:
+    if coats is not None:
         own = _ground(box, coats)
         chunks.append((len(indices), 6, own["position"].min(axis=0), own["position"].max(axis=0)))
         square = np.array([0, 1, 2, 0, 2, 3], np.uint32) + np.uint32(len(flat))
@@ -102,7 +126,7 @@ def solids_scene(triangles: Triangles, rects: Sequence[Rect], *, ground: bool = 
     aside = np.array([1.0, 0.0, 1.0]) * (2.5 * (box[1, 1] - box[0, 1]) + 4)
     sunny = np.stack([np.minimum(box[0], (np.inf, 0, np.inf)) - aside, box[1] + aside])
     made = np.array(chunks, CHUNK)
-    return Solids(Scene(flat, indices, coats.grammar, made, sunny=sunny, solid=box), shapes, box)
+    return Solids(Scene(flat, indices, grammar, made, sunny=sunny, solid=box), shapes, box)
 
 
 def _axes(corners: Floats) -> Floats:

@@ -1,0 +1,9 @@
+"""Buildings: several façades around the corner, with one height for all (docs/buildings.md)."""
+
+from . import showing as showing  # registers how buildings show themselves
+from .faces import Face, faces
+from .layout import BuildingLayout, SolvedFace
+from .model import Building, Corner, Roof
+from .solution import solve
+
+__all__ = ["Building", "BuildingLayout", "Corner", "Face", "Roof", "SolvedFace", "faces", "solve"]

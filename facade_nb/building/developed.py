@@ -1,0 +1,62 @@
+"""The faces of a building side by side in one plane: its developed elevation, a layout like any other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..design.model import Canvas
+from ..solver.model.layout import AxisLayout, GroupLayout, Layout, PlacedShape, Rect
+from .layout import BuildingLayout
+
+__all__ = ["GAP", "developed"]
+
+GAP = 1.5
+"""Metres between two faces."""
+
+
+def developed(layout: BuildingLayout) -> Layout:
+    """All faces, from wall 1 on from left to right, on one ground.
+
+    Shapes stand on layers ``wall 1/layer``. Its dimensions are the faces' widths along x, and the heights of the main
+    groups along y.
+    """
+    shapes: list[PlacedShape] = []
+    holes: list[Rect] = []
+    stops: list[float] = []
+    at = 0.0
+    for own in layout.faces:
+        for shape in own.shown.shapes:
+            left, bottom, right, top = shape.rect
+            rect = (left + at, bottom, right + at, top)
+            shapes.append(replace(shape, rect=rect, layer=f"{own.face.name}/{shape.layer}"))
+        for left, bottom, right, top in own.shown.holes:
+            if bottom < layout.eaves - 1e-6:
+                holes.append((left + at, bottom, right + at, min(top, layout.eaves)))
+        stops += [at, at + own.face.length]
+        at += own.face.length + GAP
+    highest = max((own.shown.canvas.height for own in layout.faces), default=layout.eaves)
+    faces = GroupLayout(0.0, tuple(stops), ())
+    heights = {
+        name: replace(group, columns=tuple(v for v in group.columns if v <= highest + 1e-9), rows=())
+        for name, group in _heights(layout).items()
+    }
+    return Layout(
+        layout.name,
+        Canvas(max(at - GAP, 0.1), highest),
+        x=AxisLayout(groups={"faces": faces}),
+        y=AxisLayout(groups=heights),
+        shapes=tuple(shapes),
+        holes=tuple(holes),
+        warnings=layout.warnings,
+        complete=layout.complete,
+    )
+
+
+def _heights(layout: BuildingLayout) -> dict[str, GroupLayout]:
+    """The groups whose boundaries are worth a chain: what the walls share, else those of the first wall."""
+    from .vertical import SPINES
+
+    if SPINES in layout.heights.groups:
+        return {SPINES: layout.heights.groups[SPINES]}
+    first = next((own.layout.y.groups for own in layout.faces if own.face.design is not None), {})
+    return dict(first)

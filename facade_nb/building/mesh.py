@@ -1,0 +1,135 @@
+"""The mesh of a solved building for other programs: GLB and OBJ, in space: x east, y up, z south, metres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..render.exchange.obj import Piece, obj_of
+from ..render.mesh import EMPTY, finish, paint
+from ..render.meshing import Mesh, corner_normals
+from ..solver.model.layout import PlacedShape
+from .bodies import Frame, bodies_of, deepest
+from .layout import BuildingLayout
+from .scene import over_all
+
+__all__ = ["Part", "parts_of", "to_glb", "to_obj"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """One thing of a building, in space.
+
+    Attributes
+    ----------
+    name
+        ``wall 1/layer/X Y``, ``wall 1/filling``, ``roof/roof``, ``body``.
+    face
+        The face that it stands on; empty: none.
+    shape
+        The shape that it is, where it is one, and its index among those of its face.
+    """
+
+    name: str
+    face: str
+    mesh: Mesh
+    materials: Mapping[str, str]
+    shape: PlacedShape | None = None
+    index: int = -1
+
+
+def parts_of(layout: BuildingLayout) -> Iterator[Part]:
+    """All that a building is made of, face by face, then the roof and the body."""
+    back = deepest(layout)
+    for own in layout.faces:
+        frame, name = Frame.of(own), own.face.name
+        for body in bodies_of(layout, own, back):
+            mesh = replace(body.mesh, vertices=frame.place(body.mesh.vertices))
+            if body.solid is None:
+                yield Part(f"{name}/filling", name, mesh, body.materials)
+                continue
+            shape = body.solid.shape
+            told = f"{name}/{shape.layer}/{shape.x} {shape.y}"
+            yield Part(told, name, mesh, body.materials, shape, body.index)
+    for name, mesh, material in over_all(layout, back):
+        yield Part(name, "", mesh, {"body": material})
+
+
+def to_glb(layout: BuildingLayout) -> bytes:
+    """Return a building as GLB: a node for each part, whose extras tell which shape of which face it is."""
+    import numpy as np
+    import trimesh
+
+    scene = trimesh.Scene()
+    paints: dict[str, Any] = {}
+    nodes: list[tuple[Part, list[str]]] = []
+    for number, part in enumerate(parts_of(layout)):
+        normals = corner_normals(part.mesh)
+        names = []
+        for k, slot in enumerate(part.mesh.names):
+            chosen = part.mesh.slots == k
+            count = int(chosen.sum())
+            if not count:
+                continue
+            material = part.materials[slot]
+            if material not in paints:
+                paints[material] = paint(material)
+            body = trimesh.Trimesh(
+                vertices=part.mesh.vertices[part.mesh.faces[chosen]].reshape(-1, 3),
+                faces=np.arange(3 * count).reshape(-1, 3),
+                vertex_normals=normals[chosen].reshape(-1, 3),
+                visual=trimesh.visual.TextureVisuals(material=paints[material]),
+                process=False,
+            )
+            names.append(f"{number}/{slot}")
+            scene.add_geometry(body, node_name=names[-1], geom_name=names[-1])
+        if names:
+            nodes.append((part, names))
+    if not nodes:
+        return EMPTY
+
+    def tidy(tree: dict[str, Any]) -> None:
+        own = {node["name"]: node for node in tree["nodes"] if "mesh" in node}
+        old, made = tree["meshes"], []
+        meshes: list[dict[str, Any]] = []
+        for part, names in nodes:
+            primitives = [p for name in names for p in old[own[name]["mesh"]]["primitives"]]
+            made.append({"name": part.name, "mesh": len(meshes), "extras": _told(part)})
+            meshes.append({"name": part.name, "primitives": primitives})
+        tree["nodes"], tree["meshes"] = made, meshes
+        tree["scenes"] = [{"nodes": list(range(len(made)))}]
+        finish(tree)
+
+    return bytes(scene.export(file_type="glb", include_normals=True, tree_postprocessor=tidy))
+
+
+def _told(part: Part) -> dict[str, Any]:
+    if part.shape is None:
+        return {"face": part.face}
+    left, bottom, right, top = part.shape.rect
+    return {
+        "face": part.face,
+        "index": part.index,
+        "layer": part.shape.layer,
+        "x": part.shape.x,
+        "y": part.shape.y,
+        "number": list(part.shape.number),
+        "kind": part.shape.kind,
+        "size": [right - left, top - bottom],
+    }
+
+
+def to_obj(layout: BuildingLayout, materials: str = "") -> tuple[str, str]:
+    """Return a building as OBJ and MTL: each part is a group within an object of its own."""
+    return obj_of((_piece(part) for part in parts_of(layout)), materials)
+
+
+def _piece(part: Part) -> Piece:
+    shape = part.shape
+    if shape is None:
+        return Piece(part.name, part.name, part.mesh, part.materials)
+    x, y = shape.number
+    return Piece(
+        f"{part.face}/{shape.layer}/{shape.x}[{x}] {shape.y}[{y}]", part.name, part.mesh, part.materials
+    )

@@ -1,0 +1,248 @@
+"""The studio of a building: choose a wall, edit its design, see the heights of all walls follow."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from ipywidgets import HTML, ToggleButtons, VBox
+from traitlets import Instance, Unicode
+
+from ...building import Building, BuildingLayout
+from ...building.faces import faces
+from ...design import Design
+from ...design.model import Canvas
+from ...solver import Layout
+from .model import FacadeModel
+from .studio import Studio
+
+__all__ = ["BuildingStudio"]
+
+_NEAR = 1e-9
+_TALL = 240
+"""Pixels that the strip is high at most."""
+
+
+class BuildingStudio(VBox):
+    """A strip with all walls, a choice of one, and a `Studio` for its design.
+
+    An edit solves the whole building again: what changes the heights of one wall changes those of all. Walls of one
+    design change together. The height of the canvas is the building's; its width is that of the wall in the plan.
+
+    Parameters
+    ----------
+    building
+        A `Building`, its JSON text or a path to it.
+    time_limit
+        Seconds after which a solve ends with the best layout found so far.
+    traits
+        Of the `Studio`: ``height``, ``view``.
+
+    Attributes
+    ----------
+    building
+        As it is now; assign another one to go on with that.
+    solved
+        The last one; None before the first.
+    wall
+        The name of the face that is edited, such as ``wall 1``.
+    """
+
+    building: Building = Instance(Building)
+    solved: BuildingLayout | None = Instance(BuildingLayout, allow_none=True)
+    wall: str = Unicode("")
+
+    def __init__(self, building: Building | str | Path, *, time_limit: float = 20.0, **traits: Any) -> None:
+        if not isinstance(building, Building):
+            building = Building.from_json(building)
+        self._time_limit, self._given = time_limit, traits
+        self._studios: dict[str, Studio] = {}
+        self._models: dict[str, FacadeModel] = {}
+        self._found: tuple[Building, BuildingLayout, str] | None = None
+        self._strip = HTML(layout={"width": "100%"})
+        self._choice = ToggleButtons(description="", style={"button_width": "auto"})
+        self._choice.add_class("facade-nb-walls")
+        super().__init__(children=[self._strip, self._choice])
+        self.building = building
+        self._offer()
+        self._choice.observe(lambda change: self._choose(change["new"]), "value")
+        self.observe(self._replaced, "building")
+        self._choice.value = self._choice.options[0][1]
+
+    @property
+    def model(self) -> FacadeModel:
+        """The model of the wall that is edited."""
+        return self._models[self.wall]
+
+    def choose(self, wall: str) -> None:
+        """Edit another wall. Raises `ValueError`, with all names, where there is none of that name, or it is blind."""
+        names = [value for _, value in self._choice.options]
+        if wall not in names:
+            raise ValueError(f"expected one of {', '.join(names)}; found {wall!r}")
+        self._choice.value = wall
+
+    def close(self) -> None:
+        """Stop solving, and close all widgets."""
+        for model in self._models.values():
+            model.close()
+        super().close()
+
+    def _offer(self) -> None:
+        """The walls that there are to choose."""
+        around = [face for face in faces(self.building) if face.design is not None]
+        options = [(f"{face.name} · {face.design} · {face.length:.2f} m", face.name) for face in around]
+        quoins = {own.design: number for number, own in self.building.corners.items() if own.kind == "quoins"}
+        options += [(f"quoins · {design}", f"quoins {design}") for design in quoins]
+        self._choice.options = options or [("no walls", "")]
+
+    def _design_of(self, wall: str) -> str:
+        """The name of the design of a choice."""
+        if wall.startswith("quoins "):
+            return wall.removeprefix("quoins ")
+        return next((f.design for f in faces(self.building) if f.name == wall and f.design), "")
+
+    def _width_of(self, wall: str) -> float:
+        """How wide a choice is, metres."""
+        key = self._design_of(wall)
+        if wall.startswith("quoins "):
+            widths = (own.width for own in self.building.corners.values() if own.design == key)
+            return next((w for w in widths if w is not None), self.building.designs[key].canvas.width)
+        return next(face.length for face in faces(self.building) if face.name == wall)
+
+    def _choose(self, wall: str | None) -> None:
+        """Show the studio of a wall."""
+        if not wall:
+            return
+        key = self._design_of(wall)
+        design = replace(
+            self.building.designs[key], canvas=Canvas(self._width_of(wall), self.building.height)
+        )
+        self.wall = wall
+        if wall not in self._studios:
+            model = FacadeModel(design, time_limit=self._time_limit, solve=self._solver(wall))
+            self._models[wall] = model
+            self._studios[wall] = Studio(model, **self._given)
+            model.observe(lambda _: self._follow(wall), "version")
+        elif self._models[wall].design != design:  # it has changed on another wall of the same design
+            self._models[wall].load(design)
+        elif self._found is not None and self._found[0] != self.building:  # other walls have changed
+            self._models[wall].solve_for(self._time_limit)
+        self.children = [self._strip, self._choice, self._studios[wall]]
+        self._follow(wall)
+
+    def _solver(self, wall: str) -> Callable[..., Layout]:
+        """Solves the whole building with a wall's design; called in a thread of the model's."""
+
+        def solved(
+            design: Design,
+            *,
+            time_limit: float | None = None,
+            should_stop: Callable[[], bool] | None = None,
+            trace: bool = False,
+        ) -> Layout:
+            building = self._with(wall, design)
+            layout = building.solve(time_limit=time_limit, should_stop=should_stop)
+            self._found = building, layout, _strip_of(layout, wall)
+            return _own(layout, wall, design)
+
+        return solved
+
+    def _with(self, wall: str, design: Design) -> Building:
+        """The building with another design on a wall, and on all walls of that design."""
+        key = self._design_of(wall)
+        canvas = self.building.designs[key].canvas  # a canvas of its own means nothing here
+        designs = {**self.building.designs, key: replace(design, canvas=canvas)}
+        return replace(self.building, designs=designs, height=design.canvas.height)
+
+    def _follow(self, wall: str) -> None:
+        """Take over what a model has come to."""
+        if wall != self.wall:
+            return
+        model = self._models[wall]
+        width = self._width_of(wall)
+        if abs(model.design.canvas.width - width) > _NEAR:  # that is the plan's
+            model.edit(lambda own: replace(own, canvas=Canvas(width, own.canvas.height)))
+            return
+        changed = self._with(wall, model.design)
+        if changed != self.building:
+            self.unobserve(self._replaced, "building")
+            self.building = changed
+            self.observe(self._replaced, "building")
+        if self._found is not None and self._found[0] == self.building:
+            self.solved = self._found[1]
+            self._strip.value = self._found[2]
+
+    def _replaced(self, change: Any) -> None:
+        """Another building was assigned."""
+        for model in self._models.values():
+            model.close()
+        self._models.clear()
+        self._studios.clear()
+        self._found = None
+        wall = self.wall
+        self._offer()
+        names = [value for _, value in self._choice.options]
+        self._choice.value = wall if wall in names else names[0]
+        if self.wall not in self._models:
+            self._choose(self._choice.value)
+
+
+def _own(layout: BuildingLayout, wall: str, design: Design) -> Layout:
+    """The layout of a wall as its design makes it, without the parts of quoins; of quoins, their strip."""
+    if wall.startswith("quoins "):
+        return replace(layout.strips[wall.removeprefix("quoins ")], design=design)
+    own = layout.face(wall).layout
+    layers = {layer.name for layer in design.layers}
+    return replace(own, shapes=tuple(shape for shape in own.shapes if shape.layer in layers), design=design)
+
+
+def _strip_of(layout: BuildingLayout, wall: str) -> str:
+    """All walls side by side, the lines at which they meet, and what there is to say."""
+    from ...building.developed import GAP
+    from ...building.vertical import SPINES
+
+    svg = layout.elevation_svg()
+    scale, (origin, _), (width, height) = _drawn(svg)
+    svg = svg.replace("<svg ", '<svg style="width:100%;height:auto;display:block" ', 1)
+    at, marks = 0.0, []
+    for own in layout.faces:
+        chosen = own.face.name == wall
+        left = 100 * (origin + at * scale) / width
+        wide = 100 * own.face.length * scale / width
+        style = (
+            "border-top:3px solid currentColor;font-weight:bold" if chosen else "border-top:1px solid #8888"
+        )
+        marks.append(
+            f'<div style="position:absolute;left:{left:.3f}%;width:{wide:.3f}%;text-align:center;{style}">'
+            f"{escape(own.face.name)}</div>"
+        )
+        at += own.face.length + GAP
+    shared = layout.heights.groups.get(SPINES)
+    told = "All walls are of one design."
+    if shared is not None:
+        told = f"Walls meet at {', '.join(f'{stop:.2f}' for stop in shared.columns)} m."
+    notes = "".join(f"<div>{escape(text)}</div>" for text in layout.warnings)
+    return (
+        f'<div class="facade-nb-around" style="max-width:{_TALL * width / height:.0f}px">{svg}'
+        f'<div style="position:relative;height:1.8em">{"".join(marks)}</div>'
+        f'<div style="font-size:smaller">{escape(told)}{notes}</div></div>'
+    )
+
+
+def _drawn(svg: str) -> tuple[float, tuple[float, float], tuple[float, float]]:
+    """Pixels per metre of an elevation, where its lower left corner is, and how large it is."""
+    head = svg[: svg.index(">")]
+
+    def numbers(name: str) -> list[float]:
+        return [float(value) for value in re.split(r"[ ,]+", head.split(f'{name}="', 1)[1].split('"', 1)[0])]
+
+    (scale,), (x, y), (_, _, width, height) = (
+        numbers("data-scale"),
+        numbers("data-origin"),
+        numbers("viewBox"),
+    )
+    return scale, (x, y), (width, height)
