@@ -131,7 +131,7 @@ def _shape(solid: Solid, defs: Defs, frame: Frame, *, ids: bool) -> str:
             f"<title>{escape(label)}</title>"
         )
     cell = f'<rect class="cell" x="{num(x)}" y="{num(y)}" width="{num(w)}" height="{num(h)}" fill='
-    if shape.geometry == "box" or not solid.parts:
+    if solid.geometry.name == "box" or not solid.parts:
         material = find_material(solid.materials["body"])
         fill = defs.paint(material)
         seam = ""

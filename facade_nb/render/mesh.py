@@ -11,8 +11,7 @@ import numpy as np
 from ..design.files import write_atomically
 from ..solver.model.layout import Layout
 from .materials import find_material, rgb
-from .meshing import corner_normals, mesh_parts
-from .parts import Part
+from .meshing import corner_normals, corner_places
 from .scene import Scene, Solid, build_scene
 
 if TYPE_CHECKING:
@@ -31,16 +30,16 @@ _EMPTY = struct.pack("<4sIIII", b"glTF", 2, 20 + len(_NOTHING), len(_NOTHING), 0
 def to_trimesh(scene: Scene) -> trimesh.Scene:
     """A trimesh scene: a node for every shape and material slot, named ``layer/index X Y/slot``.
 
-    Shapes that look the same share their geometry. Metres, y up, z towards the viewer, as glTF wants it.
+    Shapes that look the same share their geometry. Texture coordinates are in metres. Metres, y up, z towards the viewer, as glTF wants it.
     """
     import trimesh
 
     result = trimesh.Scene()
     paints: dict[str, PBRMaterial] = {}
-    made: dict[tuple[tuple[Part, ...], str, str], str] = {}
+    made: dict[tuple[object, ...], str] = {}
     for solid in scene.solids:
-        local = mesh_parts(solid.parts)
-        normals = corner_normals(local)
+        local = solid.body()
+        normals, places = corner_normals(local), corner_places(local)
         place = np.eye(4)
         place[:3, 3] = (solid.rect[0], solid.rect[1], solid.face)
         for k, slot in enumerate(local.names):
@@ -49,7 +48,7 @@ def to_trimesh(scene: Scene) -> trimesh.Scene:
             if not count:  # too small to be told from nothing
                 continue
             name = solid.materials[slot]
-            key = (solid.parts, slot, name)
+            key = (solid.parts, solid.cuts, slot, name)
             if key not in made:
                 if name not in paints:
                     paints[name] = _paint(name)
@@ -57,7 +56,9 @@ def to_trimesh(scene: Scene) -> trimesh.Scene:
                     vertices=local.vertices[local.faces[chosen]].reshape(-1, 3),
                     faces=np.arange(3 * count).reshape(-1, 3),
                     vertex_normals=normals[chosen].reshape(-1, 3),
-                    visual=trimesh.visual.TextureVisuals(material=paints[name]),
+                    visual=trimesh.visual.TextureVisuals(
+                        uv=places[chosen].reshape(-1, 2), material=paints[name]
+                    ),
                     process=False,
                 )
                 made[key] = f"{solid.shape.geometry} {slot} {name} {len(made)}"

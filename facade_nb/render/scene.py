@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 
 from ..design.errors import DesignError, Fault
 from ..solver.model.layout import Layout, PlacedShape, Rect
+from .cuts import Cut
 from .geometry import Geometry, find_geometry
 from .materials import find_material, rgb
-from .parts import Block, Part, flip
+from .parts import Block, Part, Point, back, flip
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,9 +20,8 @@ if TYPE_CHECKING:
 
     from .meshing import Mesh
 
-__all__ = ["Scene", "Solid", "Triangles", "build_scene"]
+__all__ = ["Scene", "Solid", "Triangles", "build_scene", "without"]
 
-_ROOFS = frozenset({"roof", "hip", "pitched"})
 _EPS = 1e-9
 _LEAST = 1e-4
 """Metres: what is no wider is not drawn. The solver's small positive minimum may be next to nothing."""
@@ -47,6 +47,8 @@ class Solid:
         Its parts, in the frame of the shape (see `parts`).
     materials
         The material of each slot of its parts.
+    cuts
+        What later shapes open in its parts, but for rectangles in a plain box: there the parts are what is left.
     """
 
     index: int
@@ -56,6 +58,7 @@ class Solid:
     depth: float
     parts: tuple[Part, ...] = field(repr=False)
     materials: Mapping[str, str]
+    cuts: tuple[Cut, ...] = field(default=(), repr=False)
 
     @property
     def rect(self) -> Rect:
@@ -67,13 +70,21 @@ class Solid:
         """Z of the surface that takes the shadow of its neighbours."""
         return self.face - self.geometry.recess(self.depth)
 
-    def mesh(self) -> Mesh:
-        """Its triangles, in the scene's frame."""
+    def body(self) -> Mesh:
+        """Its triangles, in its own frame, with openings cut."""
         from .meshing import mesh_parts
 
-        local = mesh_parts(self.parts)
+        if not self.cuts:
+            return mesh_parts(self.parts)
+        from .carving import carved
+
+        return carved(self.parts, self.cuts)
+
+    def mesh(self) -> Mesh:
+        """Its triangles, in the scene's frame."""
         from numpy import array
 
+        local = self.body()
         corner = array([self.rect[0], self.rect[1], self.face])
         return replace(local, vertices=local.vertices + corner)
 
@@ -151,7 +162,7 @@ def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
     """Give every shape of a layout its body.
 
     A window of a higher layer opens the wall of a lower one, as it does when shapes are painted in order: a
-    plain box is cut away where a later shape fills its own rectangle and does not stand in front of the box.
+    wall is cut away where a later shape does not stand in front of it, by the outline of that shape.
 
     Parameters
     ----------
@@ -183,11 +194,11 @@ def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
             continue  # nothing will be drawn: only look for the rest of the faults
         left, bottom, right, top = shape.rect
         width, height = right - left, top - bottom
-        face = shape.offset or geometry.stand(width, height)
-        depth = max(shape.thickness, face, 0.01)
-        if roof_depth is not None and geometry.name in _ROOFS:
+        face = shape.offset or geometry.face(width, height)
+        depth = max(shape.thickness, face, geometry.depth(width, height), 0.01)
+        if roof_depth is not None and geometry.roof:
             depth = max(depth, roof_depth)
-        parts = _parts(geometry.name, round(width, 6), round(height, 6), round(depth, 6), shape.mirrored)
+        parts = _parts(shape.geometry, round(width, 6), round(height, 6), round(depth, 6), shape.mirrored)
         materials = {"body": own, **geometry.slots}
         for part in parts:
             materials.setdefault(part.slot, own)
@@ -202,41 +213,76 @@ def _parts(
 ) -> tuple[Part, ...]:
     if min(width, height) <= _LEAST:  # no room for parts
         return ()
-    return flip(find_geometry(name).parts(width, height, depth), width, height, mirrored)
+    geometry = find_geometry(name)
+    own = mirrored if geometry.turns else (False, False)
+    return flip(geometry.parts(width, height, depth), width, height, own)
 
 
 def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
     layers = {solid.shape.layer for solid in solids}
     if len(layers) < 2:  # the cells of one layer do not overlap
         return solids
-    fronts = [
-        (solid.index, solid.rect, solid.face, solid.shape.layer) for solid in solids if solid.geometry.full
-    ]
+    cutters = [solid for solid in solids if solid.geometry.full or solid.geometry.cuts]
     done: list[Solid] = []
     for solid in solids:
-        left, bottom, right, top = solid.rect
-        holes = [
-            rect
-            for index, rect, face, layer in fronts
-            if index > solid.index
-            and layer != solid.shape.layer
-            and face <= solid.face + _EPS
-            and rect[0] < right - _EPS
-            and rect[2] > left + _EPS
-            and rect[1] < top - _EPS
-            and rect[3] > bottom + _EPS
-        ]
-        rest = _without(solid.rect, holes) if holes and solid.geometry.full else None
-        if rest is None or (rest and solid.shape.geometry != "box"):
+        if not solid.geometry.wall:
             done.append(solid)
             continue
-        d = solid.depth
-        blocks = tuple(Block(r[0] - left, r[1] - bottom, r[2] - left, r[3] - bottom, -d, 0) for r in rest)
-        done.append(replace(solid, parts=blocks))
+        left, bottom, right, top = solid.rect
+        found = [
+            other
+            for other in cutters
+            if other.index > solid.index
+            and other.face <= solid.face + _EPS
+            and other.shape.layer != solid.shape.layer
+            and other.rect[0] < right - _EPS
+            and other.rect[2] > left + _EPS
+            and other.rect[1] < top - _EPS
+            and other.rect[3] > bottom + _EPS
+        ]
+        if not found:
+            done.append(solid)
+            continue
+        holes = [other.rect for other in found if other.geometry.full]
+        cuts = [cut for other in found if not other.geometry.full for cut in _cuts_of(other, solid)]
+        rest = without(solid.rect, holes) if holes else [solid.rect]
+        if rest and solid.geometry.name != "box":
+            cuts += [_hole(rect, solid) for rect in holes]
+        elif holes:
+            d = solid.depth
+            blocks = tuple(Block(r[0] - left, r[1] - bottom, r[2] - left, r[3] - bottom, -d, 0) for r in rest)
+            solid = replace(solid, parts=blocks)
+        done.append(replace(solid, cuts=tuple(cuts)))
     return tuple(done)
 
 
-def _without(rect: Rect, holes: list[Rect]) -> list[Rect]:
+def _hole(rect: Rect, wall: Solid) -> Cut:
+    """A rectangle, opened in a wall."""
+    left, bottom = wall.rect[:2]
+    l, b, r, t = (  # noqa: E741
+        round(v, 6) for v in (rect[0] - left, rect[1] - bottom, rect[2] - left, rect[3] - bottom)
+    )
+    return Cut(((l, b), (r, b), (r, t), (l, t)))
+
+
+def _cuts_of(solid: Solid, wall: Solid) -> Iterator[Cut]:
+    """What a shape that does not fill its rectangle opens in a wall: its outline, through the wall for an opening."""
+    dx, dy = solid.rect[0] - wall.rect[0], solid.rect[1] - wall.rect[1]
+    through = solid.geometry.recess(solid.depth) > 0
+    behind = min((back(part) for part in solid.parts), default=0.0)
+    for outline in _outlines(solid.parts):
+        points = tuple((round(x + dx, 6), round(y + dy, 6)) for x, y in outline)
+        yield Cut(points) if through else Cut(points, round(solid.face + behind - wall.face, 6))
+
+
+@lru_cache(maxsize=512)
+def _outlines(parts: tuple[Part, ...]) -> tuple[tuple[Point, ...], ...]:
+    from .silhouette import silhouette
+
+    return silhouette(parts)
+
+
+def without(rect: Rect, holes: Sequence[Rect]) -> list[Rect]:
     """What is left of a rectangle, as rectangles."""
     rest = [rect]
     for hole in holes:

@@ -9,11 +9,9 @@ from ..solver.model.layout import Layout
 from .materials import DEFAULT_MATERIAL
 from .meshing import Mesh, mesh_parts
 from .parts import Block, Part
-from .scene import Solid, Triangles, build_scene, triangles_of
+from .scene import Solid, Triangles, build_scene, triangles_of, without
 
 __all__ = ["building"]
-
-_ROOFS = frozenset({"roof", "hip", "pitched"})
 
 
 def building(layout: Layout, depth: float | None = None) -> Triangles:
@@ -24,12 +22,12 @@ def building(layout: Layout, depth: float | None = None) -> Triangles:
     bodies: list[tuple[int, Mesh, Mapping[str, str]]] = [
         (solid.index, solid.mesh(), solid.materials) for solid in scene.solids
     ]
-    roofs = [solid.rect for solid in scene.solids if solid.geometry.name in _ROOFS]
+    roofs = [solid.rect for solid in scene.solids if solid.geometry.roof]
     walls = [
         solid
         for solid in scene.solids
         if solid.geometry.full
-        and solid.geometry.name not in _ROOFS
+        and not solid.geometry.roof
         and not any(_within(solid.rect, roof) for roof in roofs)  # a dormer is no wall of the house
     ]
     if walls:
@@ -57,9 +55,11 @@ def _lining(walls: Sequence[Solid], back: float) -> dict[str, list[Part]]:
     for solid in walls:
         behind = solid.face - solid.depth
         if behind > back + 1e-6:
-            left, bottom, right, top = solid.rect
             name = solid.materials["body"]
-            found.setdefault(name, []).append(Block(left, bottom, right, top, back, behind))
+            deeper = [other.rect for other in walls if other.face - other.depth < behind - 1e-6]
+            found.setdefault(name, []).extend(
+                Block(*rect, back, behind) for rect in without(solid.rect, deeper)
+            )
     return found
 
 

@@ -74,9 +74,9 @@ def write_obj(layout: Layout, path: str | Path) -> Path:
 def _bodies(solids: Iterable[Solid], names: dict[str, None]) -> Iterator[str]:
     import numpy as np
 
-    from ..meshing import corner_normals
+    from ..meshing import corner_normals, corner_places
 
-    points = directions = 0
+    points = directions = places = 0
     for solid in solids:
         shape = solid.shape
         x, y = shape.number
@@ -87,9 +87,12 @@ def _bodies(solids: Iterable[Solid], names: dict[str, None]) -> Iterator[str]:
             continue
         vertices, corner = np.unique(mesh.vertices.round(6), axis=0, return_inverse=True)
         normals, turn = np.unique(corner_normals(mesh).reshape(-1, 3).round(4), axis=0, return_inverse=True)
+        spots, spot = np.unique(corner_places(mesh).reshape(-1, 2).round(5), axis=0, return_inverse=True)
         faces = corner.reshape(-1)[mesh.faces] + points + 1
         turns = turn.reshape(-1, 3) + directions + 1
+        textures = spot.reshape(-1, 3) + places + 1
         yield from (f"v {a:.10g} {b:.10g} {c:.10g}" for a, b, c in vertices + 0.0)
+        yield from (f"vt {u:.10g} {v:.10g}" for u, v in spots + 0.0)
         yield from (f"vn {a:.4g} {b:.4g} {c:.4g}" for a, b, c in normals + 0.0)
         for slot, name in enumerate(mesh.names):
             chosen = mesh.slots == slot
@@ -98,10 +101,11 @@ def _bodies(solids: Iterable[Solid], names: dict[str, None]) -> Iterator[str]:
             material = solid.materials[name]
             names.setdefault(material)
             yield f"usemtl {_word(material)}"
-            for (a, b, c), (p, q, r) in zip(faces[chosen], turns[chosen], strict=True):
-                yield f"f {a}//{p} {b}//{q} {c}//{r}"
+            for corners in zip(faces[chosen], textures[chosen], turns[chosen], strict=True):
+                yield "f " + " ".join(f"{v}/{t}/{n}" for v, t, n in zip(*corners, strict=True))
         points += len(vertices)
         directions += len(normals)
+        places += len(spots)
 
 
 def _paints(names: Iterable[str]) -> Iterator[str]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...solver.model.layout import Layout
+from ..meshing import surface_axes
 from ..scene import Triangles
 from ..surroundings import building
 from .finishes import Finishes, finishes
@@ -26,9 +27,6 @@ BODY, GROUND = -1, -2
 
 _FAR = 1500.0
 """How far the ground reaches, metres."""
-
-_LEVEL = 0.97
-"""From that cosine on a surface lies flat: its pattern runs east and south."""
 
 _ROUND = 1e-3
 """A triangle is a round body's where the normals of its corners are so far from its own."""
@@ -80,7 +78,7 @@ def solids_scene(triangles: Triangles, rects: Sequence[Rect], *, ground: bool = 
     vertices = np.zeros((count, 3), VERTEX)
     vertices["position"] = triangles.positions
     corners = triangles.positions.astype(np.float64)
-    axes = _axes(corners)
+    axes = surface_axes(corners)
     vertices["normal"], vertices["tangent"] = axes[:, None, 2], axes[:, None, 0]
     local = np.stack([(corners * axes[:, None, k]).sum(axis=2) for k in (0, 1)], axis=2)
     _spread(vertices, local, triangles.materials, coats)
@@ -103,18 +101,6 @@ def solids_scene(triangles: Triangles, rects: Sequence[Rect], *, ground: bool = 
     sunny = np.stack([np.minimum(box[0], (np.inf, 0, np.inf)) - aside, box[1] + aside])
     made = np.array(chunks, CHUNK)
     return Solids(Scene(flat, indices, coats.grammar, made, sunny=sunny, solid=box), shapes, box)
-
-
-def _axes(corners: Floats) -> Floats:
-    """For each triangle (t, 3, 3): along it, level; up it; out of it."""
-    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    out = np.cross(a, b)
-    out /= np.maximum(np.sqrt((out * out).sum(axis=1, keepdims=True)), 1e-30)
-    along = np.stack([out[:, 2], np.zeros(len(out)), -out[:, 0]], axis=1)  # up × out
-    level = np.abs(out[:, 1]) > _LEVEL
-    along[level] = np.array([1.0, 0.0, 0.0]) - out[level, :1] * out[level]
-    along /= np.sqrt((along * along).sum(axis=1, keepdims=True))
-    return np.stack([along, np.cross(out, along), out], axis=1)
 
 
 def _spread(vertices: np.ndarray, local: Floats, materials: NDArray[np.int64], coats: Finishes) -> None:
