@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Iterable, Sequence
 from itertools import groupby
 from typing import Any
 
-from .materials import Material, find_material, mix
+from .materials import Material, mix
 from .parts import Block, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned, front, outline
+from .ruled import is_rule, material_of, rule_fault, rule_png
 from .scene import Solid
 from .silhouette import covered, shade_on, silhouette
 from .style import FINE, LIGHT, MEDIUM, Style, num, pattern
@@ -20,6 +22,12 @@ _SLOPES = frozenset({"hip", "pitched"})
 _SUN = (-0.404, 0.551, 0.730)
 """Direction to the light of the drawing: surfaces that lean get their tone from it. A wall has its material's."""
 
+_MANY = 60
+"""From so many faces on a body is drawn with tones, and with lines along its sharp edges alone."""
+
+_SHARP = 0.8
+"""Cosine of the angle between faces that meet at a sharp edge."""
+
 _SHADED = frozenset({"body", "back", "glass", "front"})
 """Slots of surfaces on which parts in front throw shadow."""
 
@@ -27,7 +35,8 @@ _SHADED = frozenset({"body", "back", "glass", "front"})
 class Defs:
     """The definitions of one drawing. Ids carry its prefix, so that drawings on one page keep theirs apart."""
 
-    def __init__(self, prefix: str, style: Style, scale: float, anchor: Point) -> None:
+    def __init__(self, prefix: str, style: Style, scale: float, anchor: Point, library: str = "") -> None:
+        self.library = library
         self.prefix, self.style, self.scale, self.anchor = prefix, style, scale, anchor
         self._made: dict[str, str] = {}
         self._paints: dict[tuple[str, str], str] = {}
@@ -51,6 +60,44 @@ class Defs:
                 found = self.style.tone(material.fill)
             self._paints[key] = found
         return found
+
+    def material(self, name: str) -> Material:
+        """A material by its name; a rule has its mean colour."""
+        return material_of(self.library, name)
+
+    def drawable(self, name: str) -> bool:
+        """Whether a material is a rule that can be drawn."""
+        return is_rule(name) and rule_fault(self.library, name, "") is None
+
+    def ruled(self, solid: Solid, origin: Point) -> str:
+        """A value for ``fill`` that draws the rule of a solid in its rectangle, whose lower left corner is given."""
+        left, bottom, right, top = solid.rect
+        size = (round(right - left, 4), round(top - bottom, 4))
+        name = solid.materials["body"]
+        key = ("rule", name, size, num(origin[0]), num(origin[1]))
+        if key not in self._shapes:
+            self._shapes[key] = own = f"{self.prefix}-rule{len(self._shapes)}"
+            w, h = num(size[0] * self.scale), num(size[1] * self.scale)
+            x, y = num(origin[0]), num(origin[1] - size[1] * self.scale)
+            place = f'patternUnits="userSpaceOnUse" x="{x}" y="{y}" width="{w}" height="{h}"'
+            self._made[own] = f'<pattern id="{own}" {place}>{self._picture(name, size)}</pattern>'
+        return f"url(#{self._shapes[key]})"
+
+    def _picture(self, name: str, size: tuple[float, float]) -> str:
+        """The picture of a rule with its upper left corner at the origin; it is held once."""
+        key = ("picture", name, size)
+        if key not in self._shapes:
+            self._shapes[key] = own = f"{self.prefix}-picture{len(self._shapes)}"
+            data = b64encode(rule_png(self.library, name, size, round(1.5 * self.scale, 3))).decode()
+            w, h = num(size[0] * self.scale), num(size[1] * self.scale)
+            veil = ""
+            if self.style.dim:
+                veil = f'<rect width="{w}" height="{h}" fill="{self.style.veil}" fill-opacity="{self.style.dim}"/>'
+            self._made[own] = (
+                f'<g id="{own}"><image width="{w}" height="{h}" preserveAspectRatio="none" '
+                f'href="data:image/png;base64,{data}"/>{veil}</g>'
+            )
+        return f'<use href="#{self._shapes[key]}"/>'
 
     def round(self, material: Material) -> str:
         """A value for ``fill`` that makes a surface look round about a vertical axis."""
@@ -131,7 +178,7 @@ class _Pen:
 
     def draw(self, parts: Sequence[Part]) -> str:
         """Parts of one kind, material and depth, as one path where that can be."""
-        material = find_material(self.solid.materials[parts[0].slot])
+        material = self.defs.material(self.solid.materials[parts[0].slot])
         first = parts[0]
         if isinstance(first, Turned):
             return "".join(self._turned(part, material) for part in parts if isinstance(part, Turned))
@@ -142,7 +189,7 @@ class _Pen:
             return self._facets([part for part in parts if isinstance(part, Polyhedron)], material)
         merged = modelled and isinstance(first, Prism) and first.slot in ("body", "trim") and len(parts) > 1
         d = self._shapes(covered(parts)) if merged else "".join(self._outline(part) for part in parts)
-        fill = self.defs.paint(material) if self._wide(parts) else self.style.tone(material.fill)
+        fill = self._surface(material) if self._wide(parts) else self.style.tone(material.fill)
         text = self._path(d, fill, self.style.tone(material.line), rule=merged or isinstance(first, Ring))
         if merged and first.slot == "body":
             text += f'<path d="{d}" stroke="{self.style.ink}" stroke-width="{MEDIUM}" fill="none"/>'
@@ -162,15 +209,26 @@ class _Pen:
         """Whether there is room for the material's pattern: joinery, rails and verges are plain."""
         slot = parts[0].slot
         geometry = self.solid.geometry
+        if self.defs.drawable(self.solid.materials[slot]):
+            return True
         if slot in ("glass", "gable", "upper"):
             return True
         return slot in ("body", "back") and (geometry.runs_on or geometry.name == "pilaster")
+
+    def _surface(self, material: Material) -> str:
+        """What covers a surface: the material's pattern, or the rule that the shape is drawn by."""
+        if self.defs.drawable(material.name):
+            return self.defs.ruled(self.solid, (self.x0, self.y0))
+        return self.defs.paint(material)
 
     def _facets(self, parts: Sequence[Polyhedron], material: Material) -> str:
         """Bodies with plane faces: each face toned by how it lies to the light."""
         fill, line = self.style.tone(material.fill), self.style.tone(material.line)
         text = ""
         for part in parts:
+            if len(part.faces) > _MANY:
+                text += self._carving(part, material)
+                continue
             for face in part.faces:
                 spots = [part.points[i] for i in face]
                 if _area([spot[:2] for spot in spots]) <= 1e-6:
@@ -178,7 +236,7 @@ class _Pen:
                 lit = sum(a * b for a, b in zip(_normal(spots), _SUN, strict=True)) - _SUN[2]
                 d = polygon_path([self.at(x, y) for x, y, _ in spots])
                 if self._wide(parts):
-                    text += self._path(d, self.defs.paint(material), line)
+                    text += self._path(d, self._surface(material), line)
                     veil = ("#ffffff", 0.5 * lit) if lit > 0 else (self.style.shadow, -0.38 * lit)
                     text += f'<path d="{d}" fill="{veil[0]}" fill-opacity="{num(min(veil[1], 0.6))}"/>'
                 else:
@@ -189,6 +247,48 @@ class _Pen:
                     )
                     text += self._path(d, tone, line)
         return text
+
+    def _carving(self, part: Polyhedron, material: Material) -> str:
+        """A body of many faces, far ones first: tones by how they lie to the light, lines along its sharp edges."""
+        fill, line = self.style.tone(material.fill), self.style.tone(material.line)
+        normals = [_normal([part.points[i] for i in face]) for face in part.faces]
+        across: dict[frozenset[int], list[int]] = {}
+        for k, face in enumerate(part.faces):
+            for edge in zip(face, [*face[1:], face[0]], strict=True):
+                across.setdefault(frozenset(edge), []).append(k)
+        seen = [k for k, normal in enumerate(normals) if normal[2] > 1e-6]
+        seen.sort(key=lambda k: sum(part.points[i][2] for i in part.faces[k]) / len(part.faces[k]))
+        text, lines, before = "", "", ""
+        d = ""
+        for k in seen:
+            face = part.faces[k]
+            lit = round(12 * (sum(a * b for a, b in zip(normals[k], _SUN, strict=True)) - _SUN[2])) / 12
+            tone = mix(fill, "#ffffff", min(1.1 * lit, 0.6)) if lit > 0 else mix(fill, line, min(-lit, 0.8))
+            sharp = [
+                edge
+                for edge in zip(face, [*face[1:], face[0]], strict=True)
+                if any(
+                    sum(a * b for a, b in zip(normals[k], normals[other], strict=True)) < _SHARP
+                    for other in across[frozenset(edge)]
+                )
+            ]
+            if before and (tone != before or sharp):
+                text += self._path_of(d, before)
+                d = ""
+            before = tone
+            d += polygon_path([self.at(*part.points[i][:2]) for i in face])
+            if sharp:
+                text, d = text + self._path_of(d, tone), ""
+                lines = "".join(
+                    "M{}L{}".format(*(" ".join(map(num, self.at(*part.points[i][:2]))) for i in edge))
+                    for edge in sharp
+                )
+                text += f'<path d="{lines}" stroke="{line}" stroke-width="{FINE}" fill="none"/>'
+        return text + (self._path_of(d, before) if d else "")
+
+    @staticmethod
+    def _path_of(d: str, tone: str) -> str:
+        return f'<path d="{d}" fill="{tone}" stroke="{tone}" stroke-width=".4"/>' if d else ""
 
     def _shade(self, parts: Sequence[Part]) -> str:
         """The shadow of what is in front within the shape, on parts of one depth."""

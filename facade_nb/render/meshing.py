@@ -17,10 +17,10 @@ __all__ = [
     "assembled",
     "corner_normals",
     "corner_places",
-    "surface_axes",
     "have_area",
     "mesh_part",
     "mesh_parts",
+    "surface_axes",
     "triangulate",
 ]
 

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from ..design.errors import DesignError, Fault
 from ..solver.model.layout import Layout, PlacedShape, Rect
 from .cuts import Cut
-from .geometry import Geometry, find_geometry
-from .materials import find_material, rgb
+from .geometry import DEFAULT_GEOMETRY, Geometry, find_geometry
+from .materials import Material, find_material, rgb
+from .meshfile import file_geometry, is_file
 from .parts import Block, Part, Point, back, flip
+from .ruled import is_rule, library_of, material_of, rule_fault
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,11 +23,15 @@ if TYPE_CHECKING:
 
     from .meshing import Mesh
 
-__all__ = ["Scene", "Solid", "Triangles", "build_scene", "without"]
+__all__ = ["DrawingWarning", "Scene", "Solid", "Triangles", "build_scene", "drawing_faults", "without"]
 
 _EPS = 1e-9
 _LEAST = 1e-4
 """Metres: what is no wider is not drawn. The solver's small positive minimum may be next to nothing."""
+
+
+class DrawingWarning(UserWarning):
+    """Something of a design cannot be drawn as it says; the rest is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +110,8 @@ class Triangles:
         (t,) int64: index into `material_names`.
     shapes
         (t,) int64: which shape of the layout a triangle belongs to, for picking.
+    material_names, library
+        Names of the materials, and the grammar of those that are rules.
     """
 
     positions: NDArray[np.float32]
@@ -111,22 +120,44 @@ class Triangles:
     materials: NDArray[np.int64]
     shapes: NDArray[np.int64]
     material_names: tuple[str, ...]
+    library: str = ""
+
+    def material(self, name: str) -> Material:
+        """A material of its triangles; a rule has its mean colour."""
+        return material_of(self.library, name)
 
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """The solids of a layout, in its order (bottom layer first), on its canvas (width, height)."""
+    """The solids of a layout, in its order (bottom layer first), on its canvas (width, height).
+
+    Attributes
+    ----------
+    canvas, solids
+        As said.
+    library
+        The texture grammar whose rules are materials.
+    faults
+        What cannot be drawn as the design says, each with its shape and layer. Something plain stands for it.
+    """
 
     canvas: tuple[float, float]
     solids: tuple[Solid, ...]
+    library: str = field(default="", repr=False)
+    faults: tuple[Fault, ...] = ()
+
+    def material(self, name: str) -> Material:
+        """A material of its solids; a rule has its mean colour."""
+        return material_of(self.library, name)
 
     def triangles(self) -> Triangles:
         """All triangles of all solids."""
-        return triangles_of([(solid.index, solid.mesh(), solid.materials) for solid in self.solids])
+        bodies = [(solid.index, solid.mesh(), solid.materials) for solid in self.solids]
+        return triangles_of(bodies, self.library)
 
 
-def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]]) -> Triangles:
-    """The triangles of meshes, each with its shape's index and the materials of its slots."""
+def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]], library: str = "") -> Triangles:
+    """The triangles of meshes, each with its shape's index and the materials of its slots; rules are of `library`."""
     import numpy as np
 
     from .meshing import corner_normals, have_area
@@ -143,8 +174,10 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]]) -> Trian
         shapes.append(np.full(len(mesh.faces), index))
     if not positions:
         empty = np.zeros((0, 3, 3), np.float32)
-        return Triangles(empty, empty, np.zeros((0, 3), np.uint8), np.zeros(0, int), np.zeros(0, int), ())
-    palette = np.array([rgb(find_material(name).base) for name in names], np.uint8)
+        return Triangles(
+            empty, empty, np.zeros((0, 3), np.uint8), np.zeros(0, int), np.zeros(0, int), (), library
+        )
+    palette = np.array([rgb(material_of(library, name).base) for name in names], np.uint8)
     corners = np.concatenate(positions)
     kept = have_area(corners)  # far from the origin single precision tells less
     material = np.concatenate(materials)[kept]
@@ -155,6 +188,7 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]]) -> Trian
         material,
         np.concatenate(shapes)[kept],
         tuple(names),
+        library,
     )
 
 
@@ -175,16 +209,47 @@ def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
     ------
     DesignError
         If a geometry or a material is unknown; it has one fault for each pair of symbols with such a shape.
+
+    Warns
+    -----
+    DrawingWarning
+        For each shape that cannot be drawn as the design says: a rule that the design's grammar does not have, a
+        mesh file that cannot be read. It is drawn plain.
     """
-    return Scene((layout.canvas.width, layout.canvas.height), _cut(tuple(_solids(layout, roof_depth))))
+    solids = _cut(tuple(_solids(layout, roof_depth)))
+    faults = drawing_faults(layout)
+    for fault in faults:
+        warnings.warn(str(fault), DrawingWarning, stacklevel=2)
+    return Scene((layout.canvas.width, layout.canvas.height), solids, library_of(layout), faults)
+
+
+def drawing_faults(layout: Layout) -> tuple[Fault, ...]:
+    """What of a layout cannot be drawn as its design says, each with its shape and layer."""
+    found: dict[str, Fault] = {}
+    library = library_of(layout)
+    for shape in layout.shapes:
+        if is_rule(shape.material):
+            fault = rule_fault(library, shape.material, f"{_place(shape)}: material")
+            if fault is not None:
+                found[str(fault)] = fault
+        if is_file(shape.geometry):
+            try:
+                file_geometry(shape.geometry, f"{_place(shape)}: geometry")
+            except DesignError as error:
+                found.update((str(fault), fault) for fault in error.faults)
+    return tuple(found.values())
+
+
+def _place(shape: PlacedShape) -> str:
+    return f'shapes["{shape.x} {shape.y}"] in layer {shape.layer!r}'
 
 
 def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
     faults: dict[str, Fault] = {}
     for index, shape in enumerate(layout.shapes):
-        place = f'shapes["{shape.x} {shape.y}"] in layer {shape.layer!r}'
+        place = _place(shape)
         try:
-            geometry = find_geometry(shape.geometry, f"{place}: geometry")
+            geometry = _geometry(shape)
             own = geometry.material("body", shape.material)
             find_material(shape.material, f"{place}: material")
         except DesignError as error:
@@ -198,7 +263,8 @@ def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
         depth = max(shape.thickness, face, geometry.depth(width, height), 0.01)
         if roof_depth is not None and geometry.roof:
             depth = max(depth, roof_depth)
-        parts = _parts(shape.geometry, round(width, 6), round(height, 6), round(depth, 6), shape.mirrored)
+        make = _parts if not is_file(shape.geometry) else partial(_fitted, geometry)
+        parts = make(shape.geometry, round(width, 6), round(height, 6), round(depth, 6), shape.mirrored)
         materials = {"body": own, **geometry.slots}
         for part in parts:
             materials.setdefault(part.slot, own)
@@ -207,15 +273,30 @@ def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
         raise DesignError(faults.values())
 
 
+def _geometry(shape: PlacedShape) -> Geometry:
+    """The geometry of a shape; that of a file which cannot be drawn is a plain block."""
+    if not is_file(shape.geometry):
+        return find_geometry(shape.geometry, f"{_place(shape)}: geometry")
+    try:
+        return file_geometry(shape.geometry)
+    except DesignError:  # `drawing_faults` tells it
+        return find_geometry(DEFAULT_GEOMETRY)
+
+
+def _fitted(
+    geometry: Geometry, name: str, width: float, height: float, depth: float, mirrored: tuple[bool, bool]
+) -> tuple[Part, ...]:
+    if min(width, height) <= _LEAST:  # no room for parts
+        return ()
+    return flip(geometry.parts(width, height, depth), width, height, mirrored)
+
+
 @lru_cache(maxsize=2048)
 def _parts(
     name: str, width: float, height: float, depth: float, mirrored: tuple[bool, bool]
 ) -> tuple[Part, ...]:
-    if min(width, height) <= _LEAST:  # no room for parts
-        return ()
     geometry = find_geometry(name)
-    own = mirrored if geometry.turns else (False, False)
-    return flip(geometry.parts(width, height, depth), width, height, own)
+    return _fitted(geometry, name, width, height, depth, mirrored if geometry.turns else (False, False))
 
 
 def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:

@@ -171,15 +171,8 @@ def pediment(w: float, h: float, d: float, *, form: str = "triangle") -> tuple[P
             (0.55 * base, 0.0), (base, 0.0))  # fmt: skip
     parts: list[Part] = [Moulding(0, w, foot, -d, "trim")]
     rise = h - base - tall
-    steps = 24
     if form == "segment":
-        radius = ((w / 2) ** 2 + rise**2) / (2 * rise)
-        turn = atan2(w / 2, radius - rise) if radius > rise else pi - atan2(w / 2, rise - radius)
-        line = [
-            (w / 2 + radius * sin(a), base + rise - radius + radius * cos(a))
-            for a in (turn * (2 * i / steps - 1) for i in range(steps + 1))
-        ]
-        line = [(0.0, base), *line[1:-1], (w, base)]
+        line = _bow(w, base, rise)
         runs = [line]
     else:
         gap = 0.2 * w if form == "broken" else 0.0
@@ -204,6 +197,18 @@ def pediment(w: float, h: float, d: float, *, form: str = "triangle") -> tuple[P
                    (0.76, 0.55), (0.82, 0.6), (0.9, 0.3), (1.0, 0.08))  # fmt: skip
         parts.append(Turned(w / 2, -urn, tuple((base + t * room, r * urn) for t, r in profile), "trim"))
     return tuple(parts)
+
+
+def _bow(w: float, foot: float, rise: float, steps: int = 24) -> list[Point]:
+    """An arc from the left to the right over a width: of a circle where it is flat enough, else of an ellipse."""
+    if rise >= w / 2:
+        line = list(reversed(arc(w / 2, foot, w / 2, rise, steps)))
+    else:
+        radius = ((w / 2) ** 2 + rise**2) / (2 * rise)
+        turn = atan2(w / 2, radius - rise)
+        turns = (turn * (2 * i / steps - 1) for i in range(steps + 1))
+        line = [(w / 2 + radius * sin(a), foot + rise - radius + radius * cos(a)) for a in turns]
+    return [(0.0, foot), *line[1:-1], (w, foot)]
 
 
 def statue(w: float, h: float, d: float) -> tuple[Part, ...]:

@@ -9,6 +9,7 @@ from ..solver.model.layout import Layout
 from .materials import DEFAULT_MATERIAL
 from .meshing import Mesh, mesh_parts
 from .parts import Block, Part
+from .ruled import is_rule
 from .scene import Solid, Triangles, build_scene, triangles_of, without
 
 __all__ = ["building"]
@@ -32,11 +33,14 @@ def building(layout: Layout, depth: float | None = None) -> Triangles:
     ]
     if walls:
         back = min(solid.face - solid.depth for solid in walls)
-        bodies += [_mesh(-1, parts, name) for name, parts in _lining(walls, back).items()]
-        bodies += [_mesh(-1, parts, name) for name, parts in _body(walls, width, back, deep).items()]
+        behind = [*_lining(walls, back).items(), *_body(walls, width, back, deep).items()]
+        # What a rule draws is one wall; the house behind it has its mean colour.
+        bodies += [
+            _mesh(-1, parts, scene.material(name).fill if is_rule(name) else name) for name, parts in behind
+        ]
     if not bodies:  # an empty canvas: a blank panel of its size
         bodies.append(_mesh(-1, [Block(0, 0, width, layout.canvas.height, -0.05, 0)], "plaster-white"))
-    return triangles_of(bodies)
+    return triangles_of(bodies, scene.library)
 
 
 def _mesh(index: int, parts: Sequence[Part], material: str) -> tuple[int, Mesh, Mapping[str, str]]:

@@ -8,7 +8,8 @@ from pathlib import Path
 from ...design.files import write_together
 from ...design.targets import locate
 from ...solver.model.layout import Layout
-from ..materials import find_material, rgb
+from ..materials import rgb
+from ..ruled import library_of, material_of
 from ..scene import Solid, build_scene
 
 __all__ = ["materials_beside", "to_obj", "write_obj"]
@@ -38,7 +39,7 @@ def to_obj(layout: Layout, materials: str = "") -> tuple[str, str]:
         head.append(f"mtllib {materials}")
     names: dict[str, None] = {}
     body = list(_bodies(scene.solids, names))
-    return "\n".join([*head, *body]) + "\n", "\n".join(_paints(names)) + "\n"
+    return "\n".join([*head, *body]) + "\n", "\n".join(_paints(names, library_of(layout))) + "\n"
 
 
 def materials_beside(path: str | Path) -> Path | None:
@@ -108,10 +109,10 @@ def _bodies(solids: Iterable[Solid], names: dict[str, None]) -> Iterator[str]:
         places += len(spots)
 
 
-def _paints(names: Iterable[str]) -> Iterator[str]:
+def _paints(names: Iterable[str], library: str) -> Iterator[str]:
     yield "# facade_nb"
     for name in names:
-        material = find_material(name)
+        material = material_of(library, name)
         red, green, blue = (value / 255 for value in rgb(material.base))
         shine = 2 / max(material.roughness, 0.05) ** 4 - 2  # the exponent that is as rough
         gloss = 0.04 + 0.5 * material.metallic

@@ -73,7 +73,7 @@ def solids_of(layout: Layout, *, ground: bool = True) -> Solids:
 
 def solids_scene(triangles: Triangles, rects: Sequence[Rect], *, ground: bool = True) -> Solids:
     """The scene of triangles; `rects`: those of the shapes that they name, metres. Rooms fill these."""
-    coats = finishes(triangles.material_names)
+    coats = finishes(triangles.material_names, triangles.library)
     count = len(triangles.positions)
     vertices = np.zeros((count, 3), VERTEX)
     vertices["position"] = triangles.positions
@@ -84,6 +84,7 @@ def solids_scene(triangles: Triangles, rects: Sequence[Rect], *, ground: bool = 
     _spread(vertices, local, triangles.materials, coats)
     _rounded(vertices, local, triangles, axes, coats)
     _glazed(vertices, triangles, axes, rects, coats)
+    _drawn(vertices, local, triangles, axes, rects, coats)
     flat: np.ndarray = vertices.reshape(-1)
     shapes = triangles.shapes.astype(np.int64)
     points = corners.reshape(-1, 3)
@@ -161,6 +162,32 @@ def _glazed(
     vertices["size"][own] = (every[shape, 2:] - every[shape, :2])[:, None]
     vertices["start"][own] = coats.pane
     vertices["seed"][own] = np.stack([(37 * shape + 11) % 16384, (101 * shape + 7) % 16384], axis=1)[:, None]
+
+
+def _drawn(
+    vertices: np.ndarray,
+    local: Floats,
+    triangles: Triangles,
+    axes: Floats,
+    rects: Sequence[Rect],
+    coats: Finishes,
+) -> None:
+    """What a rule draws fills the rectangle of its shape; on other sides of the body it begins at their edge."""
+    own = np.flatnonzero(coats.ruled[triangles.materials] & (triangles.shapes >= 0))
+    if not len(own):
+        return
+    every = np.array(rects, np.float64)[triangles.shapes[own]]
+    size = every[:, 2:] - every[:, :2]
+    front = axes[own, 2, 2] > 0.5
+    place = local[own]
+    for shape in np.unique(triangles.shapes[own[~front]]):  # each side of a shape from its own edge
+        for normal in np.unique(axes[own][(triangles.shapes[own] == shape) & ~front, 2].round(3), axis=0):
+            side = ~front & (triangles.shapes[own] == shape) & (axes[own, 2].round(3) == normal).all(axis=1)
+            place[side] -= place[side].min(axis=(0, 1))
+    place[front] = triangles.positions[own[front]][:, :, :2] - every[front][:, None, :2]
+    vertices["place"][own] = np.clip(place, 0, size[:, None])
+    vertices["size"][own] = size[:, None]
+    vertices["start"][own] = coats.flat[triangles.materials[own]][:, None]
 
 
 def _ground(box: Floats, coats: Finishes) -> np.ndarray:
