@@ -58,6 +58,19 @@ class Channel(Scenery):
             gallery=list(gallery.names()),
             catalogue={
                 "geometries": list(GEOMETRIES),
+                "parameters": {
+                    name: [
+                        {
+                            "name": own.name,
+                            "summary": own.summary,
+                            "expected": "" if own.words else own.expected,
+                            "words": list(own.words),
+                        }
+                        for own in geometry.parameters
+                    ]
+                    for name, geometry in GEOMETRIES.items()
+                    if geometry.parameters
+                },
                 "materials": list(MATERIALS),
                 "swatches": {name: material.fill for name, material in MATERIALS.items()},
                 "modes": describe_modes(),

@@ -172,9 +172,24 @@ export interface State extends StageState {
   svg: string;
   theme: "light" | "dark";
   gallery: string[];
-  catalogue: { geometries: string[]; materials: string[]; swatches: Record<string, string>; modes?: ModeState[] };
+  catalogue: {
+    geometries: string[];
+    /** By the name of a geometry. */
+    parameters?: Record<string, ParameterState[]>;
+    materials: string[];
+    swatches: Record<string, string>;
+    modes?: ModeState[];
+  };
   trouble: string;
   ack: { client?: string; seq?: number };
+}
+
+/** A parameter of a geometry: a number or a text, or one of some words. */
+export interface ParameterState {
+  name: string;
+  summary: string;
+  expected: string;
+  words: string[];
 }
 
 /** A reflection mode, and what it makes of the word EkG, by the count. */
