@@ -239,6 +239,10 @@ class _Writer:
         """A rule, of its own, for a surface of a material."""
         return self._wall_rule(material)
 
+    def rule(self, name: str, body: str) -> str:
+        """A rule with that body, which others may share."""
+        return self._rule(name, body)
+
     def _wall_rule(self, material: str) -> str:
         return self._rule(f"wall_{material}", self._wall(material))
 
