@@ -302,7 +302,8 @@ _TABLE = (
     Geometry(
         "dormer", dormer, "window in a roof between cheeks, under a roof of its own",
         "the roof comes 0.12 m forward and runs back into the slope, 1.3 times the height at least",
-        full=False, least=0.3, slots=_WINDOW | {"roof": "metal", "cheek": "metal", "frame": "painted-wood"},
+        full=False, stand=lambda w, h, **told: 0.3, least=0.3,
+        slots=_WINDOW | {"roof": "metal", "cheek": "metal", "frame": "painted-wood"},
         own="painted-wood", unsuited=_PLAIN | {"glass"},
         modelled=True,
         parameters=(Parameter("roof", "form of its roof", words=("gable", "arch", "flat")),),

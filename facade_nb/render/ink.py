@@ -19,6 +19,9 @@ __all__ = ["Defs", "clip", "draw_parts", "hull", "polygon_path"]
 _SLOPES = frozenset({"hip", "pitched"})
 """Roofs of a single slope in front: drawn flat, their faces unshaded."""
 
+_IN_ORDER = frozenset({"bay", "hipped", "mansard"})
+"""Geometries that list their parts back to front: their surfaces lean, so where one comes nearest tells nothing."""
+
 _SUN = (-0.404, 0.551, 0.730)
 """Direction to the light of the drawing: surfaces that lean get their tone from it. A wall has its material's."""
 
@@ -159,8 +162,7 @@ def inline(solid: Solid) -> bool:
 def draw_parts(solid: Solid, defs: Defs, origin: Point) -> str:
     """All parts of a solid, back to front, with the shape's lower left corner at the pixel `origin`."""
     pen = _Pen(solid, defs, origin)
-    layered = solid.geometry.roof and solid.geometry.modelled  # its slopes lean back behind their own foot
-    ordered = list(solid.parts) if layered else sorted(solid.parts, key=front)
+    ordered = list(solid.parts) if solid.geometry.name in _IN_ORDER else sorted(solid.parts, key=front)
     drawn = "".join(
         pen.draw(list(same)) for _, same in groupby(ordered, key=lambda p: (type(p), p.slot, front(p)))
     )
