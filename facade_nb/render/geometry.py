@@ -228,6 +228,10 @@ _TABLE = (
     Geometry(
         "window", window, "frame, leaves, glazing bars by size, sill", "the sill comes 0.06 m forward",
         recess=reveal, least=0.3, slots=_WINDOW, own="painted-wood", unsuited=_PLAIN | {"glass"},
+        parameters=(
+            Parameter("leaves", "leaves side by side", 1, 12, whole=True),
+            Parameter("rows", "rows of panes below the transom", 1, 12, whole=True),
+        ),
     ),
     Geometry(
         "french-window", french_window, "glazed doors to the floor behind a low railing",
@@ -237,10 +241,12 @@ _TABLE = (
     Geometry(
         "shop", shop, "shop window: stall riser, large panes, fanlights", "the sill comes 0.04 m forward",
         recess=reveal, least=0.3, slots=_WINDOW, own="painted-green", unsuited=_PLAIN | {"glass"},
+        parameters=(Parameter("panes", "panes side by side", 1, 12, whole=True),),
     ),
     Geometry(
         "door", door, "frame, panelled leaves, step, fanlight where it is tall", "the step comes 0.3 m forward",
         recess=reveal, least=0.3, slots=_WINDOW | {"metal": "bronze"}, own="oak", unsuited=_PLAIN | {"glass"},
+        parameters=(Parameter("leaves", "leaves side by side", 1, 2, whole=True),),
     ),
     Geometry(
         "arch", archway, "wall with an arched, glazed opening", "the keystone comes 0.03 m forward",
@@ -258,10 +264,12 @@ _TABLE = (
     Geometry(
         "balcony", balcony, "slab with an iron railing; open above", full=False, least=0.3,
         stand=lambda w, h, **told: 0.9, slots={"rail": "iron"}, own="stone", unsuited=_PLAIN,
+        parameters=(Parameter("rail", "height of the railing, metres", 0.4, 2),),
     ),
     Geometry(
         "railing", railing, "iron railing alone; open above", full=False, least=0.3,
         stand=lambda w, h, **told: 0.08, slots={"rail": "iron"},
+        parameters=(Parameter("rail", "height of the railing, metres", 0.4, 2),),
     ),
     Geometry(
         "roof", gabled, "gabled roof, its gable to the viewer",

@@ -20,10 +20,11 @@ def _fine(d: float) -> float:
     return min(1.0, d / 0.1)
 
 
-def window(w: float, h: float, d: float) -> tuple[Part, ...]:
+def window(w: float, h: float, d: float, *, leaves: int = 0, rows: int = 0) -> tuple[Part, ...]:
     """A casement window: leaves by width, a transom where it is tall, glazing bars by size, a sill."""
     sill = min(0.07, 0.07 * h)
-    return (*casement(0, sill, w, h, d, bars=True), Block(0, 0, w, sill, -d, 0.06, "sill"))
+    panes = casement(0, sill, w, h, d, bars=True, count=leaves, panes=rows)
+    return (*panes, Block(0, 0, w, sill, -d, 0.06, "sill"))
 
 
 def french_window(w: float, h: float, d: float) -> tuple[Part, ...]:
@@ -45,8 +46,10 @@ def french_window(w: float, h: float, d: float) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: bool) -> list[Part]:
-    """Frame, leaves, transom and glass in a rectangle, `d` metres deep."""
+def casement(
+    x0: float, y0: float, x1: float, y1: float, d: float, *, bars: bool, count: int = 0, panes: int = 0
+) -> list[Part]:
+    """Frame, leaves, transom and glass in a rectangle, `d` metres deep; `count` leaves with `panes` rows of panes."""
     w, h = x1 - x0, y1 - y0
     fine = _fine(d)
     set_back = reveal(d)  # of the frame behind the face
@@ -56,7 +59,8 @@ def casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: bool
     inner = (x0 + frame, y0 + frame, x1 - frame, y1 - frame)
     if inner[2] - inner[0] <= 2 * frame or inner[3] - inner[1] <= 2 * frame:  # a slit: glass and frame alone
         return [Block(*inner, -d, -deep, "glass"), Ring(x0, y0, x1, y1, frame, -d, -set_back)]
-    leaves = 1 if w < 0.72 else 2 if w < 1.8 else max(3, round(w / 0.8))
+    most = max(1, int((inner[2] - inner[0]) / (2.5 * frame)))
+    leaves = min(count, most) if count else 1 if w < 0.72 else 2 if w < 1.8 else max(3, round(w / 0.8))
     transom = inner[1] + 0.7 * (inner[3] - inner[1]) if h > 1.5 and h > 1.05 * w / leaves else None
     parts: list[Part] = [Block(*inner, -d, -deep, "glass"), Ring(x0, y0, x1, y1, frame, -d, -set_back)]
     pitch = (inner[2] - inner[0]) / leaves
@@ -65,7 +69,8 @@ def casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: bool
     for i in range(leaves):  # each leaf has its own slender frame
         left, right = inner[0] + i * pitch, inner[0] + (i + 1) * pitch
         if bars:
-            rows = 1 if h < 0.9 else max(2, round((top - inner[1]) / 0.5))
+            rows = panes or (1 if h < 0.9 else max(2, round((top - inner[1]) / 0.5)))
+            rows = min(rows, max(1, int((top - inner[1]) / 0.06)))
             for j in range(1, rows):
                 y = inner[1] + (top - inner[1]) * j / rows
                 parts.append(Block(left, y - 0.011, right, y + 0.011, -d, bar))
@@ -80,7 +85,7 @@ def casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: bool
     return parts
 
 
-def shop(w: float, h: float, d: float) -> tuple[Part, ...]:
+def shop(w: float, h: float, d: float, *, panes: int = 0) -> tuple[Part, ...]:
     """A shop window: stall riser, panes as large as they come, a row of fanlights, a sill."""
     set_back, frame, fine = reveal(d), min(0.08, 0.06 * min(w, h)), _fine(d)
     deep = set_back + min(0.05, (d - set_back) / 2)
@@ -92,7 +97,7 @@ def shop(w: float, h: float, d: float) -> tuple[Part, ...]:
         Ring(0, riser, w, h, frame, -d, -set_back),
         Block(frame, fan - frame / 2, w - frame, fan + frame / 2, -d, -set_back),
     ]
-    panes = max(1, round(w / 1.5))
+    panes = min(panes, max(1, int(w / (3 * frame)))) if panes else max(1, round(w / 1.5))
     for i in range(1, panes):
         x = w * i / panes
         parts.append(
@@ -111,7 +116,7 @@ def shop(w: float, h: float, d: float) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def door(w: float, h: float, d: float) -> tuple[Part, ...]:
+def door(w: float, h: float, d: float, *, leaves: int = 0) -> tuple[Part, ...]:
     """A panelled door: frame, one or two leaves, a step, a fanlight where there is height for it."""
     set_back = reveal(d)
     deep = set_back + min(0.04, (d - set_back) / 2)
@@ -134,7 +139,7 @@ def door(w: float, h: float, d: float) -> tuple[Part, ...]:
             x = frame + (w - 2 * frame) * i / max(2, round(w / 0.4))
             parts.append(Block(x - 0.012, head + frame / 2, x + 0.012, h - frame, -d, -deep))
         head -= frame / 2
-    leaves = 2 if w > 1.25 else 1
+    leaves = leaves or (2 if w > 1.25 else 1)
     pitch = (w - 2 * frame) / leaves
     for i in range(leaves):
         left = frame + i * pitch

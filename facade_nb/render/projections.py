@@ -13,15 +13,15 @@ from .parts import Block, Part, Point, Prism, Ring
 __all__ = ["awning", "balcony", "bay", "dormer", "loggia", "railing", "sign"]
 
 
-def balcony(w: float, h: float, d: float) -> tuple[Part, ...]:
+def balcony(w: float, h: float, d: float, *, rail: float = 0.95) -> tuple[Part, ...]:
     """A slab on the cell's floor with a railing of iron bars around its front and sides."""
     slab = min(0.16, 0.12 * h)
-    return (Block(0, 0, w, slab, -d, 0), *rails(w, slab, slab + min(0.95, 0.5 * h), d))
+    return (Block(0, 0, w, slab, -d, 0), *rails(w, slab, slab + min(rail, 0.5 * h), d))
 
 
-def railing(w: float, h: float, d: float) -> tuple[Part, ...]:
+def railing(w: float, h: float, d: float, *, rail: float = 1.05) -> tuple[Part, ...]:
     """The railing alone, as high as a rail should be; the rest of the cell stays open."""
-    return rails(w, 0.0, min(1.05, h), min(d, 0.05))
+    return rails(w, 0.0, min(rail, h), min(d, 0.05))
 
 
 def rails(w: float, foot: float, head: float, d: float) -> tuple[Part, ...]:

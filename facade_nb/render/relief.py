@@ -19,12 +19,16 @@ from .ink import clip, hull
 from .meshing import triangulate
 from .parts import Block, Moulding, Point, Polyhedron, Prism, Turned, front, outline
 from .scene import Scene, Solid
+from .silhouette import pieces
 from .style import LIGHT
 
 __all__ = ["Edges", "Relief"]
 
 _STEP = 0.025
 """Smaller differences in depth, metres, are drawn as a fine line, not as an edge."""
+
+_MANY = 60
+"""Bodies of so few faces are taken as convex."""
 
 _COURSES = frozenset({"cornice", "ledge", "pitched", "mansard"})
 """Geometries that run on from cell to cell without a joint."""
@@ -217,6 +221,11 @@ def _of_parts(solid: Solid) -> Iterable[_Caster]:
             case Polyhedron() if solid.geometry.modelled and not full and not solid.geometry.roof:
                 spots = tuple((x + left, y + bottom, z + solid.face) for x, y, z in part.points)
                 zs = [z for _, _, z in spots]
+                if len(part.faces) > _MANY:  # a body that may have hollows and holes
+                    for piece in pieces([part]):
+                        moved = tuple((x + left, y + bottom) for x, y in piece)
+                        yield _Caster(moved, (min(zs) + max(zs)) / 2, max(zs), None, False)
+                    continue
                 yield _Caster(tuple((x, y) for x, y, _ in spots), min(zs), max(zs), None, False, spots)
                 continue
             case _:

@@ -8,7 +8,7 @@ from typing import Any
 
 from .parts import Block, Part, Point, Polyhedron, Ring, front, outline
 
-__all__ = ["covered", "polygon_of", "shade_on", "silhouette"]
+__all__ = ["covered", "pieces", "polygon_of", "shade_on", "silhouette"]
 
 _GRID = 1e-6
 """Metres: what lies closer is one place."""
@@ -53,6 +53,19 @@ def silhouette(parts: Iterable[Part]) -> tuple[tuple[Point, ...], ...]:
     return tuple(
         tuple(shapely.Polygon(piece.exterior).normalize().exterior.coords[:0:-1]) for piece in merged
     )
+
+
+def pieces(parts: Iterable[Part]) -> list[tuple[Point, ...]]:
+    """All that parts cover, as triangles."""
+    import shapely
+    from trimesh.creation import triangulate_polygon
+
+    found: list[tuple[Point, ...]] = []
+    for polygon in shapely.get_parts(covered(parts).simplify(1e-3)):
+        if polygon.geom_type == "Polygon" and polygon.area > 0:
+            points, faces = triangulate_polygon(polygon, engine="earcut")
+            found += [tuple((float(x), float(y)) for x, y in points[face]) for face in faces]
+    return found
 
 
 def shade_on(

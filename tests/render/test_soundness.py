@@ -161,7 +161,8 @@ def test_the_validator_finds_faults(tmp_path: Path, root: Path) -> None:
         check=True,
     )
     (messages,) = json.loads(done.stdout).values()
-    assert [message["code"] for message in messages] == ["ACCESSOR_VECTOR3_NON_UNIT"]
+    found = [message["code"] for message in messages if message["code"] != "UNUSED_OBJECT"]  # of TEXCOORD_0
+    assert found == ["ACCESSOR_VECTOR3_NON_UNIT"]
 
 
 def test_what_each_view_of_the_buffer_is_for() -> None:
