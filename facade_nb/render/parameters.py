@@ -54,6 +54,11 @@ class Parameter:
             return f"one of {', '.join(self.words)}"
         return f"a {'whole ' if self.whole else ''}number from {self.low:g} to {self.high:g}"
 
+    @property
+    def hint(self) -> str:
+        """What it says, and what may be written where that is not listed."""
+        return self.summary if self.words else f"{self.summary} ({self.expected.removeprefix('a ')})"
+
     def read(self, value: str) -> Any:
         """The value of a text. Raises ValueError with what was expected."""
         if self.text:

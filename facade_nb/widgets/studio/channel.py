@@ -59,15 +59,7 @@ class Channel(Scenery):
             catalogue={
                 "geometries": list(GEOMETRIES),
                 "parameters": {
-                    name: [
-                        {
-                            "name": own.name,
-                            "summary": own.summary,
-                            "expected": "" if own.words else own.expected,
-                            "words": list(own.words),
-                        }
-                        for own in geometry.parameters
-                    ]
+                    name: [[own.name, own.hint, *own.words] for own in geometry.parameters]
                     for name, geometry in GEOMETRIES.items()
                     if geometry.parameters
                 },

@@ -184,13 +184,8 @@ export interface State extends StageState {
   ack: { client?: string; seq?: number };
 }
 
-/** A parameter of a geometry: a number or a text, or one of some words. */
-export interface ParameterState {
-  name: string;
-  summary: string;
-  expected: string;
-  words: string[];
-}
+/** A parameter of a geometry: its name, what it says, and the words that it may be; without them it is typed. */
+export type ParameterState = [name: string, hint: string, ...words: string[]];
 
 /** A reflection mode, and what it makes of the word EkG, by the count. */
 export interface ModeState {

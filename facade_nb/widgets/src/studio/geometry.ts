@@ -7,8 +7,8 @@ const FILE = "file:";
 const FROM_FILE = "mesh file…";
 
 const FITS: ParameterState[] = [
-  { name: "file", summary: "name of a mesh: .glb, .obj, .off, .ply or .stl", expected: "a file", words: [] },
-  { name: "fit", summary: "fill the cell, or keep the mesh's proportions", expected: "", words: ["fill", "keep"] },
+  ["file", "name of a mesh: .glb, .gltf, .obj, .off, .ply or .stl"],
+  ["fit", "fill the cell, or keep the mesh's proportions", "fill", "keep"],
 ];
 
 interface Call {
@@ -58,17 +58,17 @@ export function geometryField({ label, value, names, parameters, set }: Options)
   select.addEventListener("change", () => set(select.value));
 
   const build = (name: string) => {
-    fields = (name === FILE ? FITS : parameters(name)).map((parameter) => {
-      const labels = { class: "fnb-parameter", "aria-label": `${parameter.name}, ${label}` };
-      const input = parameter.words.length
-        ? h("select", labels, ...["", ...parameter.words].map((word) => h("option", { value: word }, word || "auto")))
+    fields = (name === FILE ? FITS : parameters(name)).map(([own, hint, ...words]) => {
+      const labels = { class: "fnb-parameter", "aria-label": `${own}, ${label}` };
+      const input = words.length
+        ? h("select", labels, ...["", ...words].map((word) => h("option", { value: word }, word || "auto")))
         : h("input", { ...labels, type: "text", placeholder: "auto", spellcheck: "false", autocomplete: "off" });
-      mark(input, "title", `${parameter.summary}${parameter.expected ? ` (${parameter.expected})` : ""}`);
+      mark(input, "title", hint);
       input.addEventListener("change", () => {
         const call = readCall(value());
-        set(writeCall({ name: call.name, told: { ...call.told, [parameter.name]: input.value.trim() } }));
+        set(writeCall({ name: call.name, told: { ...call.told, [own]: input.value.trim() } }));
       });
-      return { key: parameter.name, input };
+      return { key: own, input };
     });
     box.replaceChildren(...fields.map(({ key, input }) => h("label", {}, h("span", {}, key), input)));
     box.hidden = fields.length === 0;
@@ -89,7 +89,7 @@ export function geometryField({ label, value, names, parameters, set }: Options)
         );
       }
       select.value = name;
-      const kind = JSON.stringify([name, parameters(name).map((parameter) => parameter.name)]);
+      const kind = JSON.stringify([name, parameters(name).map(([own]) => own)]);
       if (kind !== shown) build(name);
       shown = kind;
       for (const { key: own, input } of fields) if (focused(input) !== input) input.value = told[own] ?? "";

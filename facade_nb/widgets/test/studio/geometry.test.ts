@@ -20,8 +20,7 @@ test("a parameter that is typed is set beside the others, and an empty one left 
     label: "geometry",
     value: () => value,
     names: () => ["box", "arcade"],
-    parameters: (name) =>
-      name === "arcade" ? ["bays", "depth"].map((own) => ({ name: own, summary: "", expected: "", words: [] })) : [],
+    parameters: (name) => (name === "arcade" ? ["bays", "depth"].map((own) => [own, ""]) : []),
     set: (to) => {
       value = to;
       field.update();
