@@ -14,6 +14,7 @@ import pytest
 import trimesh
 
 from facade_nb import Design, DesignError
+from facade_nb.cli import main
 from facade_nb.design.model import Canvas
 from facade_nb.render import GEOMETRIES, DrawingWarning, build_scene, elevation_svg, to_glb
 from facade_nb.render.geometry import find_geometry
@@ -278,3 +279,36 @@ def test_a_bad_mesh_is_told_and_the_rest_drawn(tmp_path: Path) -> None:
         message = str(caught[0].message)
         assert what in message and message.startswith("shapes[\"B Q\"] in layer 'l0': geometry"), message
         assert text.count("data-shape") == 2
+
+
+def test_the_command_line_tells_what_it_could_not_draw(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    document = {
+        "format": "facade-nb/design/1",
+        "canvas": {"width": 2, "height": 2},
+        "symbols": {"A": {"size": 1}, "P": {"size": 2}},
+        "patterns": {"across": "AA", "up": "P"},
+        "layers": [{"name": "wall", "x": {"pattern": "across"}, "y": {"pattern": "up"}}],
+        "shapes": {"A[1] P": {"geometry": "file:urn.obj"}, "A[2] P": {"material": "rule:Poster"}},
+    }
+    (tmp_path / "a.json").write_text(json.dumps(document))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert (
+            main(
+                [
+                    "solve",
+                    str(tmp_path / "a.json"),
+                    "--svg",
+                    str(tmp_path / "a.svg"),
+                    "--out",
+                    str(tmp_path / "b"),
+                ]
+            )
+            == 0
+        )
+    told = capsys.readouterr().err
+    assert "Note: shapes[\"A P\"] in layer 'wall': geometry: there is no file 'urn.obj'" in told
+    assert "found 'rule:Poster'" in told
+    assert (tmp_path / "a.svg").read_text().count("data-shape") == 2
