@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from math import log2
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -179,6 +180,8 @@ def _ruled(scene: Scene, name: str, size: tuple[float, float]) -> PBRMaterial:
     from trimesh.visual.material import PBRMaterial
 
     picture = Image.fromarray(rule_pixels(scene.library, name, size, _SHARP))
+    # Sides of powers of two: some programs draw no others small.
+    picture = picture.resize([2 ** max(2, round(log2(side))) for side in picture.size])
     return PBRMaterial(
         name=name,
         baseColorTexture=picture,

@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from facade_nb import Design, DesignError
 from facade_nb.cli import main
@@ -117,6 +119,26 @@ def test_walls_that_are_no_boxes_are_cut_too() -> None:
         # also by an outline that is no rectangle
         arch = wall(shape((1, 0.6, 2, 2.0), "arched-window"), geometry=geometry)
         assert volume(layout) < volume(arch) < volume(replace(layout, shapes=layout.shapes[:1]))
+
+
+@settings(max_examples=25)
+@given(
+    left=st.floats(-0.5, 3.5), low=st.floats(-0.5, 3.5), w=st.floats(0.02, 5), h=st.floats(0.02, 5),
+    name=st.sampled_from(["window", "arched-window", "statue", "quoin", "gable(form=curved)"]),
+    own=st.sampled_from(["box", "panel", "arcade", "ledge", "gable(form=stepped)"]),
+)  # fmt: skip
+def test_walls_that_are_cut_stay_closed(
+    left: float, low: float, w: float, h: float, name: str, own: str
+) -> None:
+    layout = wall(shape((left, low, left + w, low + h), name, offset=-0.02), geometry=own)
+    mesh = build_scene(layout).solids[0].mesh()
+    body = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+    assert body.is_watertight and body.is_winding_consistent
+    corners = mesh.vertices[mesh.faces]
+    assert (
+        np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) > 0
+    ).all()
+    assert len(mesh.faces) == 0 or body.volume > 0
 
 
 def test_what_stands_in_a_wall_lies_in_a_niche_of_its_outline() -> None:
