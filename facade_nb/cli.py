@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+import warnings
 from collections.abc import Callable, Sequence
 from functools import partial
 from math import inf
@@ -129,7 +130,7 @@ def _solve(options: argparse.Namespace) -> int:
         say(error)
         return 1
     write(files)
-    for warning in layout.warnings:
+    for warning in (*layout.warnings, *(_undrawn(layout) if len(files) > 1 else ())):
         say(f"Note: {warning}")
     return 0
 
@@ -157,12 +158,21 @@ def _drawings(options: argparse.Namespace, layout: Layout) -> list[tuple[Output,
         render.to_cityjson,
         render.to_schedule,
     )
-    found = [(path, draw(layout)) for path, draw in zip(named, kinds, strict=True) if path is not None]
-    if options.obj is not None:
-        (_, beside) = next(iter(_beside(options)), ("", None))
-        text, materials = render.to_obj(layout, Path(beside).name if beside else "")
-        found += [(options.obj, text)] + ([(beside, materials)] if beside else [])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", render.DrawingWarning)  # said in words of our own, once
+        found = [(path, draw(layout)) for path, draw in zip(named, kinds, strict=True) if path is not None]
+        if options.obj is not None:
+            (_, beside) = next(iter(_beside(options)), ("", None))
+            text, materials = render.to_obj(layout, Path(beside).name if beside else "")
+            found += [(options.obj, text)] + ([(beside, materials)] if beside else [])
     return found
+
+
+def _undrawn(layout: Layout) -> list[str]:
+    """What could not be drawn as the design says."""
+    from .render import drawing_faults
+
+    return [str(fault) for fault in drawing_faults(layout)]
 
 
 def _beside(options: argparse.Namespace) -> list[tuple[str, Output]]:

@@ -17,11 +17,12 @@ from numpy.typing import NDArray
 from ..render.materials import DEFAULT_MATERIAL
 from ..render.meshing import Mesh, mesh_parts
 from ..render.parts import Block, Part
+from ..render.ruled import is_rule, library_of, material_of
 from ..render.scene import Solid, build_scene
 from .layout import BuildingLayout, SolvedFace
 from .roofline import is_dormer
 
-__all__ = ["Body", "Frame", "bodies_of", "deepest"]
+__all__ = ["Body", "Frame", "bodies_of", "deepest", "rules_of"]
 
 _END = 1e-4
 """Metres: so near its end a thing ends with the wall."""
@@ -78,6 +79,11 @@ class Body:
     materials: Mapping[str, str]
 
 
+def rules_of(layout: BuildingLayout) -> str:
+    """The texture grammar whose rules are drawn on a building: that of the first face that has one."""
+    return next(filter(None, (library_of(own.shown) for own in layout.faces)), "")
+
+
 def deepest(layout: BuildingLayout) -> float:
     """How far the walls of all faces go back behind their planes, metres."""
     depths = [
@@ -98,10 +104,23 @@ def bodies_of(layout: BuildingLayout, own: SolvedFace, back: float) -> list[Body
         How far walls go back: what is less deep is filled up behind.
     """
     scene = build_scene(own.shown)
-    made = [Body(solid, solid.index, solid.mesh(), solid.materials) for solid in scene.solids]
+    drawn = rules_of(layout)
+    made = [
+        Body(solid, solid.index, solid.mesh(), _drawable(solid.materials, scene.library, drawn))
+        for solid in scene.solids
+    ]
     made += _filling(layout, scene.solids, back)
     made += _dormers(layout, scene.solids)
     return [replace(body, mesh=_mitred(body.mesh, own)) for body in made if len(body.mesh.faces)]
+
+
+def _drawable(materials: Mapping[str, str], library: str, drawn: str) -> Mapping[str, str]:
+    """The same materials; rules of another grammar than the one that is drawn are of their mean colour."""
+    if library == drawn:
+        return materials
+    return {
+        slot: material_of(library, name).fill if is_rule(name) else name for slot, name in materials.items()
+    }
 
 
 def _filling(layout: BuildingLayout, solids: tuple[Solid, ...], back: float) -> Iterator[Body]:

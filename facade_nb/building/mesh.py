@@ -8,9 +8,10 @@ from typing import Any
 
 from ..render.exchange.obj import Piece, obj_of
 from ..render.mesh import EMPTY, finish, paint
-from ..render.meshing import Mesh, corner_normals
+from ..render.meshing import Mesh, corner_normals, corner_places
+from ..render.ruled import is_rule, material_of
 from ..solver.model.layout import PlacedShape
-from .bodies import Frame, bodies_of, deepest
+from .bodies import Frame, bodies_of, deepest, rules_of
 from .layout import BuildingLayout
 from .scene import over_all
 
@@ -61,11 +62,11 @@ def to_glb(layout: BuildingLayout) -> bytes:
     import numpy as np
     import trimesh
 
-    scene = trimesh.Scene()
+    scene, library = trimesh.Scene(), rules_of(layout)
     paints: dict[str, Any] = {}
     nodes: list[tuple[Part, list[str]]] = []
     for number, part in enumerate(parts_of(layout)):
-        normals = corner_normals(part.mesh)
+        normals, places = corner_normals(part.mesh), corner_places(part.mesh)
         names = []
         for k, slot in enumerate(part.mesh.names):
             chosen = part.mesh.slots == k
@@ -74,12 +75,16 @@ def to_glb(layout: BuildingLayout) -> bytes:
                 continue
             material = part.materials[slot]
             if material not in paints:
-                paints[material] = paint(material)
+                paints[material] = paint(
+                    material_of(library, material).fill if is_rule(material) else material
+                )
             body = trimesh.Trimesh(
                 vertices=part.mesh.vertices[part.mesh.faces[chosen]].reshape(-1, 3),
                 faces=np.arange(3 * count).reshape(-1, 3),
                 vertex_normals=normals[chosen].reshape(-1, 3),
-                visual=trimesh.visual.TextureVisuals(material=paints[material]),
+                visual=trimesh.visual.TextureVisuals(
+                    uv=places[chosen].reshape(-1, 2), material=paints[material]
+                ),
                 process=False,
             )
             names.append(f"{number}/{slot}")
@@ -122,7 +127,7 @@ def _told(part: Part) -> dict[str, Any]:
 
 def to_obj(layout: BuildingLayout, materials: str = "") -> tuple[str, str]:
     """Return a building as OBJ and MTL: each part is a group within an object of its own."""
-    return obj_of((_piece(part) for part in parts_of(layout)), materials)
+    return obj_of((_piece(part) for part in parts_of(layout)), materials, rules_of(layout))
 
 
 def _piece(part: Part) -> Piece:

@@ -11,7 +11,7 @@ from ..render.meshing import Mesh
 from ..render.pipeline.solids import Solids, combined, solids_scene
 from ..render.scene import Triangles, triangles_of
 from ..solver.model.layout import Rect
-from .bodies import Frame, bodies_of, deepest
+from .bodies import Frame, bodies_of, deepest, rules_of
 from .layout import BuildingLayout
 from .roofline import wall_material
 from .roofs import outline, roofing
@@ -65,7 +65,7 @@ def _mesh_of(triangles: Floats) -> Mesh:
     points, index = np.unique(triangles.reshape(-1, 3).round(6), axis=0, return_inverse=True)
     faces = index.reshape(-1, 3)
     count = len(faces)
-    return Mesh(points, faces, np.zeros(count, int), np.zeros(count, bool), ("body",))
+    return Mesh(points, faces, np.zeros(count, int), np.zeros(count, bool), ("body",), np.zeros(count, int))
 
 
 def _core(layout: BuildingLayout, back: float) -> Floats:
@@ -97,16 +97,16 @@ def _core(layout: BuildingLayout, back: float) -> Floats:
 
 def solids_of_building(layout: BuildingLayout, *, ground: bool = True) -> Solids:
     """The scene of a building. Its triangles name shapes by face and index: those of all faces one after the other."""
-    back = deepest(layout)
+    back, library = deepest(layout), rules_of(layout)
     parts: list[tuple[Triangles, list[Rect], Frame | None, int]] = []
     first = 0
     for own in layout.faces:
         bodies = bodies_of(layout, own, back)
-        triangles = triangles_of([(body.index, body.mesh, body.materials) for body in bodies])
+        triangles = triangles_of([(body.index, body.mesh, body.materials) for body in bodies], library)
         parts.append((triangles, [shape.rect for shape in own.shown.shapes], Frame.of(own), first))
         first += len(own.shown.shapes)
     rest = [(-1, mesh, {"body": material}) for _, mesh, material in over_all(layout, back)]
-    parts.append((triangles_of(rest), [], None, 0))
+    parts.append((triangles_of(rest, library), [], None, 0))
     names = tuple(dict.fromkeys(name for some, *_ in parts for name in some.material_names))
     made = []
     for triangles, rects, frame, start in parts:
@@ -115,7 +115,7 @@ def solids_of_building(layout: BuildingLayout, *, ground: bool = True) -> Solids
             solids = solids.moved(frame.origin, frame.axes)
         shapes = np.where(solids.shapes >= 0, solids.shapes + start, solids.shapes)
         made.append(replace(solids, shapes=shapes))
-    return combined(made, names, ground=ground)
+    return combined(made, names, library, ground=ground)
 
 
 def _renamed(triangles: Triangles, names: tuple[str, ...]) -> Triangles:

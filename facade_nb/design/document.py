@@ -74,6 +74,8 @@ def write(design: Design) -> dict[str, Any]:
     }
     if design.seed:
         document["seed"] = design.seed
+    if design.grammar:
+        document["grammar"] = design.grammar
     sections = {
         "symbols": {name: _changed(symbol, Symbol(name)) for name, symbol in design.symbols.items()},
         "counters": {name: _changed(counter, Counter(name)) for name, counter in design.counters.items()},

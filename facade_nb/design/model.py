@@ -138,7 +138,8 @@ class Layer:
 class Design:
     """A canvas, symbols, counters, patterns, shapes and a stack of layers (listed bottom first).
 
-    `seed` chooses among the variants of shapes.
+    `seed` chooses among the variants of shapes. `grammar` is the text of a texture grammar: a shape whose material is
+    ``rule:Name`` is drawn by its rule of that name.
     """
 
     name: str = "Untitled"
@@ -149,6 +150,7 @@ class Design:
     layers: tuple[Layer, ...] = ()
     shapes: Mapping[str, Shape] = field(default_factory=dict)
     seed: int = 0
+    grammar: str = ""
 
     def symbol(self, name: str) -> Symbol:
         """The symbol of that name; an undeclared one is unsized."""

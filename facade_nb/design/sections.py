@@ -64,13 +64,20 @@ class DocumentReader:
         if not isinstance(document, Mapping):
             faults.expected("", "a design document (an object)", document)
             return Design()
-        known = ("format", "name", "canvas", "seed", "symbols", "counters", "patterns", "layers", "shapes")
+        known = (
+            *("format", "name", "canvas", "seed", "grammar"),
+            *("symbols", "counters", "patterns", "layers", "shapes"),
+        )
         values = faults.record(document, "", known, ("format",))
         if "format" in values and values["format"] != FORMAT:
             faults.expected("format", repr(FORMAT), values["format"])
         name = faults.text(values.get("name", "Untitled"), "name", "Untitled", empty=True)
         canvas = self.canvas(values.get("canvas", {}))
         seed = faults.integer(values.get("seed", 0), "seed", 0)
+        grammar = values.get("grammar", "")
+        if not isinstance(grammar, str):
+            faults.expected("grammar", "the text of a texture grammar", grammar)
+            grammar = ""
         self.symbols = self.named(values, "symbols", self.symbol, self.symbol_name)
         counters = self.named(values, "counters", self.counter, self.counter_name)
         patterns = self.named(values, "patterns", self.pattern, self.pattern_name)
@@ -79,7 +86,7 @@ class DocumentReader:
         self.check_sizes()
         self.check_letters(counters)
         self.check_keys()
-        return Design(name, canvas, self.symbols, counters, patterns, layers, shapes, seed)
+        return Design(name, canvas, self.symbols, counters, patterns, layers, shapes, seed, grammar)
 
     def named(
         self,

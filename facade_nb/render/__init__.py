@@ -25,7 +25,7 @@ from .mesh import to_glb, write_glb
 from .naive import Naive, naive_layout
 from .overlay import overlay_svg
 from .picture import render_png
-from .scene import Scene, Solid, build_scene
+from .scene import DrawingWarning, Scene, Solid, build_scene, drawing_faults
 from .splits import split_grammar
 from .texture import Grammar
 from .texture.from_layout import grammar_of
@@ -33,11 +33,13 @@ from .texture.from_layout import grammar_of
 __all__ = [
     "GEOMETRIES",
     "MATERIALS",
+    "DrawingWarning",
     "Grammar",
     "Naive",
     "Scene",
     "Solid",
     "build_scene",
+    "drawing_faults",
     "elevation_svg",
     "exploded_svg",
     "grammar_of",

@@ -10,7 +10,7 @@ from typing import Any
 from ..solver.model.layout import Layout
 from .annotate import Frame, draw_dimensions, draw_empty, draw_holes, draw_survey
 from .ink import Defs, draw_parts, inline, polygon_path
-from .materials import DEFAULT_MATERIAL, find_material
+from .materials import DEFAULT_MATERIAL
 from .relief import Edges, Relief, Segment
 from .scene import Scene, Solid, build_scene
 from .style import FINE, HEAVY, MEDIUM, Style, find_style, num
@@ -71,7 +71,7 @@ def elevation_svg(
     frame = Frame.fit(layout.canvas.width, layout.canvas.height, width_px, dimensions=dimensions)
     prefix = prefix or f"f{secrets.token_hex(4)}"
     body: list[str] = []
-    defs = Defs(prefix, style, frame.scale, frame.at(0, 0))
+    defs = Defs(prefix, style, frame.scale, frame.at(0, 0), scene.library)
     if background:
         body.append(f'<rect width="100%" height="100%" fill="{style.paper}"/>')
     if scene.solids:
@@ -131,9 +131,10 @@ def _shape(solid: Solid, defs: Defs, frame: Frame, *, ids: bool) -> str:
             f"<title>{escape(label)}</title>"
         )
     cell = f'<rect class="cell" x="{num(x)}" y="{num(y)}" width="{num(w)}" height="{num(h)}" fill='
-    if shape.geometry == "box" or not solid.parts:
-        material = find_material(solid.materials["body"])
-        fill = defs.paint(material)
+    if solid.geometry.name == "box" or not solid.parts:
+        material = defs.material(solid.materials["body"])
+        ruled = defs.drawable(material.name) and bool(solid.parts)
+        fill = defs.ruled(solid, (x, y + h)) if ruled else defs.paint(material)
         seam = ""
         if (
             material.name == DEFAULT_MATERIAL

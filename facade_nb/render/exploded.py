@@ -71,7 +71,7 @@ def exploded_svg(
     scale = min(840 / whole[0], 560 / whole[1], 90.0)
     frame = Frame(scale, 0.0, 0.0, 0.0, 0.0, (wide, tall))
     prefix = prefix or f"x{secrets.token_hex(4)}"
-    defs = Defs(prefix, style, scale, frame.at(0, 0))
+    defs = Defs(prefix, style, scale, frame.at(0, 0), scene.library)
     width, height = whole[0] * scale + 2 * _MARGIN, whole[1] * scale + 2 * _MARGIN + _CAPTION
     high = _MARGIN + wide * rise * scale
     origin = [(_MARGIN + k * right * scale, high + k * down * scale) for k in range(len(names))]

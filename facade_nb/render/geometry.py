@@ -7,22 +7,28 @@ backwards from there. A few geometries have parts that reach out of that box; ea
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from types import MappingProxyType
+from typing import Any
 
 from ..design.errors import DesignError, Fault, nearest
 from .materials import DEFAULT_MATERIAL
-from .openings import archway, door, french_window, reveal, shop, window
+from .openings import arched_window, archway, door, french_window, reveal, shop, window
+from .parameters import Parameter, read_call, read_values
 from .parts import Block, Moulding, Part, Ring, Turned
-from .roofs import gable, hip, pitched
+from .projections import awning, balcony, bay, dormer, loggia, railing, sign
+from .roofs import gable as gabled
+from .roofs import hip, hipped, mansard, pitched
+from .stonework import arcade, gable, pediment, quoin, stair, stair_stand, statue
 
 __all__ = ["DEFAULT_GEOMETRY", "GEOMETRIES", "Geometry", "find_geometry"]
 
 DEFAULT_GEOMETRY = "box"
 """What a shape looks like where the design says nothing."""
 
-Recipe = Callable[[float, float, float], tuple[Part, ...]]
-"""Width, height and depth (from the face backwards), all in metres, to parts."""
+Recipe = Callable[..., tuple[Part, ...]]
+"""Width, height and depth (from the face backwards), all in metres, and parameters by name, to parts."""
 
 
 def box(w: float, h: float, d: float) -> tuple[Part, ...]:
@@ -120,42 +126,6 @@ def ledge_stand(w: float, h: float) -> float:
     return min(0.14, max(0.05, 0.4 * h))
 
 
-def balcony(w: float, h: float, d: float) -> tuple[Part, ...]:
-    """A slab on the cell's floor with a railing of iron bars around its front and sides."""
-    slab = min(0.16, 0.12 * h)
-    return (Block(0, 0, w, slab, -d, 0), *_railing(w, slab, slab + min(0.95, 0.5 * h), d))
-
-
-def railing(w: float, h: float, d: float) -> tuple[Part, ...]:
-    """The railing alone, as high as a rail should be; the rest of the cell stays open."""
-    return _railing(w, 0.0, min(1.05, h), min(d, 0.05))
-
-
-def _railing(w: float, foot: float, head: float, d: float) -> tuple[Part, ...]:
-    bar, rail = 0.018, 0.045
-    inset = min(0.05, 0.06 * w)
-    x0, x1, front = inset, w - inset, -min(0.05, d / 3)
-    parts: list[Part] = [
-        Block(x0, head - rail, x1, head, front - rail, front, "rail"),
-        Block(x0, foot + 0.07, x1, foot + 0.1, front - rail, front, "rail"),
-    ]
-    for x in (x0, x1 - rail):
-        parts.append(Block(x, foot, x + rail, head, front - rail, front, "rail"))
-        if d > 0.2:  # the sides, back to the wall
-            parts.append(Block(x, head - rail, x + rail, head, -d, front - rail, "rail"))
-            parts.append(Block(x, foot + 0.07, x + rail, foot + 0.1, -d, front - rail, "rail"))
-            count = round(d / 0.14)
-            for i in range(1, count):
-                z = front - rail - (d + front - rail) * i / count
-                parts.append(Block(x, foot + 0.1, x + bar, head - rail, z - bar, z, "rail"))
-    count = max(2, min(60, round((x1 - x0) / 0.13)))
-    pitch = (x1 - x0) / count
-    for i in range(1, count):
-        x = x0 + i * pitch - bar / 2
-        parts.append(Block(x, foot + 0.1, x + bar, head - rail, front - 0.03, front - 0.012, "rail"))
-    return tuple(parts)
-
-
 @dataclass(frozen=True, slots=True)
 class Geometry:
     """One geometry.
@@ -174,12 +144,31 @@ class Geometry:
         How far behind the face, for a given depth, the surface lies that takes the shadow of the neighbours; metres.
     stand
         Where the face is when the offset is 0, metres: what projects by nature (a column, a balcony) does so unasked.
+        Width, height and the parameters that were told are given.
+    deep
+        How deep it is at least, whatever the thickness, metres; called as `stand` is.
     least
         The width and height below which it is a plain block, metres.
     slots
         Materials of the parts that do not have the shape's own: slot to material.
     own
         The material of the shape where the design names one of `unsuited` (the default, plaster, glass for a door).
+    parameters
+        What may be told in brackets after its name.
+    told
+        What was told: parameter to value.
+    runs_on
+        Whether its surface continues the courses of its neighbours.
+    roof
+        Whether it covers the house, and is as deep as that in pictures.
+    modelled
+        Whether the elevation outlines it and shades within it: what stands out, or lies deep.
+    cuts
+        Whether it opens the wall that it stands in by its outline, though it does not fill its rectangle.
+    ajar
+        A parameter and the value with which it does not fill its rectangle.
+    turns
+        Whether it is mirrored where its letter is; what is written on a sign is not.
     """
 
     name: str
@@ -188,15 +177,39 @@ class Geometry:
     overhang: str = ""
     full: bool = True
     recess: Callable[[float], float] = lambda d: 0.0
-    stand: Callable[[float, float], float] = lambda w, h: 0.0
+    stand: Callable[..., float] = lambda w, h, **told: 0.0
+    deep: Callable[..., float] = lambda w, h, **told: 0.0
     slots: Mapping[str, str] = field(default_factory=dict)
     own: str = ""
     least: float = 0.0
     unsuited: frozenset[str] = frozenset()
+    parameters: tuple[Parameter, ...] = ()
+    told: Mapping[str, Any] = field(default_factory=dict)
+    runs_on: bool = False
+    roof: bool = False
+    modelled: bool = False
+    cuts: bool = True
+    ajar: tuple[str, str] = ("", "")
+    turns: bool = True
+
+    @property
+    def wall(self) -> bool:
+        """Whether shapes that stand in it open it."""
+        return (self.full or self.name in ("gable", "pediment")) and not self.roof
 
     def parts(self, w: float, h: float, d: float) -> tuple[Part, ...]:
         """The parts of a shape `w` by `h`, `d` deep, metres; a plain block where there is no room for more."""
-        return (box if min(w, h) < self.least else self.recipe)(w, h, d)
+        if min(w, h) < self.least:
+            return box(w, h, d)
+        return self.recipe(w, h, d, **self.told)
+
+    def face(self, w: float, h: float) -> float:
+        """Where its face is by itself, z in metres."""
+        return self.stand(w, h, **self.told) if min(w, h) >= self.least else self.stand(w, h)
+
+    def depth(self, w: float, h: float) -> float:
+        """How deep it is at least, metres."""
+        return self.deep(w, h, **self.told) if min(w, h) >= self.least else 0.0
 
     def material(self, slot: str, material: str) -> str:
         """The material of a slot in a shape made of `material`."""
@@ -211,10 +224,14 @@ _ROOF = {"gable": "wood", "frame": "painted-wood", "glass": "glass", "gutter": "
 
 _TABLE = (
     Geometry("box", box, "plain block"),
-    Geometry("panel", panel, "wall with a sunk field", recess=lambda d: min(0.02, d / 2)),
+    Geometry("panel", panel, "wall with a sunk field", recess=lambda d: min(0.02, d / 2), runs_on=True),
     Geometry(
         "window", window, "frame, leaves, glazing bars by size, sill", "the sill comes 0.06 m forward",
         recess=reveal, least=0.3, slots=_WINDOW, own="painted-wood", unsuited=_PLAIN | {"glass"},
+        parameters=(
+            Parameter("leaves", "leaves side by side", 1, 12, whole=True),
+            Parameter("rows", "rows of panes below the transom", 1, 12, whole=True),
+        ),
     ),
     Geometry(
         "french-window", french_window, "glazed doors to the floor behind a low railing",
@@ -224,43 +241,173 @@ _TABLE = (
     Geometry(
         "shop", shop, "shop window: stall riser, large panes, fanlights", "the sill comes 0.04 m forward",
         recess=reveal, least=0.3, slots=_WINDOW, own="painted-green", unsuited=_PLAIN | {"glass"},
+        parameters=(Parameter("panes", "panes side by side", 1, 12, whole=True),),
     ),
     Geometry(
         "door", door, "frame, panelled leaves, step, fanlight where it is tall", "the step comes 0.3 m forward",
         recess=reveal, least=0.3, slots=_WINDOW | {"metal": "bronze"}, own="oak", unsuited=_PLAIN | {"glass"},
+        parameters=(Parameter("leaves", "leaves side by side", 1, 2, whole=True),),
     ),
     Geometry(
         "arch", archway, "wall with an arched, glazed opening", "the keystone comes 0.03 m forward",
         least=0.3, slots=_WINDOW | {"frame": "painted-wood"},
+        runs_on=True,
     ),
     Geometry(
         "column", column, "round column with base, swelling shaft and capital",
         "as deep as it is wide, whatever the thickness",
-        full=False, stand=lambda w, h: 0.85 * w,
+        full=False, stand=lambda w, h, **told: 0.85 * w,
     ),
-    Geometry("pilaster", pilaster, "flat pillar with base and capital", stand=lambda w, h: 0.1, full=False),
+    Geometry("pilaster", pilaster, "flat pillar with base and capital", stand=lambda w, h, **told: 0.1, full=False),
     Geometry("cornice", cornice, "moulded cornice", stand=cornice_stand),
     Geometry("ledge", ledge, "string course with a weathered top", stand=ledge_stand),
     Geometry(
         "balcony", balcony, "slab with an iron railing; open above", full=False, least=0.3,
-        stand=lambda w, h: 0.9, slots={"rail": "iron"}, own="stone", unsuited=_PLAIN,
+        stand=lambda w, h, **told: 0.9, slots={"rail": "iron"}, own="stone", unsuited=_PLAIN,
+        parameters=(Parameter("rail", "height of the railing, metres", 0.4, 2),),
     ),
     Geometry(
         "railing", railing, "iron railing alone; open above", full=False, least=0.3,
-        stand=lambda w, h: 0.08, slots={"rail": "iron"},
+        stand=lambda w, h, **told: 0.08, slots={"rail": "iron"},
+        parameters=(Parameter("rail", "height of the railing, metres", 0.4, 2),),
     ),
     Geometry(
-        "roof", gable, "gabled roof, its gable to the viewer",
+        "roof", gabled, "gabled roof, its gable to the viewer",
         "eaves 0.25 m to the sides and below, verge 0.25 m forward",
         full=False, slots=_ROOF, own="tiles", unsuited=_PLAIN,
+        roof=True,
     ),
     Geometry(
         "hip", hip, "hipped roof, its slope to the viewer", "eaves 0.3 m to the sides and forward, gutter 0.1 m below",
         full=False, slots=_ROOF, own="tiles", unsuited=_PLAIN,
+        roof=True, runs_on=True,
     ),
     Geometry(
         "pitched", pitched, "pitched roof, its slope to the viewer", "eaves 0.3 m forward, gutter 0.1 m below",
-        full=True, slots=_ROOF, own="tiles", unsuited=_PLAIN,
+        full=True, slots=_ROOF, own="tiles", unsuited=_PLAIN, runs_on=True,
+        roof=True,
+    ),
+    Geometry(
+        "hipped", hipped, "hipped roof with hip and ridge tiles, boxed eaves and a gutter",
+        "eaves 0.3 m to the sides and forward, or as told, and 0.14 m below; the gutter 0.09 m further",
+        full=False, slots=_ROOF | {"caps": "tiles"}, own="tiles", unsuited=_PLAIN, runs_on=True,
+        roof=True, modelled=True,
+        parameters=(
+            Parameter("ridge", "length of the ridge, a share of the width; 0: a pavilion", 0, 1),
+            Parameter("eaves", "how far the eaves reach out, metres", 0, 2),
+        ),
+    ),
+    Geometry(
+        "mansard", mansard, "mansard roof: a steep slope up to the knee, a flatter one above",
+        "eaves 0.3 m forward, gutter 0.1 m below",
+        slots=_ROOF | {"upper": "metal"}, own="slate", unsuited=_PLAIN, runs_on=True,
+        roof=True, modelled=True, ajar=("ends", "hipped"),
+        parameters=(
+            Parameter("knee", "height of the knee, a share of the whole", 0.3, 0.95),
+            Parameter("ends", "ends that stand between neighbours, or slope as well", words=("upright", "hipped")),
+        ),
+    ),
+    Geometry(
+        "dormer", dormer, "window in a roof between cheeks, under a roof of its own",
+        "the roof comes 0.12 m forward and runs back into the slope, 1.3 times the height at least",
+        full=False, stand=lambda w, h, **told: 0.3, least=0.3,
+        slots=_WINDOW | {"roof": "metal", "cheek": "metal", "frame": "painted-wood"},
+        own="painted-wood", unsuited=_PLAIN | {"glass"},
+        modelled=True,
+        parameters=(Parameter("roof", "form of its roof", words=("gable", "arch", "flat")),),
+    ),
+    Geometry(
+        "gable", gable, "gable wall above its roof, under coping stones; a round window where there is room",
+        "the coping comes 0.05 m forward",
+        full=False, least=0.3, slots={"coping": "stone", "frame": "painted-wood", "glass": "glass"}, runs_on=True,
+        modelled=True,
+        parameters=(
+            Parameter("form", "its outline", words=("straight", "stepped", "curved")),
+            Parameter("steps", "steps at each side of a stepped one", 1, 40, whole=True),
+        ),
+    ),
+    Geometry(
+        "pediment", pediment, "cornice, field and raking cornices over a door, a window or a portico",
+        full=False, least=0.1, stand=lambda w, h, **told: min(0.35, 0.12 * w),
+        own="stone", unsuited=_PLAIN,
+        modelled=True,
+        parameters=(Parameter("form", "its outline", words=("triangle", "segment", "broken")),),
+    ),
+    Geometry(
+        "quoin", quoin, "corner stones, long and short in turn; flush at the left, mirrored at the right",
+        full=False, stand=lambda w, h, **told: 0.05, own="stone", unsuited=_PLAIN,
+        modelled=True,
+        parameters=(
+            Parameter("course", "height of a stone, metres", 0.1, 2),
+            Parameter("short", "length of a short stone, a share of a long one", 0.2, 1),
+        ),
+    ),
+    Geometry(
+        "arched-window", arched_window, "window with an arched head, which cuts an arch out of the wall",
+        "the sill comes 0.06 m forward",
+        full=False, recess=reveal, least=0.3, slots=_WINDOW, own="painted-wood", unsuited=_PLAIN | {"glass"},
+        modelled=True,
+        parameters=(Parameter("rise", "height of the arch, a share of the width", 0.02, 1.5),),
+    ),
+    Geometry(
+        "bay", bay, "bay window on a corbel, windows all around, storey by storey, under a roof of its own",
+        full=False, least=0.3, stand=lambda w, h, **told: min(0.9, max(0.35, 0.32 * w)),
+        slots=_WINDOW | {"frame": "painted-wood", "roof": "metal"}, runs_on=True,
+        modelled=True,
+        parameters=(
+            Parameter("cant", "slant of its sides, metres along for each metre out; 0: square", 0, 2),
+            Parameter("storeys", "rows of windows", 1, 20, whole=True),
+        ),
+    ),
+    Geometry(
+        "loggia", loggia, "room open to the front, glazed at its back",
+        least=0.9, deep=lambda w, h, depth=1.4, **told: depth, runs_on=True,
+        slots={"glass": "glass", "rail": "iron", "frame": "painted-wood"},
+        modelled=True,
+        parameters=(
+            Parameter("depth", "how far it lies back, metres", 0.2, 6),
+            Parameter("parapet", "what stands at its front", words=("rail", "wall", "none")),
+        ),
+    ),
+    Geometry(
+        "arcade", arcade, "arches on piers before a covered walk", "mouldings come 0.07 m forward",
+        least=0.3, deep=lambda w, h, depth=2.0, **told: depth, slots={"floor": "granite"}, runs_on=True,
+        modelled=True,
+        parameters=(
+            Parameter("bays", "number of arches", 1, 40, whole=True),
+            Parameter("depth", "how deep the walk is, metres", 0.3, 8),
+            Parameter("pier", "width of a pier, a share of its bay", 0.05, 0.6),
+        ),
+    ),
+    Geometry(
+        "stair", stair, "flight of steps towards the viewer, between cheek walls",
+        full=False, stand=stair_stand, own="stone", unsuited=_PLAIN, cuts=False,
+        modelled=True,
+        parameters=(
+            Parameter("risers", "number of steps", 1, 80, whole=True),
+            Parameter("cheeks", "walls beside the steps", words=("yes", "no")),
+        ),
+    ),
+    Geometry(
+        "awning", awning, "awning of striped cloth with a scalloped valance, on iron arms",
+        full=False, least=0.3, stand=lambda w, h, **told: min(1.5, max(0.4, 1.1 * h)), cuts=False,
+        slots={"stripe": "painted-wood", "arm": "iron", "box": "metal"}, own="painted-green", unsuited=_PLAIN,
+        modelled=True,
+        parameters=(
+            Parameter("stripe", "width of a stripe, metres; 0: plain cloth", 0, 3),
+            Parameter("valance", "height of the valance, metres", 0.05, 1),
+        ),
+    ),
+    Geometry(
+        "sign", sign, "board in a moulded frame, with raised capitals", "the frame comes 0.03 m forward",
+        least=0.1, stand=lambda w, h, **told: 0.08, slots={"frame": "bronze", "letters": "painted-wood"},
+        own="painted-blue", unsuited=_PLAIN, turns=False,
+        parameters=(Parameter("text", "what is written on it, without commas and brackets", text=True),),
+    ),
+    Geometry(
+        "statue", statue, "stand-in for a statue: a draped figure on a plinth", "as deep as it is wide",
+        full=False, stand=lambda w, h, **told: 0.6 * min(w, 0.42 * h), own="stone", unsuited=_PLAIN,
+        modelled=True,
     ),
 )  # fmt: skip
 
@@ -268,16 +415,24 @@ GEOMETRIES: Mapping[str, Geometry] = MappingProxyType({geometry.name: geometry f
 """Every geometry, in the order menus show them."""
 
 
+@lru_cache(maxsize=512)
 def find_geometry(name: str, place: str = "geometry") -> Geometry:
-    """Return the geometry of that name.
+    """Return the geometry of that name, with the parameters told after it: ``arcade(bays=3)``.
 
     Raises
     ------
     DesignError
-        For an unknown name, with `place` as the fault's place and the nearest valid name.
+        For an unknown name or parameter, with `place` as the fault's place and the nearest valid name.
     """
     found = GEOMETRIES.get(name)
-    if found is None:
-        message = f"expected one of {', '.join(GEOMETRIES)}; found {name!r}{nearest(name, GEOMETRIES)}"
+    if found is not None:
+        return found
+    call = read_call(name)
+    found = GEOMETRIES.get(call[0]) if call is not None else None
+    if call is None or found is None:
+        known = call[0] if call is not None else name
+        message = f"expected one of {', '.join(GEOMETRIES)}; found {name!r}{nearest(known, GEOMETRIES)}"
         raise DesignError(Fault(place, message))
-    return found
+    told = read_values(call[1], found.parameters, found.name, place)
+    key, value = found.ajar
+    return replace(found, told=told, full=found.full and told.get(key) != value)

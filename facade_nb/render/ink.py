@@ -2,24 +2,44 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Iterable, Sequence
 from itertools import groupby
+from typing import Any
 
-from .materials import Material, find_material, mix
+from .materials import Material, mix
 from .parts import Block, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned, front, outline
+from .ruled import is_rule, material_of, rule_fault, rule_png
 from .scene import Solid
+from .silhouette import covered, shade_on, silhouette
 from .style import FINE, LIGHT, MEDIUM, Style, num, pattern
 
 __all__ = ["Defs", "clip", "draw_parts", "hull", "polygon_path"]
 
-_INLINE = frozenset({"arch", "panel", "hip", "pitched"})
-"""Geometries whose surface continues the courses of their neighbours: drawn in place, not as a repeated symbol."""
+_SLOPES = frozenset({"hip", "pitched"})
+"""Roofs of a single slope in front: drawn flat, their faces unshaded."""
+
+_IN_ORDER = frozenset({"bay", "hipped", "mansard"})
+"""Geometries that list their parts back to front: their surfaces lean, so where one comes nearest tells nothing."""
+
+_SUN = (-0.404, 0.551, 0.730)
+"""Direction to the light of the drawing: surfaces that lean get their tone from it. A wall has its material's."""
+
+_MANY = 60
+"""From so many faces on a body is drawn with tones, and with lines along its sharp edges alone."""
+
+_SHARP = 0.8
+"""Cosine of the angle between faces that meet at a sharp edge."""
+
+_SHADED = frozenset({"body", "back", "glass", "front"})
+"""Slots of surfaces on which parts in front throw shadow."""
 
 
 class Defs:
     """The definitions of one drawing. Ids carry its prefix, so that drawings on one page keep theirs apart."""
 
-    def __init__(self, prefix: str, style: Style, scale: float, anchor: Point) -> None:
+    def __init__(self, prefix: str, style: Style, scale: float, anchor: Point, library: str = "") -> None:
+        self.library = library
         self.prefix, self.style, self.scale, self.anchor = prefix, style, scale, anchor
         self._made: dict[str, str] = {}
         self._paints: dict[tuple[str, str], str] = {}
@@ -43,6 +63,44 @@ class Defs:
                 found = self.style.tone(material.fill)
             self._paints[key] = found
         return found
+
+    def material(self, name: str) -> Material:
+        """A material by its name; a rule has its mean colour."""
+        return material_of(self.library, name)
+
+    def drawable(self, name: str) -> bool:
+        """Whether a material is a rule that can be drawn."""
+        return is_rule(name) and rule_fault(self.library, name, "") is None
+
+    def ruled(self, solid: Solid, origin: Point) -> str:
+        """A value for ``fill`` that draws the rule of a solid in its rectangle, whose lower left corner is given."""
+        left, bottom, right, top = solid.rect
+        size = (round(right - left, 4), round(top - bottom, 4))
+        name = solid.materials["body"]
+        key = ("rule", name, size, num(origin[0]), num(origin[1]))
+        if key not in self._shapes:
+            self._shapes[key] = own = f"{self.prefix}-rule{len(self._shapes)}"
+            w, h = num(size[0] * self.scale), num(size[1] * self.scale)
+            x, y = num(origin[0]), num(origin[1] - size[1] * self.scale)
+            place = f'patternUnits="userSpaceOnUse" x="{x}" y="{y}" width="{w}" height="{h}"'
+            self._made[own] = f'<pattern id="{own}" {place}>{self._picture(name, size)}</pattern>'
+        return f"url(#{self._shapes[key]})"
+
+    def _picture(self, name: str, size: tuple[float, float]) -> str:
+        """The picture of a rule with its upper left corner at the origin; it is held once."""
+        key = ("picture", name, size)
+        if key not in self._shapes:
+            self._shapes[key] = own = f"{self.prefix}-picture{len(self._shapes)}"
+            data = b64encode(rule_png(self.library, name, size, round(1.5 * self.scale, 3))).decode()
+            w, h = num(size[0] * self.scale), num(size[1] * self.scale)
+            veil = ""
+            if self.style.dim:
+                veil = f'<rect width="{w}" height="{h}" fill="{self.style.veil}" fill-opacity="{self.style.dim}"/>'
+            self._made[own] = (
+                f'<g id="{own}"><image width="{w}" height="{h}" preserveAspectRatio="none" '
+                f'href="data:image/png;base64,{data}"/>{veil}</g>'
+            )
+        return f'<use href="#{self._shapes[key]}"/>'
 
     def round(self, material: Material) -> str:
         """A value for ``fill`` that makes a surface look round about a vertical axis."""
@@ -98,16 +156,17 @@ class Defs:
 
 def inline(solid: Solid) -> bool:
     """Whether the shape is drawn in place."""
-    return solid.shape.geometry in _INLINE
+    return solid.geometry.runs_on
 
 
 def draw_parts(solid: Solid, defs: Defs, origin: Point) -> str:
     """All parts of a solid, back to front, with the shape's lower left corner at the pixel `origin`."""
     pen = _Pen(solid, defs, origin)
-    ordered = sorted(solid.parts, key=front)
-    return "".join(
+    ordered = list(solid.parts) if solid.geometry.name in _IN_ORDER else sorted(solid.parts, key=front)
+    drawn = "".join(
         pen.draw(list(same)) for _, same in groupby(ordered, key=lambda p: (type(p), p.slot, front(p)))
     )
+    return drawn + pen.outlined() if solid.geometry.modelled else drawn
 
 
 class _Pen:
@@ -121,30 +180,148 @@ class _Pen:
 
     def draw(self, parts: Sequence[Part]) -> str:
         """Parts of one kind, material and depth, as one path where that can be."""
-        material = find_material(self.solid.materials[parts[0].slot])
+        material = self.defs.material(self.solid.materials[parts[0].slot])
         first = parts[0]
         if isinstance(first, Turned):
             return "".join(self._turned(part, material) for part in parts if isinstance(part, Turned))
         if isinstance(first, Moulding):
             return "".join(self._moulding(part, material) for part in parts if isinstance(part, Moulding))
-        d = "".join(self._outline(part) for part in parts)
-        fill = self.defs.paint(material) if self._wide(parts) else self.style.tone(material.fill)
-        text = self._path(d, fill, self.style.tone(material.line), rule=isinstance(first, Ring))
+        modelled = self.solid.geometry.modelled
+        if isinstance(first, Polyhedron) and self.solid.geometry.name not in _SLOPES:
+            return self._facets([part for part in parts if isinstance(part, Polyhedron)], material)
+        merged = modelled and isinstance(first, Prism) and first.slot in ("body", "trim") and len(parts) > 1
+        d = self._shapes(covered(parts)) if merged else "".join(self._outline(part) for part in parts)
+        fill = self._surface(material) if self._wide(parts) else self.style.tone(material.fill)
+        text = self._path(d, fill, self.style.tone(material.line), rule=merged or isinstance(first, Ring))
+        if merged and first.slot == "body":
+            text += f'<path d="{d}" stroke="{self.style.ink}" stroke-width="{MEDIUM}" fill="none"/>'
         if first.slot == "glass":
             text += "".join(self._reflections(part) for part in parts)
         if first.slot == "gable":
             text += self._under_the_verge(parts)
+        if modelled and first.slot in _SHADED:
+            text += self._shade(parts)
         if isinstance(first, Polyhedron):
             text += f'<path d="{d}" stroke="{self.style.ink}" stroke-width="{MEDIUM}" fill="none"/>'
-        if self.solid.shape.geometry == "roof" and isinstance(first, Prism) and first.z1 > 0.1:
+        if self.solid.geometry.name == "roof" and isinstance(first, Prism) and first.z1 > 0.1:
             text += self._verge(parts, tiled=first.slot == "body")
         return text
 
     def _wide(self, parts: Sequence[Part]) -> bool:
         """Whether there is room for the material's pattern: joinery, rails and verges are plain."""
         slot = parts[0].slot
-        name = self.solid.shape.geometry
-        return slot in ("glass", "gable") or (slot == "body" and (name in _INLINE or name == "pilaster"))
+        geometry = self.solid.geometry
+        if self.defs.drawable(self.solid.materials[slot]):
+            return True
+        if slot in ("glass", "gable", "upper"):
+            return True
+        return slot in ("body", "back") and (geometry.runs_on or geometry.name == "pilaster")
+
+    def _surface(self, material: Material) -> str:
+        """What covers a surface: the material's pattern, or the rule that the shape is drawn by."""
+        if self.defs.drawable(material.name):
+            return self.defs.ruled(self.solid, (self.x0, self.y0))
+        return self.defs.paint(material)
+
+    def _facets(self, parts: Sequence[Polyhedron], material: Material) -> str:
+        """Bodies with plane faces: each face toned by how it lies to the light."""
+        fill, line = self.style.tone(material.fill), self.style.tone(material.line)
+        text = ""
+        for part in parts:
+            if len(part.faces) > _MANY:
+                text += self._carving(part, material)
+                continue
+            for face in part.faces:
+                spots = [part.points[i] for i in face]
+                if _area([spot[:2] for spot in spots]) <= 1e-6:
+                    continue
+                lit = sum(a * b for a, b in zip(_normal(spots), _SUN, strict=True)) - _SUN[2]
+                d = polygon_path([self.at(x, y) for x, y, _ in spots])
+                if self._wide(parts):
+                    text += self._path(d, self._surface(material), line)
+                    veil = ("#ffffff", 0.5 * lit) if lit > 0 else (self.style.shadow, -0.38 * lit)
+                    text += f'<path d="{d}" fill="{veil[0]}" fill-opacity="{num(min(veil[1], 0.6))}"/>'
+                else:
+                    tone = (
+                        mix(fill, "#ffffff", min(1.1 * lit, 0.6))
+                        if lit > 0
+                        else mix(fill, line, min(-lit, 0.8))
+                    )
+                    text += self._path(d, tone, line)
+        return text
+
+    def _carving(self, part: Polyhedron, material: Material) -> str:
+        """A body of many faces, far ones first: tones by how they lie to the light, lines along its sharp edges."""
+        fill, line = self.style.tone(material.fill), self.style.tone(material.line)
+        normals = [_normal([part.points[i] for i in face]) for face in part.faces]
+        across: dict[frozenset[int], list[int]] = {}
+        for k, face in enumerate(part.faces):
+            for edge in zip(face, [*face[1:], face[0]], strict=True):
+                across.setdefault(frozenset(edge), []).append(k)
+        seen = [k for k, normal in enumerate(normals) if normal[2] > 1e-6]
+        seen.sort(key=lambda k: sum(part.points[i][2] for i in part.faces[k]) / len(part.faces[k]))
+        text, lines, before = "", "", ""
+        d = ""
+        for k in seen:
+            face = part.faces[k]
+            lit = round(12 * (sum(a * b for a, b in zip(normals[k], _SUN, strict=True)) - _SUN[2])) / 12
+            tone = mix(fill, "#ffffff", min(1.1 * lit, 0.6)) if lit > 0 else mix(fill, line, min(-lit, 0.8))
+            sharp = [
+                edge
+                for edge in zip(face, [*face[1:], face[0]], strict=True)
+                if any(
+                    sum(a * b for a, b in zip(normals[k], normals[other], strict=True)) < _SHARP
+                    for other in across[frozenset(edge)]
+                )
+            ]
+            if before and (tone != before or sharp):
+                text += self._path_of(d, before)
+                d = ""
+            before = tone
+            d += polygon_path([self.at(*part.points[i][:2]) for i in face])
+            if sharp:
+                text, d = text + self._path_of(d, tone), ""
+                lines = "".join(
+                    "M{}L{}".format(*(" ".join(map(num, self.at(*part.points[i][:2]))) for i in edge))
+                    for edge in sharp
+                )
+                text += f'<path d="{lines}" stroke="{line}" stroke-width="{FINE}" fill="none"/>'
+        return text + (self._path_of(d, before) if d else "")
+
+    @staticmethod
+    def _path_of(d: str, tone: str) -> str:
+        return f'<path d="{d}" fill="{tone}" stroke="{tone}" stroke-width=".4"/>' if d else ""
+
+    def _shade(self, parts: Sequence[Part]) -> str:
+        """The shadow of what is in front within the shape, on parts of one depth."""
+        opening = None
+        if self.solid.geometry.cuts and not self.solid.geometry.full:
+            opening = max(silhouette(self.solid.parts), key=len) if self._lies_back() else None
+        shade = self._shapes(shade_on(parts, self.solid.parts, LIGHT, opening))
+        if not shade:
+            return ""
+        opacity = min(1.3 * self.style.shade, 0.6)
+        return (
+            f'<path d="{shade}" fill="{self.style.shadow}" fill-opacity="{opacity:.2f}" fill-rule="evenodd"/>'
+        )
+
+    def _lies_back(self) -> bool:
+        """Whether the surface of the shape lies behind its face, in a hole of the wall."""
+        return self.solid.geometry.recess(self.solid.depth) > 0
+
+    def _shapes(self, whole: Any) -> str:
+        """A shapely geometry as a path; fill it with the even-odd rule."""
+        return "".join(
+            polygon_path([self.at(x, y) for x, y in ring.coords[:-1]])
+            for piece in getattr(whole, "geoms", [whole])
+            if piece.geom_type == "Polygon" and not piece.is_empty
+            for ring in (piece.exterior, *piece.interiors)
+        )
+
+    def outlined(self) -> str:
+        """The line around all that is seen of the shape."""
+        d = self._shapes(covered(self.solid.parts))
+        return f'<path d="{d}" stroke="{self.style.ink}" stroke-width="{MEDIUM}" stroke-linejoin="round" fill="none"/>'
 
     def _path(self, d: str, fill: str, line: str, *, rule: bool = False) -> str:
         even = ' fill-rule="evenodd"' if rule else ""
@@ -180,7 +357,7 @@ class _Pen:
         w, h = (part.x1 - part.x0) * self.scale, (part.y1 - part.y0) * self.scale
         x, y = self.at(part.x0, part.y1)
         text = ""
-        if 12 < w < 2.6 * self.scale and h > 14 and self.solid.shape.geometry == "window":
+        if 12 < w < 2.6 * self.scale and h > 14 and self.solid.geometry.name in ("window", "dormer"):
             a, b = min(0.24 * w, 0.3 * self.scale), 0.1 * w
             d = "".join(
                 f"M{num(edge)} {num(y)}h{num(way * a)}"
@@ -296,6 +473,18 @@ def polygon_path(points: Sequence[Point]) -> str:
         return ""
     first, *rest = points
     return f"M{num(first[0])} {num(first[1])}" + "".join(f"L{num(x)} {num(y)}" for x, y in rest) + "z"
+
+
+def _normal(spots: Sequence[tuple[float, float, float]]) -> tuple[float, float, float]:
+    """The unit normal of a plane polygon (Newell)."""
+    total = [0.0, 0.0, 0.0]
+    for p, q in zip(spots, [*spots[1:], spots[0]], strict=True):
+        for k in range(3):
+            i, j = (k + 1) % 3, (k + 2) % 3
+            total[k] += (p[i] - q[i]) * (p[j] + q[j])
+    size = sum(v * v for v in total) ** 0.5 or 1.0
+    x, y, z = (v / size for v in total)
+    return x, y, z
 
 
 def _area(points: Sequence[Sequence[float]]) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from math import log2
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,8 +12,8 @@ import numpy as np
 from ..design.files import write_atomically
 from ..solver.model.layout import Layout
 from .materials import find_material, rgb
-from .meshing import corner_normals, mesh_parts
-from .parts import Part
+from .meshing import corner_normals, corner_places
+from .ruled import is_rule, rule_fault, rule_pixels
 from .scene import Scene, Solid, build_scene
 
 if TYPE_CHECKING:
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
     from trimesh.visual.material import PBRMaterial
 
 __all__ = ["EMPTY", "finish", "node_name", "paint", "to_glb", "to_trimesh", "write_glb"]
+
+_SHARP = 128.0
+"""Pixels a metre of the picture of a rule."""
 
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963  # what a view of the buffer is for, in glTF's numbers
 
@@ -31,16 +35,17 @@ EMPTY = struct.pack("<4sIIII", b"glTF", 2, 20 + len(_NOTHING), len(_NOTHING), 0x
 def to_trimesh(scene: Scene) -> trimesh.Scene:
     """A trimesh scene: a node for every shape and material slot, named ``layer/index X Y/slot``.
 
-    Shapes that look the same share their geometry. Metres, y up, z towards the viewer, as glTF wants it.
+    Shapes that look the same share their geometry. Metres, y up, z towards the viewer, as glTF wants it; texture
+    coordinates are metres too. Only what a rule of the design's grammar draws has those of its picture, 0 to 1.
     """
     import trimesh
 
     result = trimesh.Scene()
-    paints: dict[str, PBRMaterial] = {}
-    made: dict[tuple[tuple[Part, ...], str, str], str] = {}
+    paints: dict[object, PBRMaterial] = {}
+    made: dict[tuple[object, ...], str] = {}
     for solid in scene.solids:
-        local = mesh_parts(solid.parts)
-        normals = corner_normals(local)
+        local = solid.body()
+        normals, places = corner_normals(local), corner_places(local)
         place = np.eye(4)
         place[:3, 3] = (solid.rect[0], solid.rect[1], solid.face)
         for k, slot in enumerate(local.names):
@@ -49,15 +54,19 @@ def to_trimesh(scene: Scene) -> trimesh.Scene:
             if not count:  # too small to be told from nothing
                 continue
             name = solid.materials[slot]
-            key = (solid.parts, slot, name)
+            drawn = is_rule(name) and rule_fault(scene.library, name, "") is None
+            size = _size(solid) if drawn else (1.0, 1.0)
+            key = (solid.parts, solid.cuts, slot, name, size)
             if key not in made:
-                if name not in paints:
-                    paints[name] = paint(name)
+                if (name, size) not in paints:
+                    paints[name, size] = _ruled(scene, name, size) if drawn else paint(name)
                 body = trimesh.Trimesh(
                     vertices=local.vertices[local.faces[chosen]].reshape(-1, 3),
                     faces=np.arange(3 * count).reshape(-1, 3),
                     vertex_normals=normals[chosen].reshape(-1, 3),
-                    visual=trimesh.visual.TextureVisuals(material=paints[name]),
+                    visual=trimesh.visual.TextureVisuals(
+                        uv=places[chosen].reshape(-1, 2) / size, material=paints[name, size]
+                    ),
                     process=False,
                 )
                 made[key] = f"{solid.shape.geometry} {slot} {name} {len(made)}"
@@ -158,6 +167,28 @@ def finish(tree: dict[str, Any]) -> None:
 
 def _view(tree: dict[str, Any], accessor: int) -> dict[str, Any]:
     return tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
+
+
+def _size(solid: Solid) -> tuple[float, float]:
+    left, bottom, right, top = solid.rect
+    return round(right - left, 4), round(top - bottom, 4)
+
+
+def _ruled(scene: Scene, name: str, size: tuple[float, float]) -> PBRMaterial:
+    """The picture of a rule in a rectangle of that size, which its texture coordinates fill from 0 to 1."""
+    from PIL import Image
+    from trimesh.visual.material import PBRMaterial
+
+    picture = Image.fromarray(rule_pixels(scene.library, name, size, _SHARP))
+    # Sides of powers of two: some programs draw no others small.
+    picture = picture.resize([2 ** max(2, round(log2(side))) for side in picture.size])
+    return PBRMaterial(
+        name=name,
+        baseColorTexture=picture,
+        baseColorFactor=[1.0] * 4,
+        roughnessFactor=0.9,
+        metallicFactor=0.0,
+    )
 
 
 def paint(name: str) -> PBRMaterial:

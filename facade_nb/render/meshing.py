@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
 
@@ -11,13 +11,27 @@ from numpy.typing import NDArray
 
 from .parts import Block, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned
 
-__all__ = ["SEGMENTS", "Mesh", "corner_normals", "have_area", "mesh_part", "mesh_parts", "triangulate"]
+__all__ = [
+    "SEGMENTS",
+    "Mesh",
+    "assembled",
+    "corner_normals",
+    "corner_places",
+    "have_area",
+    "mesh_part",
+    "mesh_parts",
+    "surface_axes",
+    "triangulate",
+]
 
 SEGMENTS = 32
 """Sides of a turned body."""
 
 _EDGE = 0.5
 """Cosine of the angle between a curved face and its neighbours' average from which on they meet at an edge."""
+
+_LEVEL = 0.97
+"""From that cosine on a surface lies flat: its texture runs along x and back."""
 
 _NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
 
@@ -43,6 +57,8 @@ class Mesh:
         (m,) bool: shaded as a curved surface, with the normals of its neighbours.
     names
         The slots.
+    bodies
+        (m,) int64: which of the closed bodies a triangle belongs to.
     """
 
     vertices: NDArray[np.float64]
@@ -50,30 +66,42 @@ class Mesh:
     slots: NDArray[np.int64]
     smooth: NDArray[np.bool_]
     names: tuple[str, ...]
+    bodies: NDArray[np.int64]
+
+
+Body = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_], str]
+"""Vertices (n, 3), faces (m, 3), which faces are curved (m,), and the slot of one closed body."""
 
 
 def mesh_parts(parts: Sequence[Part]) -> Mesh:
     """One mesh of all parts."""
+    return assembled((*mesh_part(part), part.slot) for part in parts)
+
+
+def assembled(bodies: Iterable[Body]) -> Mesh:
+    """One mesh of closed bodies."""
     vertices, faces, slots, smooth = [], [], [], []
     names: list[str] = []
     count = 0
-    for part in parts:
-        points, triangles, curved = mesh_part(part)
-        if part.slot not in names:
-            names.append(part.slot)
+    for points, triangles, curved, slot in bodies:
+        if slot not in names:
+            names.append(slot)
         vertices.append(points)
         faces.append(triangles + count)
-        slots.append(np.full(len(triangles), names.index(part.slot)))
+        slots.append(np.full(len(triangles), names.index(slot)))
         smooth.append(curved)
         count += len(points)
     if not vertices:
-        return Mesh(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, int), np.zeros(0, bool), ())
+        return Mesh(
+            np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, int), np.zeros(0, bool), (), np.zeros(0, int)
+        )
     mesh = Mesh(
         np.concatenate(vertices),
         np.concatenate(faces),
         np.concatenate(slots),
         np.concatenate(smooth),
         tuple(names),
+        np.repeat(np.arange(len(faces)), [len(triangles) for triangles in faces]),
     )
     sound = have_area(mesh.vertices[mesh.faces])
     return mesh if sound.all() else _welded(mesh)
@@ -103,7 +131,9 @@ def _welded(mesh: Mesh) -> Mesh:
     )
     faces = first[number.reshape(-1)][mesh.faces]
     kept = have_area(mesh.vertices[faces])
-    return Mesh(mesh.vertices, faces[kept], mesh.slots[kept], mesh.smooth[kept], mesh.names)
+    return Mesh(
+        mesh.vertices, faces[kept], mesh.slots[kept], mesh.smooth[kept], mesh.names, mesh.bodies[kept]
+    )
 
 
 def mesh_part(part: Part) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
@@ -271,3 +301,37 @@ def corner_normals(mesh: Mesh) -> NDArray[np.float64]:
         near = (average * own).sum(axis=2, keepdims=True) > _EDGE
         normals[mesh.smooth] = np.where(near, average, own)
     return normals
+
+
+def surface_axes(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """For each triangle (m, 3, 3) three unit vectors: along it, level; up it; out of it.
+
+    A surface that lies flat has those that run along x, and back.
+    """
+    out = _across(corners)
+    out = out / np.maximum(np.sqrt((out * out).sum(axis=1, keepdims=True)), 1e-30)
+    along = np.stack([out[:, 2], np.zeros(len(out)), -out[:, 0]], axis=1)  # up × out
+    level = np.abs(out[:, 1]) > _LEVEL
+    along[level] = np.array([1.0, 0.0, 0.0]) - out[level, :1] * out[level]
+    along /= np.sqrt((along * along).sum(axis=1, keepdims=True))
+    up = out[:, _NEXT] * along[:, _AFTER] - out[:, _AFTER] * along[:, _NEXT]
+    return np.stack([along, up, out], axis=1)
+
+
+def corner_places(mesh: Mesh) -> NDArray[np.float64]:
+    """Texture coordinates (m, 3, 2) at the corners of each triangle: metres along its surface, level, and up it.
+
+    Lengths on the surface are lengths in the texture. Surfaces of one plane share one texture, which begins at the
+    origin. The sides of a round body lie beside each other, unrolled, where its radius is greatest.
+    """
+    corners = mesh.vertices[mesh.faces]
+    axes = surface_axes(corners)
+    places = np.stack([(corners * axes[:, None, k]).sum(axis=2) for k in (0, 1)], axis=2)
+    for body in np.unique(mesh.bodies[mesh.smooth]):
+        own = np.flatnonzero(mesh.smooth & (mesh.bodies == body))
+        spots = corners[own].reshape(-1, 3)
+        middle = (spots.min(axis=0) + spots.max(axis=0)) / 2
+        side = np.round(np.arctan2(axes[own, 2, 0], axes[own, 2, 2]) * SEGMENTS / (2 * np.pi) - 0.5) + 0.5
+        across = ((corners[own] - middle) * axes[own][:, None, 0]).sum(axis=2)
+        places[own, :, 0] = across + 2 * np.abs(across).max() * side[:, None]
+    return places

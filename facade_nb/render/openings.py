@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from math import cos, pi, sin
 
-from .parts import Block, Part, Point, Prism, Ring
+from .bodies import arc
+from .parts import Block, Part, Prism, Ring
 
-__all__ = ["archway", "door", "french_window", "reveal", "shop", "window"]
+__all__ = ["arched_window", "archway", "casement", "door", "french_window", "reveal", "shop", "window"]
 
 
 def reveal(d: float) -> float:
@@ -19,10 +20,11 @@ def _fine(d: float) -> float:
     return min(1.0, d / 0.1)
 
 
-def window(w: float, h: float, d: float) -> tuple[Part, ...]:
+def window(w: float, h: float, d: float, *, leaves: int = 0, rows: int = 0) -> tuple[Part, ...]:
     """A casement window: leaves by width, a transom where it is tall, glazing bars by size, a sill."""
     sill = min(0.07, 0.07 * h)
-    return (*_casement(0, sill, w, h, d, bars=True), Block(0, 0, w, sill, -d, 0.06, "sill"))
+    panes = casement(0, sill, w, h, d, bars=True, count=leaves, panes=rows)
+    return (*panes, Block(0, 0, w, sill, -d, 0.06, "sill"))
 
 
 def french_window(w: float, h: float, d: float) -> tuple[Part, ...]:
@@ -33,7 +35,7 @@ def french_window(w: float, h: float, d: float) -> tuple[Part, ...]:
     foot = 0.13 * low
     count = max(2, min(40, round(w / 0.12)))
     parts: list[Part] = [
-        *_casement(0, 0.03, w, h, d, bars=False),
+        *casement(0, 0.03, w, h, d, bars=False),
         Block(0, 0, w, 0.05, -d, 0.1, "sill"),
         Block(0, head - rail, w, head, 0.05, 0.09, "rail"),
         Block(0, 0.1 * low, w, foot, 0.05, 0.09, "rail"),
@@ -44,7 +46,10 @@ def french_window(w: float, h: float, d: float) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def _casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: bool) -> list[Part]:
+def casement(
+    x0: float, y0: float, x1: float, y1: float, d: float, *, bars: bool, count: int = 0, panes: int = 0
+) -> list[Part]:
+    """Frame, leaves, transom and glass in a rectangle, `d` metres deep; `count` leaves with `panes` rows of panes."""
     w, h = x1 - x0, y1 - y0
     fine = _fine(d)
     set_back = reveal(d)  # of the frame behind the face
@@ -54,7 +59,8 @@ def _casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: boo
     inner = (x0 + frame, y0 + frame, x1 - frame, y1 - frame)
     if inner[2] - inner[0] <= 2 * frame or inner[3] - inner[1] <= 2 * frame:  # a slit: glass and frame alone
         return [Block(*inner, -d, -deep, "glass"), Ring(x0, y0, x1, y1, frame, -d, -set_back)]
-    leaves = 1 if w < 0.72 else 2 if w < 1.8 else max(3, round(w / 0.8))
+    most = max(1, int((inner[2] - inner[0]) / (2.5 * frame)))
+    leaves = min(count, most) if count else 1 if w < 0.72 else 2 if w < 1.8 else max(3, round(w / 0.8))
     transom = inner[1] + 0.7 * (inner[3] - inner[1]) if h > 1.5 and h > 1.05 * w / leaves else None
     parts: list[Part] = [Block(*inner, -d, -deep, "glass"), Ring(x0, y0, x1, y1, frame, -d, -set_back)]
     pitch = (inner[2] - inner[0]) / leaves
@@ -63,7 +69,8 @@ def _casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: boo
     for i in range(leaves):  # each leaf has its own slender frame
         left, right = inner[0] + i * pitch, inner[0] + (i + 1) * pitch
         if bars:
-            rows = 1 if h < 0.9 else max(2, round((top - inner[1]) / 0.5))
+            rows = panes or (1 if h < 0.9 else max(2, round((top - inner[1]) / 0.5)))
+            rows = min(rows, max(1, int((top - inner[1]) / 0.06)))
             for j in range(1, rows):
                 y = inner[1] + (top - inner[1]) * j / rows
                 parts.append(Block(left, y - 0.011, right, y + 0.011, -d, bar))
@@ -78,7 +85,7 @@ def _casement(x0: float, y0: float, x1: float, y1: float, d: float, *, bars: boo
     return parts
 
 
-def shop(w: float, h: float, d: float) -> tuple[Part, ...]:
+def shop(w: float, h: float, d: float, *, panes: int = 0) -> tuple[Part, ...]:
     """A shop window: stall riser, panes as large as they come, a row of fanlights, a sill."""
     set_back, frame, fine = reveal(d), min(0.08, 0.06 * min(w, h)), _fine(d)
     deep = set_back + min(0.05, (d - set_back) / 2)
@@ -90,7 +97,7 @@ def shop(w: float, h: float, d: float) -> tuple[Part, ...]:
         Ring(0, riser, w, h, frame, -d, -set_back),
         Block(frame, fan - frame / 2, w - frame, fan + frame / 2, -d, -set_back),
     ]
-    panes = max(1, round(w / 1.5))
+    panes = min(panes, max(1, int(w / (3 * frame)))) if panes else max(1, round(w / 1.5))
     for i in range(1, panes):
         x = w * i / panes
         parts.append(
@@ -109,7 +116,7 @@ def shop(w: float, h: float, d: float) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def door(w: float, h: float, d: float) -> tuple[Part, ...]:
+def door(w: float, h: float, d: float, *, leaves: int = 0) -> tuple[Part, ...]:
     """A panelled door: frame, one or two leaves, a step, a fanlight where there is height for it."""
     set_back = reveal(d)
     deep = set_back + min(0.04, (d - set_back) / 2)
@@ -132,7 +139,7 @@ def door(w: float, h: float, d: float) -> tuple[Part, ...]:
             x = frame + (w - 2 * frame) * i / max(2, round(w / 0.4))
             parts.append(Block(x - 0.012, head + frame / 2, x + 0.012, h - frame, -d, -deep))
         head -= frame / 2
-    leaves = 2 if w > 1.25 else 1
+    leaves = leaves or (2 if w > 1.25 else 1)
     pitch = (w - 2 * frame) / leaves
     for i in range(leaves):
         left = frame + i * pitch
@@ -177,8 +184,8 @@ def archway(w: float, h: float, d: float) -> tuple[Part, ...]:
     deep = set_back + min(0.05, (d - set_back) / 2)
     frame = min(0.07, 0.1 * span)
     fine = _fine(d)
-    outer = _arc(w / 2, spring, span, rise)
-    inner = _arc(w / 2, spring, span - frame, rise - frame)
+    outer = arc(w / 2, spring, span, rise)
+    inner = arc(w / 2, spring, span - frame, rise - frame)
     left, right = w / 2 - span, w / 2 + span
     wall = ((0, 0), (left, 0), *reversed(outer), (right, 0), (w, 0), (w, h), (0, h))
     glass = ((left + frame, frame), (right - frame, frame), *inner)
@@ -215,6 +222,44 @@ def archway(w: float, h: float, d: float) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def _arc(cx: float, cy: float, rx: float, ry: float, steps: int = 20) -> tuple[Point, ...]:
-    """Half an ellipse from its right end over the top to its left end."""
-    return tuple((cx + rx * cos(pi * i / steps), cy + ry * sin(pi * i / steps)) for i in range(steps + 1))
+def arched_window(w: float, h: float, d: float, *, rise: float = 0.5) -> tuple[Part, ...]:
+    """A window whose head is an arch, `rise` times as high as it is wide; nothing of the wall comes with it."""
+    half, sill = w / 2, min(0.07, 0.05 * h)
+    up = min(max(rise * w, 0.04 * h), 0.6 * h)
+    spring = h - up
+    set_back, fine = reveal(d), _fine(d)
+    deep = set_back + min(0.05, (d - set_back) / 2)
+    frame = min(0.07, 0.09 * w, 0.3 * up)
+    outer = arc(half, spring, half, up)
+    inner = arc(half, spring, half - frame, up - frame)
+    left, right = frame, w - frame
+    rim = ((0.0, sill), (left, sill), *reversed(inner), (right, sill), (w, sill), *outer)
+    parts: list[Part] = [
+        Prism(((left, sill), (right, sill), *inner), -d, -deep, "glass"),
+        Prism(rim, -d, -set_back),
+        Block(left, sill, right, sill + frame, -d, -set_back),
+        Block(left, spring - frame / 2, right, spring + frame / 2, -d, -set_back - 0.005 * fine),
+    ]
+    leaves = 1 if w < 0.72 else 2 if w < 1.8 else max(3, round(w / 0.8))
+    for i in range(1, leaves):
+        x = left + (right - left) * i / leaves
+        parts.append(
+            Block(x - frame / 3, sill + frame, x + frame / 3, spring - frame / 2, -d, -set_back - 0.01 * fine)
+        )
+    tall = spring - frame / 2 - sill - frame
+    rows = max(1, min(30, round(tall / 0.55)))
+    bar, thin = -deep + 0.02 * fine, min(0.012, 0.02 * tall)
+    for j in range(1, rows):
+        y = sill + frame + tall * j / rows
+        parts.append(Block(left, y - thin, right, y + thin, -d, bar))
+    # Rays of the fan stop short of its rim, which hides their ends.
+    hub = (half, spring + frame / 2)
+    for k in range(1, 6) if w > 0.8 and up > 0.3 else ():
+        a = pi * k / 6
+        reach = (half - 0.5 * frame) * cos(a), (up - 0.5 * frame) * sin(a) - frame / 2
+        nx, ny = -sin(a) * 0.011, cos(a) * 0.011
+        (px, py), (qx, qy) = hub, (hub[0] + reach[0], hub[1] + reach[1])
+        ray = ((px + nx, py + ny), (px - nx, py - ny), (qx - nx, qy - ny), (qx + nx, qy + ny))
+        parts.append(Prism(ray, -d, bar))
+    parts.append(Block(0, 0, w, sill, -d, 0.06, "sill"))
+    return tuple(parts)

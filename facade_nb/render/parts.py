@@ -19,6 +19,7 @@ __all__ = [
     "Prism",
     "Ring",
     "Turned",
+    "back",
     "flip",
     "front",
     "outline",
@@ -108,6 +109,17 @@ def front(part: Part) -> float:
             return max(z for _, _, z in part.points)
         case _:
             return part.z1
+
+
+def back(part: Part) -> float:
+    """How far the part goes back from the shape's face: its least z, in metres."""
+    match part:
+        case Turned():
+            return part.cz - max(radius for _, radius in part.profile)
+        case Polyhedron():
+            return min(z for _, _, z in part.points)
+        case _:
+            return part.z0
 
 
 def outline(part: Part) -> tuple[Point, ...]:

@@ -16,8 +16,10 @@ from numpy.typing import NDArray
 
 from ..solver.model.layout import Rect
 from .ink import clip, hull
-from .parts import Block, Moulding, Point, Prism, Turned, front, outline
+from .meshing import triangulate
+from .parts import Block, Moulding, Point, Polyhedron, Prism, Turned, front, outline
 from .scene import Scene, Solid
+from .silhouette import pieces
 from .style import LIGHT
 
 __all__ = ["Edges", "Relief"]
@@ -25,7 +27,10 @@ __all__ = ["Edges", "Relief"]
 _STEP = 0.025
 """Smaller differences in depth, metres, are drawn as a fine line, not as an edge."""
 
-_COURSES = frozenset({"cornice", "ledge", "pitched"})
+_MANY = 60
+"""Bodies of so few faces are taken as convex."""
+
+_COURSES = frozenset({"cornice", "ledge", "pitched", "mansard"})
 """Geometries that run on from cell to cell without a joint."""
 
 Segment = tuple[float, float, float, float]
@@ -42,13 +47,17 @@ class Edges:
 
 @dataclass(frozen=True, slots=True)
 class _Caster:
-    """What throws shadow: convex, between two depths. `of` is its solid if part of the skin; a `box` is a rectangle."""
+    """What throws shadow: convex, between two depths. `of` is its solid if part of the skin; a `box` is a rectangle.
+
+    A `body` has corners that each have a depth of their own.
+    """
 
     points: tuple[Point, ...]
     z0: float
     z1: float
     of: int | None = None
     box: bool = True
+    body: tuple[tuple[float, float, float], ...] = ()
 
 
 class Relief:
@@ -80,9 +89,9 @@ class Relief:
         keys: dict[tuple[object, ...], int] = {}
         number, plane, stage = [], [], []
         for solid in self._skin:
-            shape = solid.shape
-            plain = shape.geometry == "arch" or (shape.geometry == "box" and shape.material != "glass")
-            same = None if plain else shape.rect[1::2] if shape.geometry in _COURSES else solid.index
+            shape, name = solid.shape, solid.geometry.name
+            plain = name == "arch" or (name == "box" and shape.material != "glass")
+            same = None if plain else shape.rect[1::2] if name in _COURSES else solid.index
             key = (round(solid.plane, 4), solid.materials["body"], "" if plain else shape.geometry, same)
             number.append(keys.setdefault(key, len(keys)))
             plane.append(solid.plane)
@@ -156,9 +165,7 @@ class Relief:
     def _casters(self) -> list[_Caster]:
         casters: list[_Caster] = []
         planes = np.array([*(round(solid.plane, 4) for solid in self._skin), np.nan])
-        stands = np.array(
-            [solid.shape.geometry not in ("cornice", "ledge") for solid in self._skin] + [False]
-        )
+        stands = np.array([solid.geometry.name not in ("cornice", "ledge") for solid in self._skin] + [False])
         heights = np.where(stands, planes, np.nan)[self._top]
         levels = np.unique(heights[~np.isnan(heights)])
         for level in levels[1:]:  # nothing lies behind the lowest
@@ -176,7 +183,7 @@ class Relief:
 
 def _of_parts(solid: Solid) -> Iterable[_Caster]:
     full = solid.geometry.full
-    if full and solid.shape.geometry == "box":
+    if full and solid.geometry.name == "box":
         return
     left, bottom = solid.rect[:2]
     least = solid.plane - solid.face + 0.03 if full else -1e9
@@ -205,7 +212,22 @@ def _of_parts(solid: Solid) -> Iterable[_Caster]:
                     (part.cx - radius, part.profile[0][0], part.cx + radius, part.profile[-1][0])
                 )
             case Prism() if not full and part.slot in ("body", "gable"):
-                z0, z1, points = part.z0, part.z1, part.points
+                for piece in _convex(part.points):
+                    moved = tuple((x + left, y + bottom) for x, y in piece)
+                    yield _Caster(moved, solid.face + part.z0, solid.face + part.z1, None, False)
+                continue
+            case Prism() if solid.geometry.modelled and part.slot in ("trim", "coping", "stripe", "roof"):
+                z0, z1, points = part.z0, part.z1, tuple(hull(part.points))
+            case Polyhedron() if solid.geometry.modelled and not full and not solid.geometry.roof:
+                spots = tuple((x + left, y + bottom, z + solid.face) for x, y, z in part.points)
+                zs = [z for _, _, z in spots]
+                if len(part.faces) > _MANY:  # a body that may have hollows and holes
+                    for piece in pieces([part]):
+                        moved = tuple((x + left, y + bottom) for x, y in piece)
+                        yield _Caster(moved, (min(zs) + max(zs)) / 2, max(zs), None, False)
+                    continue
+                yield _Caster(tuple((x, y) for x, y, _ in spots), min(zs), max(zs), None, False, spots)
+                continue
             case _:
                 continue
         moved = tuple((x + left, y + bottom) for x, y in points)
@@ -220,6 +242,11 @@ def _of_parts(solid: Solid) -> Iterable[_Caster]:
 
 def _swept(caster: _Caster, a: float, b: float) -> list[Point]:
     """The shadow's outline, counter-clockwise, between the caster moved `a` and `b` metres along the light."""
+    if caster.body:
+        plane = caster.z1 - b
+        return hull(
+            (x + t * LIGHT[0], y - t * LIGHT[1]) for x, y, z in caster.body for t in (max(z - plane, 0.0),)
+        )
     if not caster.box:
         return hull((x + t * LIGHT[0], y - t * LIGHT[1]) for t in (a, b) for x, y in caster.points)
     (x0, y0), _, (x1, y1), _ = caster.points
@@ -232,6 +259,13 @@ def _swept(caster: _Caster, a: float, b: float) -> list[Point]:
         (x1 + ax, y1 - ay),
         (x0 + ax, y1 - ay),
     ]
+
+
+def _convex(points: Sequence[Point]) -> Iterable[Sequence[Point]]:
+    """A polygon as convex pieces: itself, or its triangles."""
+    if len(hull(points)) == len(points):
+        return [points]
+    return [[points[i] for i in corners] for corners in triangulate(points)]
 
 
 def _merged(values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from math import cos, hypot, pi, sin
 
-from .parts import Block, Part, Polyhedron, Prism
+from .bodies import beam, upright
+from .parts import Block, Part, Point, Polyhedron, Prism
 
-__all__ = ["gable", "hip", "pitched"]
+__all__ = ["gable", "hip", "hipped", "mansard", "pitched"]
 
 
 def gable(w: float, h: float, d: float) -> tuple[Part, ...]:
@@ -44,6 +45,61 @@ def gable(w: float, h: float, d: float) -> tuple[Part, ...]:
         parts.append(Prism(low, -d, verge - 0.04, "frame"))
         parts.append(Prism(high, -d, verge))
     return tuple(parts)
+
+
+def mansard(w: float, h: float, d: float, *, knee: float = 0.68, ends: str = "upright") -> tuple[Part, ...]:
+    """A mansard roof: a steep slope up to the knee, a flat one above it; its ends upright or hipped."""
+    run, front = max(d, 1.6 * h), 0.25
+    break_y = knee * h
+    steep, gentle = 0.3 * break_y, min(1.9 * (h - break_y), 0.3 * run)
+    draw = min(steep, 0.12 * w) if ends == "hipped" else 0.0
+    far = draw + (min(gentle, 0.25 * w) if ends == "hipped" else 0.0)
+
+    def plan(x: float, back: float) -> tuple[Point, ...]:
+        return (
+            (x, front - back),
+            (w - x, front - back),
+            (w - x, -run - front + back),
+            (x, -run - front + back),
+        )
+
+    lip = min(0.07, 0.05 * h)
+    z = front - steep
+    return (
+        upright(plan(0.0, 0.0), 0.0, break_y, "body", top=plan(draw, steep)),
+        upright(plan(draw, steep), break_y, h, "upper", top=plan(far, steep + gentle)),
+        Block(draw, break_y - lip, w - draw, break_y + lip / 2, z - 0.05, z + 0.07, "gutter"),
+        Block(0, -0.1, w, 0.0, -0.1, front + 0.06, "gutter"),
+    )
+
+
+def hipped(
+    w: float, h: float, d: float, *, ridge: float | None = None, eaves: float = 0.3
+) -> tuple[Part, ...]:
+    """A hipped roof under hip and ridge tiles; `ridge` is the share of the width that the ridge has."""
+    run = max(d, 1.6 * h)
+    share = max(0.0, 1 - 2 * h / w) if ridge is None else ridge
+    draw = min((1 - share) / 2, 0.495) * w
+    near = -min(run / 2, 1.2 * h)
+    far = min(-run - near, near - 0.01 * h)
+    back = near + far - eaves
+    e = min(eaves, 0.06 * w)
+    low = ((-e, eaves), (w + e, eaves), (w + e, back), (-e, back))
+    high = ((draw, near), (w - draw, near), (w - draw, far), (draw, far))
+    cap = min(0.14, 0.05 * h, 0.05 * w)
+    top = h - cap / 2
+    hips = [
+        beam((x, 0.0, eaves - cap), (to, top, near), cap, "caps")
+        for x, to in ((-e + cap / 2, draw), (w + e - cap / 2, w - draw))
+    ]
+    board = min(0.14, 0.1 * h)
+    return (
+        upright(low, 0.0, top, "body", top=high),
+        *hips,
+        Block(draw - cap / 2, top - cap / 2, w - draw + cap / 2, h, near - cap / 2, near + cap / 2, "caps"),
+        Block(-e, -board, w + e, 0.0, back, eaves, "frame"),
+        Block(-e, -0.6 * board, w + e, 0.0, eaves, eaves + 0.09, "gutter"),
+    )
 
 
 def hip(w: float, h: float, d: float) -> tuple[Part, ...]:

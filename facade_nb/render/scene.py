@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from ..design.errors import DesignError, Fault
 from ..solver.model.layout import Layout, PlacedShape, Rect
-from .geometry import Geometry, find_geometry
-from .materials import find_material, rgb
-from .parts import Block, Part, flip
+from .cuts import Cut
+from .geometry import DEFAULT_GEOMETRY, Geometry, find_geometry
+from .materials import Material, find_material, rgb
+from .meshfile import file_geometry, is_file
+from .parts import Block, Part, Point, back, flip
+from .ruled import is_rule, library_of, material_of, rule_fault
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,12 +23,15 @@ if TYPE_CHECKING:
 
     from .meshing import Mesh
 
-__all__ = ["Scene", "Solid", "Triangles", "build_scene"]
+__all__ = ["DrawingWarning", "Scene", "Solid", "Triangles", "build_scene", "drawing_faults", "without"]
 
-_ROOFS = frozenset({"roof", "hip", "pitched"})
 _EPS = 1e-9
 _LEAST = 1e-4
 """Metres: what is no wider is not drawn. The solver's small positive minimum may be next to nothing."""
+
+
+class DrawingWarning(UserWarning):
+    """Something of a design cannot be drawn as it says; the rest is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +54,8 @@ class Solid:
         Its parts, in the frame of the shape (see `parts`).
     materials
         The material of each slot of its parts.
+    cuts
+        What later shapes open in its parts, but for rectangles in a plain box: there the parts are what is left.
     """
 
     index: int
@@ -56,6 +65,7 @@ class Solid:
     depth: float
     parts: tuple[Part, ...] = field(repr=False)
     materials: Mapping[str, str]
+    cuts: tuple[Cut, ...] = field(default=(), repr=False)
 
     @property
     def rect(self) -> Rect:
@@ -67,13 +77,21 @@ class Solid:
         """Z of the surface that takes the shadow of its neighbours."""
         return self.face - self.geometry.recess(self.depth)
 
-    def mesh(self) -> Mesh:
-        """Its triangles, in the scene's frame."""
+    def body(self) -> Mesh:
+        """Its triangles, in its own frame, with openings cut."""
         from .meshing import mesh_parts
 
-        local = mesh_parts(self.parts)
+        if not self.cuts:
+            return mesh_parts(self.parts)
+        from .carving import carved
+
+        return carved(self.parts, self.cuts)
+
+    def mesh(self) -> Mesh:
+        """Its triangles, in the scene's frame."""
         from numpy import array
 
+        local = self.body()
         corner = array([self.rect[0], self.rect[1], self.face])
         return replace(local, vertices=local.vertices + corner)
 
@@ -92,6 +110,8 @@ class Triangles:
         (t,) int64: index into `material_names`.
     shapes
         (t,) int64: which shape of the layout a triangle belongs to, for picking.
+    material_names, library
+        Names of the materials, and the grammar of those that are rules.
     """
 
     positions: NDArray[np.float32]
@@ -100,22 +120,44 @@ class Triangles:
     materials: NDArray[np.int64]
     shapes: NDArray[np.int64]
     material_names: tuple[str, ...]
+    library: str = ""
+
+    def material(self, name: str) -> Material:
+        """A material of its triangles; a rule has its mean colour."""
+        return material_of(self.library, name)
 
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """The solids of a layout, in its order (bottom layer first), on its canvas (width, height)."""
+    """The solids of a layout, in its order (bottom layer first), on its canvas (width, height).
+
+    Attributes
+    ----------
+    canvas, solids
+        As said.
+    library
+        The texture grammar whose rules are materials.
+    faults
+        What cannot be drawn as the design says, each with its shape and layer. Something plain stands for it.
+    """
 
     canvas: tuple[float, float]
     solids: tuple[Solid, ...]
+    library: str = field(default="", repr=False)
+    faults: tuple[Fault, ...] = ()
+
+    def material(self, name: str) -> Material:
+        """A material of its solids; a rule has its mean colour."""
+        return material_of(self.library, name)
 
     def triangles(self) -> Triangles:
         """All triangles of all solids."""
-        return triangles_of([(solid.index, solid.mesh(), solid.materials) for solid in self.solids])
+        bodies = [(solid.index, solid.mesh(), solid.materials) for solid in self.solids]
+        return triangles_of(bodies, self.library)
 
 
-def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]]) -> Triangles:
-    """The triangles of meshes, each with its shape's index and the materials of its slots."""
+def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]], library: str = "") -> Triangles:
+    """The triangles of meshes, each with its shape's index and the materials of its slots; rules are of `library`."""
     import numpy as np
 
     from .meshing import corner_normals, have_area
@@ -132,8 +174,10 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]]) -> Trian
         shapes.append(np.full(len(mesh.faces), index))
     if not positions:
         empty = np.zeros((0, 3, 3), np.float32)
-        return Triangles(empty, empty, np.zeros((0, 3), np.uint8), np.zeros(0, int), np.zeros(0, int), ())
-    palette = np.array([rgb(find_material(name).base) for name in names], np.uint8)
+        return Triangles(
+            empty, empty, np.zeros((0, 3), np.uint8), np.zeros(0, int), np.zeros(0, int), (), library
+        )
+    palette = np.array([rgb(material_of(library, name).base) for name in names], np.uint8)
     corners = np.concatenate(positions)
     kept = have_area(corners)  # far from the origin single precision tells less
     material = np.concatenate(materials)[kept]
@@ -144,6 +188,7 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]]) -> Trian
         material,
         np.concatenate(shapes)[kept],
         tuple(names),
+        library,
     )
 
 
@@ -151,7 +196,7 @@ def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
     """Give every shape of a layout its body.
 
     A window of a higher layer opens the wall of a lower one, as it does when shapes are painted in order: a
-    plain box is cut away where a later shape fills its own rectangle and does not stand in front of the box.
+    wall is cut away where a later shape does not stand in front of it, by the outline of that shape.
 
     Parameters
     ----------
@@ -164,16 +209,47 @@ def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
     ------
     DesignError
         If a geometry or a material is unknown; it has one fault for each pair of symbols with such a shape.
+
+    Warns
+    -----
+    DrawingWarning
+        For each shape that cannot be drawn as the design says: a rule that the design's grammar does not have, a
+        mesh file that cannot be read. It is drawn plain.
     """
-    return Scene((layout.canvas.width, layout.canvas.height), _cut(tuple(_solids(layout, roof_depth))))
+    solids = _cut(tuple(_solids(layout, roof_depth)))
+    faults = drawing_faults(layout)
+    for fault in faults:
+        warnings.warn(str(fault), DrawingWarning, stacklevel=2)
+    return Scene((layout.canvas.width, layout.canvas.height), solids, library_of(layout), faults)
+
+
+def drawing_faults(layout: Layout) -> tuple[Fault, ...]:
+    """What of a layout cannot be drawn as its design says, each with its shape and layer."""
+    found: dict[str, Fault] = {}
+    library = library_of(layout)
+    for shape in layout.shapes:
+        if is_rule(shape.material):
+            fault = rule_fault(library, shape.material, f"{_place(shape)}: material")
+            if fault is not None:
+                found[str(fault)] = fault
+        if is_file(shape.geometry):
+            try:
+                file_geometry(shape.geometry, f"{_place(shape)}: geometry")
+            except DesignError as error:
+                found.update((str(fault), fault) for fault in error.faults)
+    return tuple(found.values())
+
+
+def _place(shape: PlacedShape) -> str:
+    return f'shapes["{shape.x} {shape.y}"] in layer {shape.layer!r}'
 
 
 def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
     faults: dict[str, Fault] = {}
     for index, shape in enumerate(layout.shapes):
-        place = f'shapes["{shape.x} {shape.y}"] in layer {shape.layer!r}'
+        place = _place(shape)
         try:
-            geometry = find_geometry(shape.geometry, f"{place}: geometry")
+            geometry = _geometry(shape)
             own = geometry.material("body", shape.material)
             find_material(shape.material, f"{place}: material")
         except DesignError as error:
@@ -183,11 +259,12 @@ def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
             continue  # nothing will be drawn: only look for the rest of the faults
         left, bottom, right, top = shape.rect
         width, height = right - left, top - bottom
-        face = shape.offset or geometry.stand(width, height)
-        depth = max(shape.thickness, face, 0.01)
-        if roof_depth is not None and geometry.name in _ROOFS:
+        face = shape.offset or geometry.face(width, height)
+        depth = max(shape.thickness, face, geometry.depth(width, height), 0.01)
+        if roof_depth is not None and geometry.roof:
             depth = max(depth, roof_depth)
-        parts = _parts(geometry.name, round(width, 6), round(height, 6), round(depth, 6), shape.mirrored)
+        make = _parts if not is_file(shape.geometry) else partial(_fitted, geometry)
+        parts = make(shape.geometry, round(width, 6), round(height, 6), round(depth, 6), shape.mirrored)
         materials = {"body": own, **geometry.slots}
         for part in parts:
             materials.setdefault(part.slot, own)
@@ -196,47 +273,97 @@ def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
         raise DesignError(faults.values())
 
 
+def _geometry(shape: PlacedShape) -> Geometry:
+    """The geometry of a shape; that of a file which cannot be drawn is a plain block."""
+    if not is_file(shape.geometry):
+        return find_geometry(shape.geometry, f"{_place(shape)}: geometry")
+    try:
+        return file_geometry(shape.geometry)
+    except DesignError:  # `drawing_faults` tells it
+        return find_geometry(DEFAULT_GEOMETRY)
+
+
+def _fitted(
+    geometry: Geometry, name: str, width: float, height: float, depth: float, mirrored: tuple[bool, bool]
+) -> tuple[Part, ...]:
+    if min(width, height) <= _LEAST:  # no room for parts
+        return ()
+    return flip(geometry.parts(width, height, depth), width, height, mirrored)
+
+
 @lru_cache(maxsize=2048)
 def _parts(
     name: str, width: float, height: float, depth: float, mirrored: tuple[bool, bool]
 ) -> tuple[Part, ...]:
-    if min(width, height) <= _LEAST:  # no room for parts
-        return ()
-    return flip(find_geometry(name).parts(width, height, depth), width, height, mirrored)
+    geometry = find_geometry(name)
+    return _fitted(geometry, name, width, height, depth, mirrored if geometry.turns else (False, False))
 
 
 def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
     layers = {solid.shape.layer for solid in solids}
     if len(layers) < 2:  # the cells of one layer do not overlap
         return solids
-    fronts = [
-        (solid.index, solid.rect, solid.face, solid.shape.layer) for solid in solids if solid.geometry.full
-    ]
+    cutters = [solid for solid in solids if solid.geometry.full or solid.geometry.cuts]
     done: list[Solid] = []
     for solid in solids:
-        left, bottom, right, top = solid.rect
-        holes = [
-            rect
-            for index, rect, face, layer in fronts
-            if index > solid.index
-            and layer != solid.shape.layer
-            and face <= solid.face + _EPS
-            and rect[0] < right - _EPS
-            and rect[2] > left + _EPS
-            and rect[1] < top - _EPS
-            and rect[3] > bottom + _EPS
-        ]
-        rest = _without(solid.rect, holes) if holes and solid.geometry.full else None
-        if rest is None or (rest and solid.shape.geometry != "box"):
+        if not solid.geometry.wall:
             done.append(solid)
             continue
-        d = solid.depth
-        blocks = tuple(Block(r[0] - left, r[1] - bottom, r[2] - left, r[3] - bottom, -d, 0) for r in rest)
-        done.append(replace(solid, parts=blocks))
+        left, bottom, right, top = solid.rect
+        found = [
+            other
+            for other in cutters
+            if other.index > solid.index
+            and other.face <= solid.face + _EPS
+            and other.shape.layer != solid.shape.layer
+            and other.rect[0] < right - _EPS
+            and other.rect[2] > left + _EPS
+            and other.rect[1] < top - _EPS
+            and other.rect[3] > bottom + _EPS
+        ]
+        if not found:
+            done.append(solid)
+            continue
+        holes = [other.rect for other in found if other.geometry.full]
+        cuts = [cut for other in found if not other.geometry.full for cut in _cuts_of(other, solid)]
+        rest = without(solid.rect, holes) if holes else [solid.rect]
+        if rest and solid.geometry.name != "box":
+            cuts += [_hole(rect, solid) for rect in holes]
+        elif holes:
+            d = solid.depth
+            blocks = tuple(Block(r[0] - left, r[1] - bottom, r[2] - left, r[3] - bottom, -d, 0) for r in rest)
+            solid = replace(solid, parts=blocks)
+        done.append(replace(solid, cuts=tuple(cuts)))
     return tuple(done)
 
 
-def _without(rect: Rect, holes: list[Rect]) -> list[Rect]:
+def _hole(rect: Rect, wall: Solid) -> Cut:
+    """A rectangle, opened in a wall."""
+    left, bottom = wall.rect[:2]
+    l, b, r, t = (  # noqa: E741
+        round(v, 6) for v in (rect[0] - left, rect[1] - bottom, rect[2] - left, rect[3] - bottom)
+    )
+    return Cut(((l, b), (r, b), (r, t), (l, t)))
+
+
+def _cuts_of(solid: Solid, wall: Solid) -> Iterator[Cut]:
+    """What a shape that does not fill its rectangle opens in a wall: its outline, through the wall for an opening."""
+    dx, dy = solid.rect[0] - wall.rect[0], solid.rect[1] - wall.rect[1]
+    through = solid.geometry.recess(solid.depth) > 0
+    behind = min((back(part) for part in solid.parts), default=0.0)
+    for outline in _outlines(solid.parts):
+        points = tuple((round(x + dx, 6), round(y + dy, 6)) for x, y in outline)
+        yield Cut(points) if through else Cut(points, round(solid.face + behind - wall.face, 6))
+
+
+@lru_cache(maxsize=512)
+def _outlines(parts: tuple[Part, ...]) -> tuple[tuple[Point, ...], ...]:
+    from .silhouette import silhouette
+
+    return silhouette(parts)
+
+
+def without(rect: Rect, holes: Sequence[Rect]) -> list[Rect]:
     """What is left of a rectangle, as rectangles."""
     rest = [rect]
     for hole in holes:

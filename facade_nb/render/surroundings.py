@@ -9,11 +9,10 @@ from ..solver.model.layout import Layout
 from .materials import DEFAULT_MATERIAL
 from .meshing import Mesh, mesh_parts
 from .parts import Block, Part
-from .scene import Solid, Triangles, build_scene, triangles_of
+from .ruled import is_rule
+from .scene import Solid, Triangles, build_scene, triangles_of, without
 
 __all__ = ["building"]
-
-_ROOFS = frozenset({"roof", "hip", "pitched"})
 
 
 def building(layout: Layout, depth: float | None = None) -> Triangles:
@@ -24,21 +23,24 @@ def building(layout: Layout, depth: float | None = None) -> Triangles:
     bodies: list[tuple[int, Mesh, Mapping[str, str]]] = [
         (solid.index, solid.mesh(), solid.materials) for solid in scene.solids
     ]
-    roofs = [solid.rect for solid in scene.solids if solid.geometry.name in _ROOFS]
+    roofs = [solid.rect for solid in scene.solids if solid.geometry.roof]
     walls = [
         solid
         for solid in scene.solids
         if solid.geometry.full
-        and solid.geometry.name not in _ROOFS
+        and not solid.geometry.roof
         and not any(_within(solid.rect, roof) for roof in roofs)  # a dormer is no wall of the house
     ]
     if walls:
         back = min(solid.face - solid.depth for solid in walls)
-        bodies += [_mesh(-1, parts, name) for name, parts in _lining(walls, back).items()]
-        bodies += [_mesh(-1, parts, name) for name, parts in _body(walls, width, back, deep).items()]
+        behind = [*_lining(walls, back).items(), *_body(walls, width, back, deep).items()]
+        # What a rule draws is one wall; the house behind it has its mean colour.
+        bodies += [
+            _mesh(-1, parts, scene.material(name).fill if is_rule(name) else name) for name, parts in behind
+        ]
     if not bodies:  # an empty canvas: a blank panel of its size
         bodies.append(_mesh(-1, [Block(0, 0, width, layout.canvas.height, -0.05, 0)], "plaster-white"))
-    return triangles_of(bodies)
+    return triangles_of(bodies, scene.library)
 
 
 def _mesh(index: int, parts: Sequence[Part], material: str) -> tuple[int, Mesh, Mapping[str, str]]:
@@ -57,9 +59,11 @@ def _lining(walls: Sequence[Solid], back: float) -> dict[str, list[Part]]:
     for solid in walls:
         behind = solid.face - solid.depth
         if behind > back + 1e-6:
-            left, bottom, right, top = solid.rect
             name = solid.materials["body"]
-            found.setdefault(name, []).append(Block(left, bottom, right, top, back, behind))
+            deeper = [other.rect for other in walls if other.face - other.depth < behind - 1e-6]
+            found.setdefault(name, []).extend(
+                Block(*rect, back, behind) for rect in without(solid.rect, deeper)
+            )
     return found
 
 

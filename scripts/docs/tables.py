@@ -13,7 +13,7 @@ from facade_nb.design.files import write_atomically
 from facade_nb.render.geometry import GEOMETRIES
 from facade_nb.render.materials import DEFAULT_MATERIAL, MATERIALS
 
-__all__ = ["geometry_table", "material_table", "refresh", "with_tables"]
+__all__ = ["geometry_table", "material_table", "parameter_table", "refresh", "with_tables"]
 
 
 def geometry_table() -> str:
@@ -27,6 +27,16 @@ def geometry_table() -> str:
         rows.append(
             f"| `{name}` | {geometry.summary} | {full} | {geometry.own or DEFAULT_MATERIAL} | {geometry.overhang} |"
         )
+    return "\n".join(rows)
+
+
+def parameter_table() -> str:
+    """Every parameter of every geometry as a row of a Markdown table."""
+    rows = ["| geometry | parameter | what it says | what it may be |", "|---|---|---|---|"]
+    for name, geometry in GEOMETRIES.items():
+        rows += [
+            f"| `{name}` | `{own.name}` | {own.summary} | {own.expected} |" for own in geometry.parameters
+        ]
     return "\n".join(rows)
 
 
@@ -63,7 +73,9 @@ def with_tables(text: str, tables: Mapping[str, str]) -> str:
 
 def refresh(text: str) -> str:
     """docs/rendering.md with its tables made anew."""
-    return with_tables(text, {"geometries": geometry_table(), "materials": material_table()})
+    return with_tables(
+        text, {"geometries": geometry_table(), "parameters": parameter_table(), "materials": material_table()}
+    )
 
 
 if __name__ == "__main__":

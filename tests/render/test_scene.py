@@ -38,6 +38,13 @@ OVERHANG = {  # metres beyond the rectangle: left and right, below; and beyond t
     "roof": (0.25, 0.25, 0.25),
     "hip": (0.3, 0.1, 0.36),
     "pitched": (0, 0.1, 0.36),
+    "hipped": (0.3, 0.14, 0.39),
+    "mansard": (0, 0.1, 0.31),
+    "dormer": (0, 0, 0.12),
+    "gable": (0, 0, 0.05),
+    "arched-window": (0, 0, 0.06),
+    "arcade": (0, 0, 0.072),
+    "sign": (0, 0, 0.03),
 }
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -19,7 +19,7 @@ from facade_nb import gallery, solve
 from facade_nb.design.model import Canvas
 from facade_nb.render import GEOMETRIES, build_scene, to_glb, write_glb
 from facade_nb.render.mesh import to_trimesh
-from facade_nb.render.meshing import corner_normals, mesh_part, mesh_parts, triangulate
+from facade_nb.render.meshing import corner_normals, corner_places, mesh_part, mesh_parts, triangulate
 from facade_nb.render.parts import Block, Moulding, Part, Prism, Ring, Turned, flip
 from facade_nb.solver.model.layout import Layout, PlacedShape
 
@@ -62,6 +62,7 @@ def has_room(part: Part) -> bool:
 
 
 @pytest.mark.parametrize("name", GEOMETRIES)
+@settings(max_examples=50)
 @given(w=SIZES, h=SIZES, d=DEPTHS, mirrored=st.sampled_from(MIRRORED))
 def test_parts_of_any_size(name: str, w: float, h: float, d: float, mirrored: tuple[bool, bool]) -> None:
     h = min(h, 300 / w)  # a window of 100 m by 100 m has 30,000 parts
@@ -88,6 +89,12 @@ def test_parts_of_any_size(name: str, w: float, h: float, d: float, mirrored: tu
     own /= np.linalg.norm(own, axis=1, keepdims=True)
     turned = np.einsum("mki,mi->mk", normals, own)
     assert (turned > np.where(mesh.smooth, 0.5, 0.999)[:, None]).all()
+    places = corner_places(mesh)
+    for k in range(3):  # texture coordinates are metres on the surface, the right way round
+        sides, drawn = (v[:, k] - v[:, k - 1] for v in (corners, places))
+        assert np.allclose(np.linalg.norm(sides, axis=1), np.linalg.norm(drawn, axis=1), rtol=1e-9, atol=1e-9)
+    first, second = places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]
+    assert (first[:, 0] * second[:, 1] > first[:, 1] * second[:, 0]).all()
 
 
 @cache
@@ -130,7 +137,12 @@ def test_files_are_valid(tmp_path: Path, root: Path) -> None:
     )
     told = json.loads(done.stdout)
     assert len(told) == len(files) > 13
-    assert {Path(path).name: messages[:3] for path, messages in told.items() if messages} == {}
+    # Texture coordinates in metres wait for whoever gives a material a texture; the validator remarks that.
+    known = {
+        path: [one for one in messages if not one["pointer"].endswith("/TEXCOORD_0")]
+        for path, messages in told.items()
+    }
+    assert {Path(path).name: messages[:3] for path, messages in known.items() if messages} == {}
 
 
 def test_the_validator_finds_faults(tmp_path: Path, root: Path) -> None:
@@ -149,7 +161,8 @@ def test_the_validator_finds_faults(tmp_path: Path, root: Path) -> None:
         check=True,
     )
     (messages,) = json.loads(done.stdout).values()
-    assert [message["code"] for message in messages] == ["ACCESSOR_VECTOR3_NON_UNIT"]
+    found = [message["code"] for message in messages if message["code"] != "UNUSED_OBJECT"]  # of TEXCOORD_0
+    assert found == ["ACCESSOR_VECTOR3_NON_UNIT"]
 
 
 def test_what_each_view_of_the_buffer_is_for() -> None:

@@ -39,7 +39,7 @@ _OPEN = 0.2
 _FACING = 0.02
 """How far a surface must be turned towards the viewer to be seen: the cosine of its angle to the view."""
 
-_COURSES = frozenset({"cornice", "ledge", "pitched"})
+_COURSES = frozenset({"cornice", "ledge", "pitched", "mansard"})
 """Geometries that run on from cell to cell without a joint."""
 
 Line = tuple[tuple[float, float], ...]
@@ -149,9 +149,9 @@ def _key(solid: Solid, facet: _Facet, number: int) -> tuple[object, ...]:
     if facet.curved:
         return material, "curved", solid.index, number
     runs_on = material != DEFAULT_MATERIAL and facet.slot == "body"
-    if runs_on and shape.geometry in ("box", "arch"):
+    if runs_on and solid.geometry.name in ("box", "arch", "arcade"):
         return material, "wall", 0, 0
-    if shape.geometry in _COURSES:
+    if solid.geometry.name in _COURSES:
         return material, shape.geometry, round(shape.rect[1], 4), round(shape.rect[3], 4)
     return material, shape.geometry, solid.index, 0
 

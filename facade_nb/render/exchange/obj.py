@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from ...design.files import write_together
 from ...design.targets import locate
 from ...solver.model.layout import Layout
-from ..materials import find_material, rgb
+from ..materials import rgb
+from ..ruled import library_of, material_of
 from ..scene import Solid, build_scene
 
 if TYPE_CHECKING:
@@ -45,17 +46,17 @@ def to_obj(layout: Layout, materials: str = "") -> tuple[str, str]:
     DesignError
         For a shape with an unknown geometry or material.
     """
-    return obj_of(map(_piece, build_scene(layout).solids), materials)
+    return obj_of(map(_piece, build_scene(layout).solids), materials, library_of(layout))
 
 
-def obj_of(pieces: Iterable[Piece], materials: str = "") -> tuple[str, str]:
-    """Meshes as OBJ, and their materials as MTL (see `to_obj`)."""
+def obj_of(pieces: Iterable[Piece], materials: str = "", library: str = "") -> tuple[str, str]:
+    """Meshes as OBJ, and their materials as MTL (see `to_obj`); materials that are rules are those of `library`."""
     head = ["# facade_nb; metres, y up"]
     if materials:
         head.append(f"mtllib {materials}")
     names: dict[str, None] = {}
     body = list(_bodies(pieces, names))
-    return "\n".join([*head, *body]) + "\n", "\n".join(_paints(names)) + "\n"
+    return "\n".join([*head, *body]) + "\n", "\n".join(_paints(names, library)) + "\n"
 
 
 def materials_beside(path: str | Path) -> Path | None:
@@ -98,9 +99,9 @@ def _piece(solid: Solid) -> Piece:
 def _bodies(pieces: Iterable[Piece], names: dict[str, None]) -> Iterator[str]:
     import numpy as np
 
-    from ..meshing import corner_normals
+    from ..meshing import corner_normals, corner_places
 
-    points = directions = 0
+    points = directions = places = 0
     for piece in pieces:
         mesh = piece.mesh
         yield f"o {_line(piece.name)}"
@@ -109,9 +110,12 @@ def _bodies(pieces: Iterable[Piece], names: dict[str, None]) -> Iterator[str]:
             continue
         vertices, corner = np.unique(mesh.vertices.round(6), axis=0, return_inverse=True)
         normals, turn = np.unique(corner_normals(mesh).reshape(-1, 3).round(4), axis=0, return_inverse=True)
+        spots, spot = np.unique(corner_places(mesh).reshape(-1, 2).round(5), axis=0, return_inverse=True)
         faces = corner.reshape(-1)[mesh.faces] + points + 1
         turns = turn.reshape(-1, 3) + directions + 1
+        textures = spot.reshape(-1, 3) + places + 1
         yield from (f"v {a:.10g} {b:.10g} {c:.10g}" for a, b, c in vertices + 0.0)
+        yield from (f"vt {u:.10g} {v:.10g}" for u, v in spots + 0.0)
         yield from (f"vn {a:.4g} {b:.4g} {c:.4g}" for a, b, c in normals + 0.0)
         for slot, name in enumerate(mesh.names):
             chosen = mesh.slots == slot
@@ -120,16 +124,17 @@ def _bodies(pieces: Iterable[Piece], names: dict[str, None]) -> Iterator[str]:
             material = piece.materials[name]
             names.setdefault(material)
             yield f"usemtl {_word(material)}"
-            for (a, b, c), (p, q, r) in zip(faces[chosen], turns[chosen], strict=True):
-                yield f"f {a}//{p} {b}//{q} {c}//{r}"
+            for corners in zip(faces[chosen], textures[chosen], turns[chosen], strict=True):
+                yield "f " + " ".join(f"{v}/{t}/{n}" for v, t, n in zip(*corners, strict=True))
         points += len(vertices)
         directions += len(normals)
+        places += len(spots)
 
 
-def _paints(names: Iterable[str]) -> Iterator[str]:
+def _paints(names: Iterable[str], library: str) -> Iterator[str]:
     yield "# facade_nb"
     for name in names:
-        material = find_material(name)
+        material = material_of(library, name)
         red, green, blue = (value / 255 for value in rgb(material.base))
         shine = 2 / max(material.roughness, 0.05) ** 4 - 2  # the exponent that is as rough
         gloss = 0.04 + 0.5 * material.metallic

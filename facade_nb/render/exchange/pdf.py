@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from ...design.files import write_atomically
 from ...solver.model.layout import Layout
-from ..materials import find_material, mix
+from ..materials import mix
+from ..ruled import library_of, material_of
 from ..scene import build_scene
 from .chains import FIRST, PITCH, TEXT, Units, chains, check_units, label, levels, offset
 from .linework import WEIGHTS, Linework, linework
@@ -114,7 +115,7 @@ class _Pen:
             rings = [surface.polygon.exterior, *surface.polygon.interiors]
             for ring in rings:
                 self._trace(path, ring.coords)
-            material = find_material(surface.material)
+            material = material_of(library_of(layout), surface.material)
             share = 0.55 if material.pattern == "glass" else 0.75
             canvas.setFillColor(mix(material.fill, "#ffffff", share))
             canvas.drawPath(path, stroke=0, fill=1, fillMode=0)

@@ -14,8 +14,9 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from ..materials import Material, find_material, rgb
+from ..materials import RULE, Material, find_material, rgb
 from ..meshing import SEGMENTS
+from ..ruled import is_rule, material_of, rule_fault
 from ..texture.grammar import Grammar
 from ..texture.shape_rules import needed, parts
 from ..tiles import CATALOGUE
@@ -74,6 +75,8 @@ class Finishes:
         (m,) which materials are glass.
     period
         (m, 2) after how many metres along and up its pattern repeats.
+    ruled
+        (m,) which materials are rules that draw the whole of a shape.
     """
 
     grammar: Grammar
@@ -83,12 +86,14 @@ class Finishes:
     ground: tuple[int, int]
     glass: np.ndarray
     period: np.ndarray
+    ruled: np.ndarray
 
 
 @lru_cache(maxsize=16)
-def finishes(materials: tuple[str, ...]) -> Finishes:
-    """The rules of materials. Raises `DesignError` for an unknown one."""
-    found = [find_material(name) for name in materials]
+def finishes(materials: tuple[str, ...], library: str = "") -> Finishes:
+    """The rules of materials; rules are of `library`. Raises `DesignError` for an unknown one."""
+    found = [material_of(library, name) for name in materials]
+    ruled = [is_rule(name) and rule_fault(library, name, "") is None for name in materials]
     lines = [line for number, material in enumerate(found) for line in _rules(number, material)]
     shared = needed({"Room", "Curtain", "Glass"})
     lines += [
@@ -99,23 +104,36 @@ def finishes(materials: tuple[str, ...]) -> Finishes:
         *(line for name, line in parts().items() if name in shared),
     ]
     lines += [line.strip() for line in PAVING.splitlines() if line.strip()]
-    grammar = Grammar.parse("\n".join(lines))
+    text, space = "\n".join(lines), ""
+    if any(ruled):
+        space = _free_space(library)
+        text = f"namespace {space} {{\n{text}\n}}\n{library}"
+    grammar = Grammar.parse(text)
     places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
+    prefix = f"{space}." if space else ""
 
     def each(kind: str) -> np.ndarray:
-        return np.array([places[f"{kind}{number}"] for number in range(len(found))], np.float32).reshape(
-            -1, 2
-        )
+        names = [
+            name.removeprefix(RULE) if own else f"{prefix}{kind}{number}"
+            for number, (name, own) in enumerate(zip(materials, ruled, strict=True))
+        ]
+        return np.array([places[name] for name in names], np.float32).reshape(-1, 2)
 
     return Finishes(
         grammar,
         each("Flat"),
         each("Round"),
-        places[PANE],
-        places[GROUND],
+        places[prefix + PANE],
+        places[prefix + GROUND],
         np.array([own.pattern == "glass" for own in found], bool),
         np.array([_period(own) for own in found]).reshape(-1, 2),
+        np.array(ruled, bool),
     )
+
+
+def _free_space(library: str) -> str:
+    """A namespace that the library does not speak of."""
+    return next(name for name in ("coats", *(f"coats{k}" for k in range(2, 99))) if name not in library)
 
 
 def _tile(material: Material) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...solver.model.layout import Layout
+from ..meshing import surface_axes
 from ..scene import Triangles
 from ..surroundings import building
 from ..texture.grammar import Grammar
@@ -27,9 +28,6 @@ BODY, GROUND = -1, -2
 
 _FAR = 1500.0
 """How far the ground reaches, metres."""
-
-_LEVEL = 0.97
-"""From that cosine on a surface lies flat: its pattern runs east and south."""
 
 _ROUND = 1e-3
 """A triangle is a round body's where the normals of its corners are so far from its own."""
@@ -84,24 +82,27 @@ def solids_of(layout: Layout, *, ground: bool = True) -> Solids:
 
 def solids_scene(triangles: Triangles, rects: Sequence[Rect], *, ground: bool = True) -> Solids:
     """The scene of triangles; `rects`: those of the shapes that they name, metres. Rooms fill these."""
-    coats = finishes(triangles.material_names)
+    coats = finishes(triangles.material_names, triangles.library)
     count = len(triangles.positions)
     vertices = np.zeros((count, 3), VERTEX)
     vertices["position"] = triangles.positions
     corners = triangles.positions.astype(np.float64)
-    axes = _axes(corners)
+    axes = surface_axes(corners)
     vertices["normal"], vertices["tangent"] = axes[:, None, 2], axes[:, None, 0]
     local = np.stack([(corners * axes[:, None, k]).sum(axis=2) for k in (0, 1)], axis=2)
     _spread(vertices, local, triangles.materials, coats)
     _rounded(vertices, local, triangles, axes, coats)
     _glazed(vertices, triangles, axes, rects, coats)
+    _drawn(vertices, local, triangles, axes, rects, coats)
     shapes = triangles.shapes.astype(np.int64)
     return _whole(vertices.reshape(-1), shapes, coats.grammar, coats if ground else None)
 
 
-def combined(parts: Sequence[Solids], materials: tuple[str, ...], *, ground: bool = True) -> Solids:
-    """Solids without ground as one scene. All of them have been made of triangles with these `materials`."""
-    coats = finishes(materials)
+def combined(
+    parts: Sequence[Solids], materials: tuple[str, ...], library: str = "", *, ground: bool = True
+) -> Solids:
+    """Solids without ground as one scene: all made of triangles with these `materials`, their rules of `library`."""
+    coats = finishes(materials, library)
     vertices = np.concatenate([part.scene.vertices for part in parts])
     shapes = np.concatenate([part.shapes for part in parts])
     return _whole(vertices, shapes, coats.grammar, coats if ground else None)
@@ -127,18 +128,6 @@ def _whole(
     sunny = np.stack([np.minimum(box[0], (np.inf, 0, np.inf)) - aside, box[1] + aside])
     made = np.array(chunks, CHUNK)
     return Solids(Scene(flat, indices, grammar, made, sunny=sunny, solid=box), shapes, box)
-
-
-def _axes(corners: Floats) -> Floats:
-    """For each triangle (t, 3, 3): along it, level; up it; out of it."""
-    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    out = np.cross(a, b)
-    out /= np.maximum(np.sqrt((out * out).sum(axis=1, keepdims=True)), 1e-30)
-    along = np.stack([out[:, 2], np.zeros(len(out)), -out[:, 0]], axis=1)  # up × out
-    level = np.abs(out[:, 1]) > _LEVEL
-    along[level] = np.array([1.0, 0.0, 0.0]) - out[level, :1] * out[level]
-    along /= np.sqrt((along * along).sum(axis=1, keepdims=True))
-    return np.stack([along, np.cross(out, along), out], axis=1)
 
 
 def _spread(vertices: np.ndarray, local: Floats, materials: NDArray[np.int64], coats: Finishes) -> None:
@@ -199,6 +188,32 @@ def _glazed(
     vertices["size"][own] = (every[shape, 2:] - every[shape, :2])[:, None]
     vertices["start"][own] = coats.pane
     vertices["seed"][own] = np.stack([(37 * shape + 11) % 16384, (101 * shape + 7) % 16384], axis=1)[:, None]
+
+
+def _drawn(
+    vertices: np.ndarray,
+    local: Floats,
+    triangles: Triangles,
+    axes: Floats,
+    rects: Sequence[Rect],
+    coats: Finishes,
+) -> None:
+    """What a rule draws fills the rectangle of its shape; on other sides of the body it begins at their edge."""
+    own = np.flatnonzero(coats.ruled[triangles.materials] & (triangles.shapes >= 0))
+    if not len(own):
+        return
+    every = np.array(rects, np.float64)[triangles.shapes[own]]
+    size = every[:, 2:] - every[:, :2]
+    front = axes[own, 2, 2] > 0.5
+    place = local[own]
+    for shape in np.unique(triangles.shapes[own[~front]]):  # each side of a shape from its own edge
+        for normal in np.unique(axes[own][(triangles.shapes[own] == shape) & ~front, 2].round(3), axis=0):
+            side = ~front & (triangles.shapes[own] == shape) & (axes[own, 2].round(3) == normal).all(axis=1)
+            place[side] -= place[side].min(axis=(0, 1))
+    place[front] = triangles.positions[own[front]][:, :, :2] - every[front][:, None, :2]
+    vertices["place"][own] = np.clip(place, 0, size[:, None])
+    vertices["size"][own] = size[:, None]
+    vertices["start"][own] = coats.flat[triangles.materials[own]][:, None]
 
 
 def _ground(box: Floats, coats: Finishes) -> np.ndarray:

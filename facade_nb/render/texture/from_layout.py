@@ -15,8 +15,10 @@ import numpy as np
 
 from ...design.errors import DesignError, Fault, GrammarError, nearest
 from ...solver.model.layout import Layout, PlacedShape
-from ..geometry import Geometry, find_geometry
+from ..geometry import DEFAULT_GEOMETRY, Geometry, find_geometry
 from ..materials import RULE, find_material
+from ..meshfile import is_file
+from ..ruled import library_of
 from ..tiles import CATALOGUE
 from .atlas import Tiles
 from .compiling import compile_text
@@ -63,7 +65,7 @@ def grammar_of(
         A solved layout.
     library
         A texture grammar. A shape whose material is ``rule:Name`` is drawn by its rule of that name, in the
-        rectangle of the shape. It may not define `S`.
+        rectangle of the shape. It may not define `S`. Nothing: that of the layout's design.
     detail
         Whether windows, doors, columns and the like are drawn with tiles and rooms; otherwise every shape is a
         rectangle of its material.
@@ -78,7 +80,7 @@ def grammar_of(
     GrammarError
         For a library that cannot be read.
     """
-    return _Writer(layout, library, detail=detail, each=each).written()
+    return _Writer(layout, library or library_of(layout), detail=detail, each=each).written()
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,7 +193,9 @@ class _Writer:
         left, bottom, right, top = shape.rect
         place = f'shapes["{shape.x} {shape.y}"] in layer {shape.layer!r}'
         try:
-            geometry = find_geometry(shape.geometry, f"{place}: geometry")
+            geometry = find_geometry(
+                DEFAULT_GEOMETRY if is_file(shape.geometry) else shape.geometry, f"{place}: geometry"
+            )
             if shape.material.startswith(RULE):
                 return self._named(shape.material.removeprefix(RULE), f"{place}: material")
             find_material(shape.material, f"{place}: material")
@@ -234,6 +238,10 @@ class _Writer:
     def wall(self, material: str) -> str:
         """A rule, of its own, for a surface of a material."""
         return self._wall_rule(material)
+
+    def rule(self, name: str, body: str) -> str:
+        """A rule with that body, which others may share."""
+        return self._rule(name, body)
 
     def _wall_rule(self, material: str) -> str:
         return self._rule(f"wall_{material}", self._wall(material))

@@ -16,6 +16,7 @@ import numpy as np
 from ...solver.model.layout import PlacedShape
 from ..materials import find_material, rgb
 from ..tiles import CATALOGUE
+from .projection_rules import PROJECTIONS
 
 __all__ = ["LIBRARY", "RECIPES", "Recipe", "Walls", "colour", "needed", "parts", "repeats", "words"]
 
@@ -28,6 +29,10 @@ class Walls(Protocol):
 
     def wall(self, material: str) -> str:
         """The name of a rule for a surface of a material."""
+        ...
+
+    def rule(self, name: str, body: str) -> str:
+        """The name of a rule with that body; `name` is what it is called like."""
         ...
 
 
@@ -128,8 +133,9 @@ RECIPES: Mapping[str, Recipe] = {
     "railing": _railing,
     "roof": _gable,
     "hip": _hip,
+    **PROJECTIONS,
 }
-"""How geometries are drawn; a box, a panel and a pitched roof are walls of their material."""
+"""How geometries are drawn; a box, a panel, a sign and a pitched roof are walls of their material."""
 
 
 def _tile(material: str) -> str:

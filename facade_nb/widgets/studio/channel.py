@@ -58,6 +58,11 @@ class Channel(Scenery):
             gallery=list(gallery.names()),
             catalogue={
                 "geometries": list(GEOMETRIES),
+                "parameters": {
+                    name: [[own.name, own.hint, *own.words] for own in geometry.parameters]
+                    for name, geometry in GEOMETRIES.items()
+                    if geometry.parameters
+                },
                 "materials": list(MATERIALS),
                 "swatches": {name: material.fill for name, material in MATERIALS.items()},
                 "modes": describe_modes(),

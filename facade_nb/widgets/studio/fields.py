@@ -62,6 +62,8 @@ def apply(design: Design, path: Path, value: Any) -> Design:
             return _with_looks(design, keys.split("\n"), attribute, _LOOKS[attribute](path, value))
         case ("seed",):
             return Design.from_dict({**design.to_dict(), "seed": _whole(path, value)})
+        case ("grammar",):
+            return Design.from_dict({**design.to_dict(), "grammar": value})
         case _:
             raise DesignError(Fault(".".join(path), "expected a field of the design; there is none"))
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...design import DesignError
 from ...render import build_scene
-from ...render.materials import find_material, rgb
+from ...render.materials import rgb
 from ...solver import Layout
 from .model import FacadeModel, Selection
 
@@ -131,7 +131,7 @@ class Massing:
         count = len(triangles.shapes)
         self._shapes = triangles.shapes
         # The elevation's colours: what is seen flat is found again in 3D.
-        fills = [rgb(find_material(name).fill) for name in triangles.material_names]
+        fills = [rgb(triangles.material(name).fill) for name in triangles.material_names]
         palette = np.array(fills, np.float32).reshape(-1, 3) / 255
         self._colours = np.repeat(palette[triangles.materials], 3, axis=0)
         if 3 * count > len(self._geometry.attributes["position"].array):
@@ -201,7 +201,7 @@ def _close_geometry(geometry: three.BufferGeometry) -> None:
 def layout_mesh(layout: Layout) -> three.Mesh:
     """A layout as one mesh, with the elevation's colours at its corners."""
     triangles = build_scene(layout).triangles()
-    fills = [rgb(find_material(name).fill) for name in triangles.material_names]
+    fills = [rgb(triangles.material(name).fill) for name in triangles.material_names]
     palette = np.array(fills, np.float32).reshape(-1, 3) / 255
     content = {
         "position": triangles.positions.reshape(-1, 3),

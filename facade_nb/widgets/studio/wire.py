@@ -8,6 +8,7 @@ from typing import Any
 
 from ...design import Fault
 from ...design.model import AXES, Axis, Design, Layer, LayerAxis
+from ...render.scene import drawing_faults
 from .fields import UNSHAPED
 from .looks import describe_cell, describe_pairs
 from .model import FacadeModel
@@ -66,7 +67,7 @@ def describe_status(model: FacadeModel) -> Json:
         status["solved"] = {
             "shapes": len(layout.shapes),
             "holes": len(layout.holes),
-            "warnings": list(layout.warnings),
+            "warnings": [*layout.warnings, *map(str, drawing_faults(layout))],
             "complete": layout.complete,
             "proven": layout.x.proven and layout.y.proven,
             "gap": _rounded(layout.x.gap + layout.y.gap),

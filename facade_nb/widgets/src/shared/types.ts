@@ -172,10 +172,20 @@ export interface State extends StageState {
   svg: string;
   theme: "light" | "dark";
   gallery: string[];
-  catalogue: { geometries: string[]; materials: string[]; swatches: Record<string, string>; modes?: ModeState[] };
+  catalogue: {
+    geometries: string[];
+    /** By the name of a geometry. */
+    parameters?: Record<string, ParameterState[]>;
+    materials: string[];
+    swatches: Record<string, string>;
+    modes?: ModeState[];
+  };
   trouble: string;
   ack: { client?: string; seq?: number };
 }
+
+/** A parameter of a geometry: its name, what it says, and the words that it may be; without them it is typed. */
+export type ParameterState = [name: string, hint: string, ...words: string[]];
 
 /** A reflection mode, and what it makes of the word EkG, by the count. */
 export interface ModeState {

@@ -3,6 +3,7 @@ import { button, draftOf, type Field, faultBox, formatNumber, numberField } from
 import { swatchField } from "../shared/swatches.ts";
 import type { Cell, Level, LookState, Looks, Path, SelectionState } from "../shared/types.ts";
 import { type Context, type MakePart, tint } from "./common.ts";
+import { geometryField } from "./geometry.ts";
 import { variantsForm } from "./variants.ts";
 
 /** Where an edit goes: to the shapes of whom, under which key. */
@@ -52,12 +53,13 @@ function form({ store }: Context, place: Place): { el: HTMLElement; update(): vo
   const set = (name: string, to: unknown) => store.set(path(name), to);
 
   const fields: Record<(typeof NAMES)[number], Field> = {
-    geometry: choice(
-      `geometry of ${what} in ${layer}`,
-      () => String(value("geometry")),
-      () => store.get("catalogue").geometries,
-      (to) => set("geometry", to),
-    ),
+    geometry: geometryField({
+      label: `geometry of ${what} in ${layer}`,
+      value: () => String(draftOf(store, path("geometry"))?.value ?? value("geometry")),
+      names: () => store.get("catalogue").geometries,
+      parameters: (name) => store.get("catalogue").parameters?.[name] ?? [],
+      set: (to) => set("geometry", to),
+    }),
     material: swatchField({
       label: `material of ${what} in ${layer}`,
       value: () => String(draftOf(store, path("material"))?.value ?? value("material")),
@@ -214,22 +216,6 @@ function options(select: HTMLSelectElement, choices: [value: string, text: strin
   if (select.dataset.key === state) return;
   select.dataset.key = state;
   select.replaceChildren(...choices.map(([value, text]) => h("option", { value }, text)));
-}
-
-function choice(label: string, value: () => string, choices: () => string[], set: (to: string) => void): Field {
-  const select = h("select", { class: "fnb-select", "aria-label": label });
-  select.addEventListener("change", () => set(select.value));
-  return {
-    el: select,
-    update() {
-      const all = choices().includes(value()) ? choices() : [value(), ...choices()];
-      options(
-        select,
-        all.map((name) => [name, name]),
-      );
-      select.value = value();
-    },
-  };
 }
 
 /** A free word, with those that are usual to choose from. */

@@ -3,6 +3,7 @@ import { button, type Field, formatNumber } from "../shared/fields.ts";
 import type { Store } from "../shared/store.ts";
 import { swatchField } from "../shared/swatches.ts";
 import type { Path, VariantState } from "../shared/types.ts";
+import { geometryField } from "./geometry.ts";
 
 interface VariantsOptions {
   label: string;
@@ -85,11 +86,14 @@ export function variantsForm(store: Store, { label, path, own }: VariantsOptions
       choose: (to) => change(at, "material", to),
     });
     material.update();
-    const geometry = h("select", { class: "fnb-select", "aria-label": named("geometry") });
-    for (const name of [INHERITED, ...store.get("catalogue").geometries])
-      geometry.append(h("option", { value: name }, name));
-    geometry.value = variant.geometry ?? INHERITED;
-    geometry.addEventListener("change", () => change(at, "geometry", geometry.value));
+    const geometry = geometryField({
+      label: named("geometry"),
+      value: () => variant.geometry ?? INHERITED,
+      names: () => [INHERITED, ...store.get("catalogue").geometries],
+      parameters: (name) => store.get("catalogue").parameters?.[name] ?? [],
+      set: (to) => change(at, "geometry", to),
+    });
+    geometry.update();
     const remove = button(`Remove variant ${at + 1} of ${label}`, "close", () =>
       send(current().filter((_, i) => i !== at)),
     );
@@ -98,7 +102,7 @@ export function variantsForm(store: Store, { label, path, own }: VariantsOptions
       { class: "fnb-variant" },
       text("weight", "1"),
       h("label", {}, "material", material.el),
-      h("label", {}, "geometry", geometry),
+      h("label", {}, "geometry", geometry.el),
       text("kind", "–"),
       text("offset", "–"),
       text("thickness", "–"),
