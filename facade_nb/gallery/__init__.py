@@ -163,7 +163,7 @@ def _steps(name: str) -> tuple[tuple[str, ...], tuple[Design, ...]]:
 def _apply(
     design: Design, verb: str, values: list[Any], fields: Mapping[str, Any] = MappingProxyType({})
 ) -> Design:
-    """Do one edit of a step or variation: the helper's name, its arguments in order and, where there are any, its fields."""
+    """Do one edit: the helper's name, its arguments in order and, where there are any, its fields."""
     return _EDITS[verb](design, *values, **fields)
 
 
