@@ -1,4 +1,4 @@
-"""Designs of the gallery that each test of the solver's inner parts is run on."""
+"""Designs of the gallery that the long tests of the solver, of files and of compiled grammars are run on."""
 
 from __future__ import annotations
 
