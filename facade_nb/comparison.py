@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 
 from .design.model import AXES, Design
-from .render.splits import Node, Shape, Split, Stack, children, rules_of, split_rules, split_tree
+from .render.splits import Node, Shape, Split, Stack, children, repeated, rules_of, split_rules, split_tree
 from .solver import Layout, solve
 
 __all__ = ["Complexity", "Edits", "complexity", "edits"]
@@ -122,14 +123,21 @@ def _touched(before: Node, after: Node) -> int:
                 partner[now] = was
                 taken.add(was)
                 waiting.append((was, now))
+    number: dict[Node, int] = {}
     changed = sum(
-        [partner.get(child, child) for child in dict.fromkeys(children(new))]
-        != list(dict.fromkeys(children(old)))
+        _written([partner.get(child, child) for child in children(new)], number)
+        != _written(list(children(old)), number)
         or _kind(old) != _kind(new)
         for new, old in partner.items()
     )
     lone = len(set(rules_of(before)) - taken) + len(set(rules_of(after)) - set(partner))
     return changed + lone
+
+
+def _written(parts: list[Node], number: dict[Node, int]) -> str:
+    """A rule's right side as it is written, without sizes and numbers of repetitions; `number` names the parts."""
+    words = [str(number.setdefault(part, len(number))) for part in parts]
+    return re.sub(r"\}\*\d+", "}*", " | ".join(repeated(words)))
 
 
 def _kind(node: Node) -> str:

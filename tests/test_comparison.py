@@ -41,6 +41,12 @@ def test_other_sizes_and_more_repetitions_are_no_edit(basic: Design) -> None:
     assert edits(basic, wider) == Edits(0, 0, 0)
 
 
+def test_the_same_parts_in_another_order_are_an_edit(basic: Design) -> None:
+    """A balcony block more at the right end: each kind of row ends differently."""
+    after = with_pattern(basic, "bays", "W(BW)^n BB")
+    assert edits(basic, after) == Edits(patterns=1, layers=0, split_rules=5)
+
+
 def test_large_balconies_on_odd_floors(basic: Design) -> None:
     after = with_pattern(with_symbol(basic, "L", size=3.5, opaque=False), "large", "W l h; l := L")
     after = with_pattern(with_symbol(after, "Z", size=2.8), "odd", "GX(zS)^p z^b Y v; z := Z")

@@ -3,6 +3,8 @@
 >>> from facade_nb import gallery
 >>> gallery.load("residential-house").canvas.width
 6.0
+>>> gallery.load("residential-house", "wider").canvas.width
+9.4
 """
 
 from __future__ import annotations
@@ -19,12 +21,14 @@ from ..design import edit
 from ..design.errors import DesignError, Fault, nearest
 from ..design.model import Design
 
-__all__ = ["grammar", "grammars", "load", "names", "step_titles", "steps", "town", "towns"]
+__all__ = [
+    "grammar", "grammars", "load", "names", "step_titles", "steps", "town", "towns", "variation_titles", "variations",
+]  # fmt: skip
 
 _EDITS: Mapping[str, Callable[..., Design]] = MappingProxyType(
     {name: getattr(edit, name) for name in edit.__all__}
 )
-"""What a step may do: the helpers of `facade_nb.design.edit`, by name."""
+"""What a step or a variation may do: the helpers of `facade_nb.design.edit`, by name."""
 
 
 def names() -> list[str]:
@@ -32,8 +36,8 @@ def names() -> list[str]:
     return _listed("")
 
 
-def load(name: str) -> Design:
-    """Return the design of that name.
+def load(name: str, variation: str | None = None) -> Design:
+    """Return the design of that name, or one of its `variations`.
 
     Raises
     ------
@@ -41,7 +45,29 @@ def load(name: str) -> Design:
         For an unknown name, with the nearest valid one.
     """
     _known(name, names(), "a design of the gallery")
-    return _load(name)
+    if variation is None:
+        return _load(name)
+    _known(variation, variations(name), f"a variation of {name!r}")
+    return _varied(name, variation)
+
+
+def variations(name: str) -> list[str]:
+    """Return the names of a design's variations: on another canvas, with other sizes, with an edited structure.
+
+    A building has some, another design none. `variation_titles` says what each is.
+
+    Raises
+    ------
+    DesignError
+        For an unknown name, with the nearest valid one.
+    """
+    _known(name, names(), "a design of the gallery")
+    return list(_variations(name))
+
+
+def variation_titles(name: str) -> list[str]:
+    """Return what each of `variations` is, in their order. Raises `DesignError` as `variations` does."""
+    return [_variations(name)[own]["title"] for own in variations(name)]
 
 
 def steps(name: str) -> list[Design]:
@@ -106,6 +132,20 @@ def _load(name: str) -> Design:
     return Design.from_json(_text(f"{name}.json"))
 
 
+@lru_cache(maxsize=64)
+def _variations(name: str) -> Mapping[str, Any]:
+    """What the file of a design's variations says: by name a title, and edits as those of steps."""
+    return json.loads(_text("variations", f"{name}.json")) if name in _listed("variations") else {}
+
+
+@lru_cache(maxsize=64)
+def _varied(name: str, variation: str) -> Design:
+    design = _load(name)
+    for edited in _variations(name)[variation]["edits"]:
+        design = _apply(design, *edited)
+    return design
+
+
 @lru_cache(maxsize=16)
 def _steps(name: str) -> tuple[tuple[str, ...], tuple[Design, ...]]:
     document = json.loads(_text("steps", f"{name}.json"))
@@ -123,7 +163,7 @@ def _steps(name: str) -> tuple[tuple[str, ...], tuple[Design, ...]]:
 def _apply(
     design: Design, verb: str, values: list[Any], fields: Mapping[str, Any] = MappingProxyType({})
 ) -> Design:
-    """Do one edit of a step: the helper's name, its arguments in order and, where there are any, its fields."""
+    """Do one edit: the helper's name, its arguments in order and, where there are any, its fields."""
     return _EDITS[verb](design, *values, **fields)
 
 
@@ -140,9 +180,8 @@ def _stepped(name: str) -> str:
 
 def _known(name: str, valid: list[str], what: str) -> None:
     if name not in valid:
-        message = (
-            f"expected the name of {what} ({', '.join(valid)}); found {name!r}{nearest(str(name), valid)}"
-        )
+        listed = ", ".join(valid) or "it has none"
+        message = f"expected the name of {what} ({listed}); found {name!r}{nearest(str(name), valid)}"
         raise DesignError(Fault("gallery", message))
 
 

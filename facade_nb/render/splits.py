@@ -215,7 +215,7 @@ class _Writing:
     def _text(self, node: Node) -> str:
         if isinstance(node, Split):
             words = [f"{size:.6f}".rstrip("0").rstrip(".") + f" : {self._name(n)}" for size, n in node.parts]
-            return f"split({node.axis}) {{ {' | '.join(_repeated(words))} }}"
+            return f"split({node.axis}) {{ {' | '.join(repeated(words))} }}"
         if isinstance(node, Stack):
             return " ".join(self._name(child) for child in node.nodes)
         return self._name(node)
@@ -241,7 +241,7 @@ def children(node: Node) -> Iterator[Node]:
         yield from node.nodes
 
 
-def _repeated(words: Sequence[str]) -> list[str]:
+def repeated(words: Sequence[str]) -> list[str]:
     """The parts of a split, what repeats in braces: at each place what covers most, of the fewest parts."""
     found: list[str] = []
     at = 0
@@ -258,7 +258,7 @@ def _repeated(words: Sequence[str]) -> list[str]:
             found.append(words[at])
             at += 1
         else:
-            inner = " | ".join(_repeated(words[at : at + period]))
+            inner = " | ".join(repeated(words[at : at + period]))
             found.append(f"{{ {inner} }}*{saved // period + 1}")
             at += saved + period
     return found

@@ -112,7 +112,12 @@ def _picture(row: Mapping[str, object], scale: float, theme: str) -> tuple[str, 
 
 
 def _values(row: Mapping[str, object]) -> str:
-    return " · ".join(f"{name} {value:g}" for name, value in row.items() if name not in RESULTS)
+    """The values of a variant; a text, such as the name of a variation, stands without its column's name."""
+    return " · ".join(
+        value if isinstance(value, str) else f"{name} {value:g}"
+        for name, value in row.items()
+        if name not in RESULTS
+    )
 
 
 def _caption(row: Mapping[str, object], x: float, y: float, cell: float, style: Style) -> Sequence[str]:

@@ -24,6 +24,7 @@ from facade_nb.solver.alignment.reference.best_first import BestFirst
 from facade_nb.solver.alignment.reference.dives import Dives
 from facade_nb.solver.budget import Stopped
 from facade_nb.solver.model.objective import Objective
+from tests.known import TELLING
 from tests.oracle.designs import make_design
 from tests.solver.ida_cases import case_group, group_of, random_case
 from tests.solver.test_tall import stack
@@ -169,7 +170,7 @@ class TestDesigns:
         solving.forget()
         assert fast == slow
 
-    @pytest.mark.parametrize("name", gallery.names())
+    @pytest.mark.parametrize("name", TELLING)
     def test_gallery(self, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
         self.compare(gallery.load(name), monkeypatch)
 

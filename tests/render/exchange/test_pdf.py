@@ -22,6 +22,7 @@ SCALES = {
     "apartment-house": 100,
     "bookshop": 100,
     "concert-hall": 200,
+    "figure-2": 50,
     "figure-7": 50,
     "figure-8": 50,
     "ingolstadt-4018215": 100,

@@ -21,9 +21,10 @@ from facade_nb.render.texture import Grammar
 from facade_nb.render.texture.from_layout import LayoutGrammar, grammar_of
 from facade_nb.render.tiles import TileSet
 from facade_nb.solver.model.layout import PlacedShape
+from tests.known import TELLING
 
 TILES = TileSet.builtin(64)
-NAMES = gallery.names()
+NAMES = TELLING
 SVG = "{http://www.w3.org/2000/svg}"
 
 

@@ -1,0 +1,15 @@
+"""Designs of the gallery that the long tests of the solver, of files and of compiled grammars are run on."""
+
+from __future__ import annotations
+
+from facade_nb import gallery
+
+__all__ = ["TELLING"]
+
+_ALIKE = {"hotel", "kongresshaus"} | {
+    f"ingolstadt-{building}" for building in ("4018128", "4018154", "4018204c", "4018257", "4018262")
+}
+"""Those that would tell nothing that others of their kind do not; tests/gallery solves and draws them as well."""
+
+TELLING = [name for name in gallery.names() if name not in _ALIKE]
+"""The others, in alphabetical order."""
