@@ -31,6 +31,7 @@ from .studio.parts import (
 from .studio.studio import Studio
 from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
 from .town import PipelineView, TownModel, TownProgress, TownView
+from .variations import VariationsModel, VariationsView
 
 __all__ = [
     "AlignmentView",
@@ -69,6 +70,8 @@ __all__ = [
     "TownView",
     "TraceModel",
     "TraceView",
+    "VariationsModel",
+    "VariationsView",
     "WordsView",
     "layout_mesh",
 ]
