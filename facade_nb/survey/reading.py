@@ -7,9 +7,9 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
-from ..design.errors import DesignError, cut, nearest, quoted
+from ..design.errors import DesignError, cut, listed, nearest, quoted
 from ..design.fields import Faults, at
 from ..design.inputs import read_json_text, read_text
 from ..design.sections import DocumentReader
@@ -17,7 +17,7 @@ from ..solver.model.layout import Rect
 from .city import City, city_of, looks_like_city
 from .openings import SurveyError, rect_fault, rect_of
 
-__all__ = ["Survey", "buildings", "load_survey"]
+__all__ = ["Survey", "buildings", "load_survey", "survey_text"]
 
 _VARIABLE = "FACADE_NB_DATA"
 _FILE = "ingolstadt.json"
@@ -74,10 +74,12 @@ def load_survey(building: str, path: str | Path | None = None) -> Survey:
         If the file does not exist, is no survey, or lacks the building. The message has the place of every
         fault, what was expected and what was found.
     """
-    read = _read_file(path)
-    name = str(building)
+    return _survey(_read_file(path), str(building), _data_file(path))
+
+
+def _survey(read: _Found, name: str, file: Path) -> Survey:
     if isinstance(read, City):
-        return _of_city(read, name, _data_file(path))
+        return _of_city(read, name, file)
     reader, file, found = read
     if name not in found:
         raise _unknown(name, found, file)
@@ -85,6 +87,15 @@ def load_survey(building: str, path: str | Path | None = None) -> Survey:
     if reader.faults.found:
         raise SurveyError(f"{file}: building {cut(name)}: {DesignError(reader.faults.found)}")
     return survey
+
+
+def survey_text(text: str, place: str = "survey") -> Survey:
+    """The survey in the text of a file that has one façade: JSON, or a city model. `SurveyError` for what is none."""
+    read = _read(text, Path(place))
+    names = list(read.facades) if isinstance(read, City) else list(read[2])
+    if len(names) != 1:
+        raise SurveyError(f"{place}: expected one façade, found {len(names)}: {listed(names) or 'none'}")
+    return _survey(read, names[0], Path(place))
 
 
 def _unknown(name: str, found: Collection[str], file: Path) -> SurveyError:
@@ -104,25 +115,33 @@ def _of_city(city: City, name: str, file: Path) -> Survey:
     return Survey(name, facade.width, facade.height, facade.openings)
 
 
-def _read_file(
-    path: str | Path | None,
-) -> City | tuple[_Reader, Path, dict[str, tuple[str, Mapping[str, Any]]]]:
+def _read_file(path: str | Path | None) -> _Found:
     """Read a data file: its reader, the file, and place and members of each building; or a city model."""
     file = _data_file(path)
     try:
         text = read_text(file, "a survey")
-        if looks_like_city(text):
-            return city_of(text, str(file))
-        document = read_json_text(text, str(file))
-        if looks_like_city(document):
-            return city_of(document, str(file))
     except DesignError as error:
         raise SurveyError(f"expected a survey; {error}") from None
+    return _read(text, file)
+
+
+def _read(text: str, file: Path) -> _Found:
+    if looks_like_city(text):
+        return city_of(text, str(file))
+    try:
+        document = read_json_text(text, str(file))
+    except DesignError as error:
+        raise SurveyError(f"expected a survey; {error}") from None
+    if looks_like_city(document):
+        return city_of(document, str(file))
     reader = _Reader(document)
     found = reader.facades()
     if reader.faults.found:
         raise reader.error(file)
     return reader, file, found
+
+
+_Found: TypeAlias = "City | tuple[_Reader, Path, dict[str, tuple[str, Mapping[str, Any]]]]"
 
 
 def _named(name: str | int) -> bool:

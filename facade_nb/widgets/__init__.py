@@ -29,6 +29,7 @@ from .studio.parts import (
     Toolbar,
 )
 from .studio.studio import Studio
+from .survey import SurveyEditor, SurveyModel
 from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
 from .town import PipelineView, TownModel, TownProgress, TownView
 from .variations import VariationsModel, VariationsView
@@ -60,6 +61,8 @@ __all__ = [
     "SizingView",
     "SolverView",
     "Studio",
+    "SurveyEditor",
+    "SurveyModel",
     "SymbolEditor",
     "TextureModel",
     "TextureStudio",
