@@ -16,6 +16,7 @@ from ...variations.sheet import contact_sheet
 from ...variations.variants import Variants
 from ..shared.pictured import PartView
 from ..studio.model import FacadeModel
+from ..studio.parts import FIRST
 from .channel import VariationsChannel
 from .model import VariationsModel, told
 
@@ -108,7 +109,8 @@ class VariationsView(PartView):
         return f"VariationsView({count} variant{'' if count == 1 else 's'} of {self.channel.name!r})"
 
     def to_html(self) -> str:
-        """The static form: the table and, where it is not too large, a contact sheet."""
+        """The static form: the table and, where it is not too large, a contact sheet, of what is solved soon."""
+        self.model.wait(FIRST)
         variants, answers = self.model.variants, self.model.answers
         head = "".join(f"<th>{escape(name)}</th>" for name in (*variants.columns, "windows", ""))
         body = ""
