@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from PIL import Image, ImageDraw
+from playwright.sync_api import expect
 
 from .jupyter import Notebook
 from .waiting import frames
@@ -40,13 +41,16 @@ def test_a_facade_is_drawn_over_a_photograph(
         page.mouse.move(*points[1], steps=4)
         page.mouse.up()
 
+    expect(page.locator(".fnb-sur-photo")).to_be_visible()  # it has been read
     lab.button("Corners").click()
+    expect(page.locator(".fnb-sur-stage")).to_have_attribute("data-cornering", "")
     for (x, y), first in zip(CORNERS, [(0.1, 0.9), (0.9, 0.9), (0.9, 0.1), (0.1, 0.1)], strict=True):
         drag(first, (x / 1200, y / 1000))
     lab.expect_python("[[round(v, 2) for v in c] for c in editor.model.drawn.corners]",
                       [[round(x / 1200, 2), round(y / 1000, 2)] for x, y in CORNERS])  # fmt: skip
     lab.button("Corners").click()
-    frames(page, 3)
+    expect(page.locator(".fnb-sur-stage")).not_to_have_attribute("data-cornering", "")
+    lab.settle()
     # Straight: the façade fills the canvas, and nothing else of the photograph is seen.
     photo = Image.open(_screenshot(page, canvas, tmp_path))
     seen = [
