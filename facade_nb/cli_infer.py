@@ -23,7 +23,9 @@ def add_infer(commands: Any) -> None:
         help="make a design from a survey",
         description="Make a design from surveyed openings. Without --out it goes to standard output.",
     )
-    parser.add_argument("survey", type=Source, metavar="SURVEY.json", help="surveyed façades")
+    parser.add_argument(
+        "survey", type=Source, metavar="SURVEY", help="surveyed façades, or a city model: CityGML, CityJSON"
+    )
     parser.add_argument("--building", metavar="ID", help="which façade; default: the only one")
     parser.add_argument(
         "--out",

@@ -12,10 +12,10 @@ import nbformat
 from nbclient import NotebookClient
 
 ROOT = Path(__file__).resolve().parents[1]
-WIDGETS = ("studio", "solver", "texture", "town")
+WIDGETS = ("studio", "solver", "texture", "town", "inference")
 """Those in `notebooks` that have widgets; all in `tutorials` have."""
-STATIC = ("texture", "town")
-"""Saved with static forms alone: the tiles would make their state too large."""
+STATIC = ("texture", "town", "inference")
+"""Saved with static forms alone: the tiles, or three bundles, would make their state too large."""
 
 
 def paths(names: Sequence[str]) -> list[Path]:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
-from ..design.errors import DesignError, cut, nearest, quoted
+from ..design.errors import DesignError, cut, listed, nearest, quoted
 from ..design.fields import Faults, at
 from ..design.inputs import read_json_text, read_text
 from ..design.sections import DocumentReader
 from ..solver.model.layout import Rect
+from .city import City, city_of, looks_like_city
 from .openings import SurveyError, rect_fault, rect_of
 
-__all__ = ["Survey", "buildings", "load_survey"]
+__all__ = ["Survey", "buildings", "load_survey", "survey_text"]
 
 _VARIABLE = "FACADE_NB_DATA"
 _FILE = "ingolstadt.json"
@@ -47,8 +48,12 @@ class Survey:
 
 
 def buildings(path: str | Path | None = None) -> tuple[str, ...]:
-    """The buildings that a data file has, in its order. `path`, and what it raises, are as for `load_survey`."""
-    return tuple(_read_file(path)[2])
+    """The buildings that a data file has, in its order; of a city model the façades with openings.
+
+    `path`, and what it raises, are as for `load_survey`.
+    """
+    read = _read_file(path)
+    return tuple(read.facades) if isinstance(read, City) else tuple(read[2])
 
 
 def load_survey(building: str, path: str | Path | None = None) -> Survey:
@@ -57,9 +62,10 @@ def load_survey(building: str, path: str | Path | None = None) -> Survey:
     Parameters
     ----------
     building
-        Its number, such as ``"4018215"``.
+        Its number, such as ``"4018215"``. In a city model that of a building with one façade, else of a wall.
     path
-        The data file, or the folder it lies in. None: what the environment variable ``FACADE_NB_DATA`` names, else
+        The data file: a survey, or a city model at LoD 3 in CityGML or CityJSON; or the folder that `ingolstadt.json`
+        lies in. None: what the environment variable ``FACADE_NB_DATA`` names, else
         ``shared/data`` beside the checkout.
 
     Raises
@@ -68,31 +74,74 @@ def load_survey(building: str, path: str | Path | None = None) -> Survey:
         If the file does not exist, is no survey, or lacks the building. The message has the place of every
         fault, what was expected and what was found.
     """
-    reader, file, found = _read_file(path)
-    name = str(building)
+    return _survey(_read_file(path), str(building), _data_file(path))
+
+
+def _survey(read: _Found, name: str, file: Path) -> Survey:
+    if isinstance(read, City):
+        return _of_city(read, name, file)
+    reader, file, found = read
     if name not in found:
-        known = ", ".join(map(cut, islice(found, 8))) + (", …" if len(found) > 8 else "") or "there is none"
-        raise SurveyError(
-            f"{file}: expected a building of the survey ({known}); found {quoted(name)}{nearest(name, found)}"
-        )
+        raise _unknown(name, found, file)
     survey = reader.survey(name, found[name][1])
     if reader.faults.found:
         raise SurveyError(f"{file}: building {cut(name)}: {DesignError(reader.faults.found)}")
     return survey
 
 
-def _read_file(path: str | Path | None) -> tuple[_Reader, Path, dict[str, tuple[str, Mapping[str, Any]]]]:
-    """Read a data file: its reader, the file, and place and members of each building."""
+def survey_text(text: str, place: str = "survey") -> Survey:
+    """The survey in the text of a file that has one façade: JSON, or a city model. `SurveyError` for what is none."""
+    read = _read(text, Path(place))
+    names = list(read.facades) if isinstance(read, City) else list(read[2])
+    if len(names) != 1:
+        raise SurveyError(f"{place}: expected one façade, found {len(names)}: {listed(names) or 'none'}")
+    return _survey(read, names[0], Path(place))
+
+
+def _unknown(name: str, found: Collection[str], file: Path) -> SurveyError:
+    known = ", ".join(map(cut, islice(found, 8))) + (", …" if len(found) > 8 else "") or "there is none"
+    return SurveyError(
+        f"{file}: expected a building of the survey ({known}); found {quoted(name)}{nearest(name, found)}"
+    )
+
+
+def _of_city(city: City, name: str, file: Path) -> Survey:
+    facade = city.named(name)
+    if facade is None:
+        raise _unknown(name, city.facades, file)
+    if facade.faults:
+        told = "\n".join(facade.faults[:20])
+        raise SurveyError(f"{file}: façade {cut(facade.name)}: {told}")
+    return Survey(name, facade.width, facade.height, facade.openings)
+
+
+def _read_file(path: str | Path | None) -> _Found:
+    """Read a data file: its reader, the file, and place and members of each building; or a city model."""
     file = _data_file(path)
     try:
-        document = read_json_text(read_text(file, "a survey"), str(file))
+        text = read_text(file, "a survey")
     except DesignError as error:
         raise SurveyError(f"expected a survey; {error}") from None
+    return _read(text, file)
+
+
+def _read(text: str, file: Path) -> _Found:
+    if looks_like_city(text):
+        return city_of(text, str(file))
+    try:
+        document = read_json_text(text, str(file))
+    except DesignError as error:
+        raise SurveyError(f"expected a survey; {error}") from None
+    if looks_like_city(document):
+        return city_of(document, str(file))
     reader = _Reader(document)
     found = reader.facades()
     if reader.faults.found:
         raise reader.error(file)
     return reader, file, found
+
+
+_Found: TypeAlias = "City | tuple[_Reader, Path, dict[str, tuple[str, Mapping[str, Any]]]]"
 
 
 def _named(name: str | int) -> bool:

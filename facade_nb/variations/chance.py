@@ -9,7 +9,7 @@ from dataclasses import replace
 from ..design.edit import with_canvas, with_counter, with_symbol
 from ..design.errors import quoted
 from ..design.model import Design
-from .sweep import known_names
+from .variants import known_names
 
 __all__ = ["vary"]
 

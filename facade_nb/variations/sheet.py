@@ -12,12 +12,12 @@ from ..render.annotate import FONT
 from ..render.elevation import elevation_svg
 from ..render.style import Style, find_style, num
 from ..solver.model.layout import Layout
-from .sweep import RESULTS
+from .variants import RESULTS
 
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["contact_sheet"]
+__all__ = ["contact_sheet", "picture_at"]
 
 CAPTION = 34.0
 """Pixels under each elevation: its values, and what it has."""
@@ -66,7 +66,7 @@ def contact_sheet(
     body: list[str] = []
     top = 0.0
     for first in range(0, len(rows), columns):
-        shown = [_picture(row, scale, theme) for row in rows[first : first + columns]]
+        shown = [picture_at(row["layout"], scale, theme) for row in rows[first : first + columns]]
         height = max([height for _, _, height in shown] + [104.0])
         for k, (row, (svg, wide, high)) in enumerate(zip(rows[first:], shown, strict=False)):
             left = k * cell
@@ -94,9 +94,10 @@ def _text(style: Style) -> str:
     return style.faint if style.name == "dark" else style.ink
 
 
-def _picture(row: Mapping[str, object], scale: float, theme: str) -> tuple[str, float, float]:
-    """The elevation at that scale, and its width and height in pixels; empty where there is no layout."""
-    layout = row["layout"]
+def picture_at(
+    layout: object, scale: float, theme: str, prefix: str | None = None
+) -> tuple[str, float, float]:
+    """An elevation at so many pixels a metre, and its width and height in pixels; empty for what is no layout."""
     if not isinstance(layout, Layout):
         return "", 0.0, 0.0
     wide = layout.canvas.width * scale
@@ -105,18 +106,22 @@ def _picture(row: Mapping[str, object], scale: float, theme: str) -> tuple[str, 
     )  # an elevation keeps a twentieth of its width free on either side, or 8 pixels
     side = max(8.0, 0.05 * wide)
     try:
-        svg = elevation_svg(layout, width_px=wide, theme=theme, ids=False, background=False)
+        svg = elevation_svg(layout, width_px=wide, theme=theme, ids=False, background=False, prefix=prefix)
     except DesignError:  # of a geometry or material that there is not: its design says it where it is edited
         return "", 0.0, 0.0
     return svg, wide, layout.canvas.height * scale + min(side, 34.0) + 22.0
 
 
 def _values(row: Mapping[str, object]) -> str:
-    """The values of a variant; a text, such as the name of a variation, stands without its column's name."""
+    """The values that a variant has, a text such as a variation's name without its column's.
+
+    One that it lacks is None, or in a table not equal to itself.
+    """
+    found = ((name, value) for name, value in row.items() if name not in RESULTS)
     return " · ".join(
         value if isinstance(value, str) else f"{name} {value:g}"
-        for name, value in row.items()
-        if name not in RESULTS
+        for name, value in found
+        if value is not None and value == value
     )
 
 

@@ -30,8 +30,10 @@ from .studio.parts import (
     Toolbar,
 )
 from .studio.studio import Studio
+from .survey import SurveyEditor, SurveyModel
 from .texture import GrammarEditor, GrammarTable, PixelInspector, TextureModel, TextureStudio, TextureView
 from .town import PipelineView, TownModel, TownProgress, TownView
+from .variations import VariationsModel, VariationsView
 
 __all__ = [
     "AlignmentView",
@@ -61,6 +63,8 @@ __all__ = [
     "SizingView",
     "SolverView",
     "Studio",
+    "SurveyEditor",
+    "SurveyModel",
     "SymbolEditor",
     "TextureModel",
     "TextureStudio",
@@ -71,6 +75,8 @@ __all__ = [
     "TownView",
     "TraceModel",
     "TraceView",
+    "VariationsModel",
+    "VariationsView",
     "WordsView",
     "layout_mesh",
 ]

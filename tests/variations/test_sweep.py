@@ -12,7 +12,8 @@ import pytest
 
 from facade_nb import Design, contact_sheet, gallery, solve, sweep, vary
 from facade_nb.design.edit import with_canvas, with_counter, with_symbol
-from facade_nb.variations.sweep import RESULTS, STOPPED
+from facade_nb.variations.answers import STOPPED
+from facade_nb.variations.variants import RESULTS
 
 VALUES = {"width": [6.0, 0.3, 7.5], "sizes": {"B": [0.8, 1.1]}}
 

@@ -216,4 +216,5 @@ def _told(shape: PlacedShape, index: int) -> dict[str, Any]:
         "material": shape.material,
         "width": round(right - left, 4),
         "height": round(top - bottom, 4),
+        "rect": [round(side, 4) for side in shape.rect],  # all of it, also what another one covers
     }

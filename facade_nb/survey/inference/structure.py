@@ -22,8 +22,11 @@ Span = tuple[float, float]
 GAP = "gap"
 """The category of what stands between openings."""
 
-TOLERANCES = (0.0, 0.03, 0.08, 0.16, 0.3)
+TOLERANCES = (0.0, 0.03, 0.08, 0.16, 0.3, 0.5, 0.8)
 """Edges that differ by no more are one, metres. All are tried."""
+
+MARGINS = (0.0, 0.15)
+"""Walls at the ends of a line that are no wider are left out, metres: surveys often end with their openings."""
 
 _NONE = 0.005
 """Gaps under so many metres are none."""
@@ -91,10 +94,13 @@ def structures(openings: Sequence[Opening], width: float, height: float) -> Iter
     for of_bands in TOLERANCES:
         bands = _bands(openings, of_bands * scale)
         for of_columns in TOLERANCES:
-            found = _structure(openings, bands, of_columns * scale, width, height)
-            if found not in seen:
-                seen.add(found)
-                yield found
+            for margin in MARGINS:
+                found = _structure(
+                    openings, bands, of_columns * scale, width, height, max(_NONE, margin * scale)
+                )
+                if found not in seen:
+                    seen.add(found)
+                    yield found
 
 
 def clusters(values: Sequence[Sequence[float]], tolerance: float) -> list[int]:
@@ -141,7 +147,12 @@ def _bands(openings: Sequence[Opening], tolerance: float) -> list[list[int]]:
 
 
 def _structure(
-    openings: Sequence[Opening], bands: list[list[int]], tolerance: float, width: float, height: float
+    openings: Sequence[Opening],
+    bands: list[list[int]],
+    tolerance: float,
+    width: float,
+    height: float,
+    margin: float,
 ) -> Structure:
     spans = {b: _mean(openings[i].y for i in band) for b, band in enumerate(bands)}
     of_y = _apart(spans, {b: len(band) for b, band in enumerate(bands)})
@@ -155,13 +166,16 @@ def _structure(
     line_of: list[int] = []
     for n, (band, row) in enumerate(rows):
         others = {line for (other, _), line in zip(rows[:n], line_of, strict=True) if other == band}
-        line_of.append(_place(openings, lines, row, others, tolerance, width))
-    made_x = tuple(_line([(c.span, "open", len(c.members)) for c in columns], width) for columns in lines)
+        line_of.append(_place(openings, lines, row, others, tolerance, width, margin))
+    made_x = tuple(
+        _line([(c.span, "open", len(c.members)) for c in columns], width, margin) for columns in lines
+    )
     used = {
         b: sorted({line for (own, _), line in zip(rows, line_of, strict=True) if own == b}) for b in spans
     }
     made_y = tuple(
-        _line([(spans[b], " ".join(map(str, used[b])), len(bands[b])) for b in word], height) for word in of_y
+        _line([(spans[b], " ".join(map(str, used[b])), len(bands[b])) for b in word], height, margin)
+        for word in of_y
     )
     where_x = {
         i: (n, c) for n, line in enumerate(lines) for c, column in enumerate(line) for i in column.members
@@ -175,19 +189,19 @@ def _structure(
     return Structure(made_x, made_y, cells, exceptions)
 
 
-def _line(parts: Sequence[tuple[Span, str, int]], canvas: float) -> Line:
+def _line(parts: Sequence[tuple[Span, str, int]], canvas: float, margin: float) -> Line:
     """The line of some openings (span, category, weight) that do not overlap, with the gaps between."""
     categories: list[str] = []
     sizes: list[float] = []
     end = 0.0
     for (low, high), category, _ in parts:
-        if low - end > _NONE:
+        if low - end > (_NONE if sizes else margin):
             categories.append(GAP)
             sizes.append(low - end)
         categories.append(category)
         sizes.append(high - low)
         end = high
-    if canvas - end > _NONE:
+    if canvas - end > margin:
         categories.append(GAP)
         sizes.append(canvas - end)
     rounded = tuple(round(size, 6) for size in sizes)
@@ -201,19 +215,21 @@ def _place(
     taken: set[int],
     tolerance: float,
     width: float,
+    margin: float,
 ) -> int:
     """Put a row into the line where it costs fewest letters, or into one of its own; which that is.
 
     Lines that are taken have another row of the same band, which overlaps this one.
     """
     alone = [_Column([i], openings[i].x) for i in row]
-    best, chosen, found = float(_letters(alone, tolerance, width)), len(lines), alone
+    best, chosen, found = float(_letters(alone, tolerance, width, margin)), len(lines), alone
     for n, line in enumerate(lines):
         joined = None if n in taken else _joined(openings, line, row, tolerance)
         if joined is None:
             continue
         missing = len(joined) - len(row)
-        cost = 0.0 + _letters(joined, tolerance, width) - _letters(line, tolerance, width)
+        cost = 0.0 + _letters(joined, tolerance, width, margin)
+        cost -= _letters(line, tolerance, width, margin)
         cost += _EXCEPTION * min(missing, len(row))
         if cost <= best - (chosen < len(lines)) * 1e-9:
             best, chosen, found = cost, n, joined
@@ -255,9 +271,9 @@ def _joined(
     return columns
 
 
-def _letters(columns: Sequence[_Column], tolerance: float, width: float) -> int:
+def _letters(columns: Sequence[_Column], tolerance: float, width: float, margin: float) -> int:
     """About how many letters a line takes, if what differs by the tolerance is alike."""
-    line = _line([(column.span, "open", 1) for column in columns], width)
+    line = _line([(column.span, "open", 1) for column in columns], width, margin)
     word = clusters(
         [(size, 1e6 * (c == GAP)) for size, c in zip(line.sizes, line.categories, strict=True)], tolerance
     )

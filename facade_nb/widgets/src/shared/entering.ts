@@ -54,8 +54,13 @@ export abstract class Entering<Name extends string> extends Shared {
 
   /** Go one step back or forward; kept in order with what is entered. */
   ask(op: "undo" | "redo"): void {
+    this.request({ op });
+  }
+
+  /** Ask for something; kept in order with what is entered. */
+  protected request(message: { op: string; [argument: string]: unknown }): void {
     if (!this.live) return;
-    this.queue.push({ message: { op }, name: "" });
+    this.queue.push({ message, name: "" });
     this.flush();
     this.tell();
   }

@@ -1,0 +1,143 @@
+"""CityGML 2 and 3: buildings, their boundary surfaces, and the windows and doors in these."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...design.errors import quoted
+from ...design.fields import Faults
+from .model import Hole, Object, Points, Surface
+from .xml import Element
+
+__all__ = ["objects_of"]
+
+_BUILDINGS = ("Building", "BuildingPart")
+_OPENINGS = {"Window": "window", "Door": "door", "WindowSurface": "window", "DoorSurface": "door"}
+"""In CityGML 2, and in CityGML 3."""
+_SURFACES = (
+    "WallSurface", "RoofSurface", "GroundSurface", "ClosureSurface", "OuterFloorSurface", "OuterCeilingSurface",
+)  # fmt: skip
+_LEVELS = ("lod3", "lod4", "lod2")
+"""Geometries, the first one that there is."""
+_INSIDE = ("Room", "BuildingRoom", "Storey", "BuildingUnit")
+_DEGREES = ("4326", "4979", "4258", "CRS84")
+
+
+def objects_of(root: Element, faults: Faults) -> Iterator[Object]:
+    """The buildings of a document, and their parts; what is wrong is noted with its line."""
+    if root.name != "CityModel":
+        faults.add(root.place, "expected a CityModel")
+        return
+    polygons = {own.id: own for own in root.walk() if own.id and own.name in _GEOMETRIES}
+    number = 0
+    for own in root.walk():
+        srs = own.attributes.get("srsName", "")
+        if any(name in srs for name in _DEGREES):
+            faults.add(own.place, f"expected coordinates in metres, found the degrees of {quoted(srs)}")
+            return
+        if own.name in _BUILDINGS:
+            number += 1
+            yield _object(own, own.id or f"building {number}", polygons, faults)
+
+
+_GEOMETRIES = ("Polygon", "Surface", "PolygonPatch", "CompositeSurface", "OrientableSurface", "MultiSurface")
+
+
+def _object(building: Element, name: str, polygons: dict[str, Element], faults: Faults) -> Object:
+    made = Object(name)
+    surfaces: dict[int, Surface] = {}
+    for own in building.walk("BuildingPart", *_INSIDE):
+        if own.name in _SURFACES:
+            surface = Surface(own.id, own.place, _polygons(own, polygons, faults))
+            surfaces[id(own)] = surface
+            made.surfaces.append(surface)
+        elif own.name in _OPENINGS:
+            hole = Hole(_OPENINGS[own.name], own.id, own.place, _polygons(own, polygons, faults))
+            if not hole.polygons:
+                faults.add(
+                    hole.place,
+                    "expected an opening with a lod3MultiSurface of at least one polygon; found none",
+                )
+                continue
+            around = own.within(*_SURFACES)
+            if around is not None and id(around) in surfaces:
+                surfaces[id(around)].holes.append(hole)
+            else:
+                made.loose.append(hole)
+    return made
+
+
+def _polygons(surface: Element, polygons: dict[str, Element], faults: Faults) -> list[Points]:
+    """The polygons of the most detailed geometry of a surface or an opening, without those of openings in it."""
+    level = {
+        own: k for own in surface.children for k, name in enumerate(_LEVELS) if own.name.startswith(name)
+    }
+    best = min((own for own in level if own.children), key=level.__getitem__, default=None)
+    if best is None:
+        return []
+    found: list[Points] = []
+    for own in best.walk():
+        href = own.attributes.get("href", "")
+        if href.startswith("#"):
+            target = polygons.get(href[1:])
+            if target is None:
+                faults.add(
+                    own.place,
+                    f"expected a reference to a polygon of this file; there is no {quoted(href[1:])}",
+                )
+                continue
+            inner = [target, *target.walk()]
+        else:
+            inner = [own]
+        for one in inner:
+            if one.name in ("Polygon", "PolygonPatch"):
+                ring = _ring(one, faults)
+                if ring is not None:
+                    found.append(ring[::-1] if _turned(one, best) else ring)
+    return found
+
+
+def _turned(polygon: Element, geometry: Element) -> bool:
+    """Whether surfaces around a polygon turn it over."""
+    turned = False
+    own = polygon.parent
+    while own is not None and own is not geometry:
+        turned ^= own.name == "OrientableSurface" and own.attributes.get("orientation") == "-"
+        own = own.parent
+    return turned
+
+
+def _ring(polygon: Element, faults: Faults) -> Points | None:
+    """The corners of the outer ring of a polygon."""
+    outer = next((own for own in polygon.walk() if own.name == "exterior"), None)
+    if outer is None:
+        faults.add(polygon.place, "expected a polygon with an exterior")
+        return None
+    lists = [own for own in outer.walk() if own.name in ("posList", "pos", "coordinates")]
+    values: list[float] = []
+    for own in lists:
+        dimension = own.attributes.get("srsDimension", "3")
+        if dimension != "3":
+            faults.add(own.place, f"expected coordinates in 3 dimensions, found {quoted(dimension)}")
+            return None
+        for word in own.text.replace(",", " ").split():
+            try:
+                value = float(word)
+            except ValueError:
+                value = float("nan")
+            if not abs(value) < 1e12:
+                faults.add(own.place, f"expected numbers of metres, found {quoted(word)}")
+                return None
+            values.append(value)
+    if len(values) % 3 or len(values) < 9:
+        where = lists[0].place if lists else outer.place
+        faults.add(
+            where, f"expected at least three corners of three numbers each, found {len(values)} numbers"
+        )
+        return None
+    corners = np.array(values).reshape(-1, 3)
+    if len(corners) > 3 and np.array_equal(corners[0], corners[-1]):
+        corners = corners[:-1]
+    return corners
