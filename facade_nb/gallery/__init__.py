@@ -18,8 +18,22 @@ from typing import Any
 from ..design import edit
 from ..design.errors import DesignError, Fault, nearest
 from ..design.model import Design
+from .prepared import Lesson, lesson, lesson_note, lessons
 
-__all__ = ["grammar", "grammars", "load", "names", "step_titles", "steps", "town", "towns"]
+__all__ = [
+    "Lesson",
+    "grammar",
+    "grammars",
+    "lesson",
+    "lesson_note",
+    "lessons",
+    "load",
+    "names",
+    "step_titles",
+    "steps",
+    "town",
+    "towns",
+]
 
 _EDITS: Mapping[str, Callable[..., Design]] = MappingProxyType(
     {name: getattr(edit, name) for name in edit.__all__}

@@ -134,7 +134,7 @@ class BestFirst:
     def _prepare(self, limit: float) -> bool:
         """Take up what a lesser limit left aside; whether there is anything to search."""
         if self.log is not None:
-            self.log.limit(limit)
+            self.log.limit(limit, self.found.bound)
         if self.network.tall:
             if not self.network.bind(limit):
                 self._nothing_within(limit)
