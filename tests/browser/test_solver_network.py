@@ -101,7 +101,7 @@ def test_a_node_that_is_clicked_shows_its_region_and_its_edges(watch: Watch) -> 
 def test_the_network_follows_the_player(watch: Watch) -> None:
     lab = watch("view = NetworkView(traced('residential-house'), at='x/alignment+100'); view")
     page = lab.page
-    expect(page.locator(".fnb-net-status")).to_contain_text("taken up")
+    expect(page.locator(".fnb-net-status")).to_contain_text("expanded")
     expect(page.locator(".fnb-net-status")).not_to_contain_text("The path has")
     before = page.locator(".fnb-network").inner_html()
 

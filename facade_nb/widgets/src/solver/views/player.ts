@@ -119,12 +119,15 @@ class PlayerView implements View {
 
   private row(at: number, caption: string): HTMLElement {
     const { player, timeline } = this.context;
+    // What an event says is told when it is played: a list that says it before tells the answer.
+    const later = at > this.now;
+    const said = later ? "" : caption;
     const row = h(
       "div",
-      { role: "row", class: "fnb-event", "data-now": at === this.now, "data-later": at > this.now, title: caption },
+      { role: "row", class: "fnb-event", "data-now": at === this.now, "data-later": later, title: said || null },
       h("span", { role: "cell", class: "fnb-event-at" }, String(at + 1)),
       h("span", { role: "cell", class: "fnb-event-kind" }, timeline.kindAt(at)),
-      h("span", { role: "cell", class: "fnb-event-text" }, caption),
+      h("span", { role: "cell", class: "fnb-event-text" }, said),
     );
     row.addEventListener("click", () => {
       player.pause();
