@@ -48,6 +48,9 @@ class TraceChannel(ModelWire):
     network = _piece()
     alignment = _piece()
     sizing = _piece()
+    run_heuristic = _piece()
+    run_table = _piece()
+    run_paper = _piece()
 
     serial = Int(help="Goes up when the pieces are those of another trace.").tag(sync=True)
     position = Int(-1).tag(sync=True)

@@ -11,6 +11,7 @@ import "../styles/network.css";
 import "../styles/page.css";
 import "../styles/player.css";
 import "../styles/qualifiers.css";
+import "../styles/runs.css";
 import "../styles/sizing.css";
 import "../styles/solver-views.css";
 import { absence } from "../shared/absence.ts";

@@ -61,7 +61,8 @@ export function boundsOf(scene: Scene) {
 function bendOf(scene: Pick<Scene, "size">, dx: number, dy: number): number {
   const length = Math.hypot(dx, dy);
   const flat = dx === 0 || dy === 0;
-  return (scene.size[0] === 1 ? 0.5 : flat ? 0.3 : 0.13) * Math.sqrt(length);
+  const share = scene.size[0] === 1 ? 0.3 : flat ? 0.16 : 0.09;
+  return share * (length <= 2 ? length : Math.sqrt(2 * length));
 }
 
 /** The curve of an arc: its ends and the point that bends it. */
