@@ -48,7 +48,7 @@ def test_two_runs_go_on_together_and_are_counted(watch: Watch) -> None:
     expect(page.locator(".fnb-runs-counts")).to_be_hidden()
     steps.focus()
     page.keyboard.press("ArrowRight")
-    expect(page.locator(".fnb-runs-side > p").first).to_have_text("1 nodes expanded")
+    expect(page.locator(".fnb-runs-side > p").first).to_have_text("1 node expanded")
     page.keyboard.press("End")
     expect(page.locator(".fnb-runs-side > p").first).to_have_text("done after 11 nodes")
     expect(page.locator(".fnb-runs-side > p").last).to_have_text("done after 27 nodes")

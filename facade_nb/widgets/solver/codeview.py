@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from html import escape
 from typing import TYPE_CHECKING
 
 from .code import places
+from .sheet import table
 from .view import TraceView
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ class CodeView(TraceView):
 
     def to_html(self) -> str:
         """Where the present event comes from."""
-        told = list(places(self.model.trace))
-        function, line, values = told[self.model.position]
-        return f"<p><code>{escape(function)}</code>, line {line}</p><pre>{escape(values)}</pre>"
+        function, line, values = list(places(self.model.trace))[self.model.position]
+        rows = [tuple(pair.split(" = ", 1)) for pair in values.splitlines()]
+        where = f"{function}, line {line}" if line else function
+        return table(f"Code of what is played: {where}", ("variable", "value"), rows)

@@ -78,7 +78,10 @@ export class LeavingList {
       many(own) ? [`${many(own)} ${own}`] : [],
     );
     const among = parts.length ? ` (${parts.join(", ")})` : "";
-    setText(this.count, ` ${permitted.length} edge${permitted.length === 1 ? "" : "s"} permitted${among}, ${forbidden.length} forbidden`);
+    setText(
+      this.count,
+      ` ${permitted.length} edge${permitted.length === 1 ? "" : "s"} permitted${among}, ${forbidden.length} forbidden`,
+    );
     setText(this.sums, node ? `g + h = f: ${sum(node)} m${node.standing === "waiting" ? ", waiting" : ""}` : "");
     setText(this.more, arcs.length > shown.length ? `… ${arcs.length - shown.length} more` : "");
     this.rows(shown);

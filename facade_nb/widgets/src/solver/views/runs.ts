@@ -186,10 +186,9 @@ class RunsView implements View {
         timeline.data.stages.find(({ axis, stage }) => axis === this.axis && stage === "alignment")?.last ?? at;
       own.player.go(done ? end : at);
       own.view?.show(own.player.position);
-      setText(
-        own.said,
-        done ? `done after ${own.stops.length} nodes` : `${Math.min(n, own.stops.length)} nodes expanded`,
-      );
+      const many = (count: number) => `${count} node${count === 1 ? "" : "s"}`;
+      const { length } = own.stops;
+      setText(own.said, done ? `done after ${many(length)}` : `${many(Math.min(n, length))} expanded`);
       mark(own.el, "data-done", done);
     }
     this.table.hidden = n < Number(this.slider.max);
