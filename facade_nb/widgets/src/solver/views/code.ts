@@ -4,7 +4,7 @@ import { type CodeData, CodePanel } from "../codepanel.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
 
 export const code: ViewKind = {
-  title: "Code",
+  title: "Code by line",
   subtitle: "The function that is played, its line, and its variables",
   needs: ["code"],
   make: (context) => new CodeView(context),
