@@ -60,7 +60,7 @@ export class CodePanel {
     this.values.replaceChildren(
       ...told.flatMap((pair) => {
         const at = pair.indexOf(" = ");
-        return [h("div", {}, h("dt", {}, pair.slice(0, at)), h("dd", {}, pair.slice(at + 3)))];
+        return [h("div", {}, h("dt", {}, `${pair.slice(0, at)} = `), h("dd", {}, pair.slice(at + 3)))];
       }),
     );
   }
