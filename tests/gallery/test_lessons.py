@@ -99,6 +99,20 @@ def test_deepening_table_incumbent() -> None:
     assert len(costs) == 4 and [round(c, 6) for c in best] == [2.0, 1.46, 1.1]
 
 
+def test_searches_without_a_part_come_to_the_same_answer_and_take_more_nodes() -> None:
+    for name in ("table", "heuristic"):
+        design, nodes, bounds = gallery.lesson(name), {}, {}
+        for search in ("best", "no-table", "no-heuristic", "ida"):
+            layout = solve(design, search=search, trace=True)
+            assert layout.x.cost == pytest.approx(solve(design).x.cost) and layout.x.proven
+            taken = layout.trace.of_kind(NodeTaken, "x")
+            nodes[search], bounds[search] = len(taken), [e.bound - e.cost for e in taken]
+            for e in layout.trace.of_kind(EdgeRefused, "x"):
+                assert e.constraint != "bound" or e.bound is None or e.bound > e.against
+        assert nodes["best"] < nodes["no-table"] < nodes["no-heuristic"]
+        assert max(bounds["best"]) > 0.5 and max(bounds["no-heuristic"]) < 1e-9
+
+
 def test_attached_matters() -> None:
     layout = told("attached")
     document = gallery.lesson("attached").to_dict()

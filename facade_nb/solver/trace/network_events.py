@@ -299,7 +299,9 @@ class Walked:
         if self._later is None:
             self._later = Network(self.walk.groups).later
         cost = path.cost + weight.cost
-        bound = cost + ahead(group, tuple(o.target for o in column)) + self._later[path.group + 1]
+        bound = cost
+        if self.walk.search != "no-heuristic":
+            bound += ahead(group, tuple(o.target for o in column)) + self._later[path.group + 1]
         text = "An alignment with it costs more than the search had to look at."
         if limit is None or bound <= limit + EPS:
             return Refusal("bound", (), (), text)

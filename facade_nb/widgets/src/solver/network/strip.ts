@@ -31,7 +31,7 @@ export function courseOf(story: Story, subject: Subject): Course {
     if (value != null && value > known + 1e-9) bounds.push([at, value]);
   };
   const proofs: [number, number | null][] = limits.map(({ at, bound }) => [at, bound]);
-  if (subject.search === "best")
+  if (subject.search !== "ida")
     for (const step of subject.kinds[TAKEN]?.steps ?? [])
       proofs.push([data.steps.at[step] ?? 0, data.steps.bound[step] ?? null]);
   for (const [at, value] of proofs.sort((a, b) => a[0] - b[0])) prove(at, value);
