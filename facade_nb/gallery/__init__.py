@@ -20,9 +20,11 @@ from typing import Any
 from ..design import edit
 from ..design.errors import DesignError, Fault, nearest
 from ..design.model import Design
+from .prepared import Lesson, lesson, lesson_note, lessons
 
 __all__ = [
-    "grammar", "grammars", "load", "names", "step_titles", "steps", "town", "towns", "variation_titles", "variations",
+    "Lesson", "grammar", "grammars", "lesson", "lesson_note", "lessons", "load", "names", "step_titles", "steps",
+    "town", "towns", "variation_titles", "variations",
 ]  # fmt: skip
 
 _EDITS: Mapping[str, Callable[..., Design]] = MappingProxyType(

@@ -28,6 +28,7 @@ from .model.objective import Objective
 from .model.precision import EPS
 from .model.problem import AxisProblem, axis_problem
 from .selection.axis import AxisSearch, Best, Solved
+from .selection.clusters import PLAINER
 from .selection.warm_start import adopted, upper_bound
 from .trace import Recorder, stage
 from .words.enumeration import across
@@ -68,7 +69,9 @@ def solve(
     tolerances
         Fractions of the canvas, in growing order. The default objective uses the largest one only.
     search
-        ``"best"``, or ``"ida"`` for the paper's search. Both give a layout of the same cost.
+        ``"best"``, or ``"ida"`` for the paper's search. Lessons also run the first one in Python without its bounds of
+        what is to come, ``"no-heuristic"``, or without dropping paths that meet better ones, ``"no-table"``. All
+        give a layout of the same cost.
     trace
         Record every stage as typed events in `Layout.trace`.
     time_limit
@@ -98,8 +101,9 @@ def solve(
         raise ValueError(
             f"tolerances: expected growing fractions of the canvas from 0 to 1, found {tolerances!r}"
         )
-    if search not in ("best", "ida"):
-        raise ValueError(f"search: expected 'best' or 'ida', found {search!r}")
+    if search not in ("best", "ida", *PLAINER):
+        known = ", ".join(repr(own) for own in ("best", "ida", *PLAINER))
+        raise ValueError(f"search: expected one of {known}, found {search!r}")
     log = Recorder(design, objective or Objective(), tolerances, search) if trace else None
     clock = Clock(time_limit, should_stop)
     try:

@@ -64,7 +64,7 @@ def test_figure_8_is_on_the_screen(watch: Watch) -> None:
     page = watch("NetworkView(traced('figure-8'))").page
     status = page.locator(".fnb-net-status")
     expect(status).to_contain_text("4 × 6 nodes and 6 within cut letters")
-    expect(status).to_contain_text("The path has 5 columns, Ω = 0 m.")
+    expect(status).to_contain_text("The path has 5 columns, Ω = 0 m, J = 0 m.")
     until(page, lambda: count(page, "--fnb-net-path") > 300)
     until(page, lambda: count(page, "--fnb-net-step") > 500)
     page.get_by_role("checkbox", name="cut letters").uncheck()
@@ -101,7 +101,7 @@ def test_a_node_that_is_clicked_shows_its_region_and_its_edges(watch: Watch) -> 
 def test_the_network_follows_the_player(watch: Watch) -> None:
     lab = watch("view = NetworkView(traced('residential-house'), at='x/alignment+100'); view")
     page = lab.page
-    expect(page.locator(".fnb-net-status")).to_contain_text("taken up")
+    expect(page.locator(".fnb-net-status")).to_contain_text("expanded")
     expect(page.locator(".fnb-net-status")).not_to_contain_text("The path has")
     before = page.locator(".fnb-network").inner_html()
 

@@ -220,6 +220,8 @@ class Notes:
     """An observer that writes everything down."""
 
     limits: list[float] = field(default_factory=list)
+    proven: list[float] = field(default_factory=list)
+    pruned_by: list[tuple[str, float, float, float]] = field(default_factory=list)
     nodes: list[tuple[str, tuple[int, ...], float, float]] = field(default_factory=list)
     regions: dict[tuple[str, tuple[int, ...]], object] = field(default_factory=dict)
     edges: list[tuple[str, tuple[int, ...], tuple[tuple[int, ...], ...], float]] = field(default_factory=list)
@@ -228,8 +230,9 @@ class Notes:
     control: list[tuple[object, float]] = field(default_factory=list)
     pairs: list[tuple[object, float]] = field(default_factory=list)
 
-    def deepened(self, limit: float) -> None:
+    def deepened(self, limit: float, bound: float) -> None:
         self.limits.append(limit)
+        self.proven.append(bound)
 
     def visited(self, way: str, group: int, places: tuple[int, ...], cost: float, bound: float) -> None:
         self.nodes.append((way, places, cost, bound))
@@ -261,6 +264,20 @@ class Notes:
     ) -> None:
         self.faults.append(constraint)
 
+    def pruned(
+        self,
+        way: str,
+        group: int,
+        places: tuple[int, ...],
+        column: tuple[tuple[int, ...], ...],
+        after: tuple[int, ...],
+        reason: str,
+        cost: float,
+        bound: float,
+        against: float,
+    ) -> None:
+        self.pruned_by.append((reason, cost, bound, against))
+
     def met(self, group: int, places: tuple[int, ...], cost: float, columns: int) -> None:
         self.joints.append((places, cost))
 
@@ -280,6 +297,11 @@ class TestObserver:
         found = search_ida([group], observer=notes)
         assert found.best is not None
         assert notes.limits == sorted(notes.limits) and notes.limits[0] < found.best.cost <= notes.limits[-1]
+        assert all(
+            a <= b for a, b in zip(notes.proven, notes.limits, strict=True)
+        ) and notes.proven == sorted(notes.proven)
+        for reason, cost, bound, against in notes.pruned_by:
+            assert (cost >= against - 1e-9) if reason == "known" else (bound >= against - 1e-9)
         assert {way for way, *_ in notes.nodes} == {"forward", "backward"}
         assert len(notes.nodes) == found.nodes
         # forward beyond the middle by one edge at most, backward never

@@ -62,8 +62,8 @@ class Partial(Protocol):
 class PathObserver(Protocol):
     """What the best-first search tells, path by path."""
 
-    def limit(self, limit: float) -> None:
-        """The search goes on, up to this cost."""
+    def limit(self, limit: float, bound: float) -> None:
+        """The search goes on, up to this cost; it has been proven to cost at least `bound`."""
 
     def node(self, path: Partial, bound: float) -> None:
         """A path is taken up."""
@@ -82,8 +82,8 @@ class Observer(Protocol):
     words of a group, topmost first. Letters are numbered from the left, too.
     """
 
-    def deepened(self, limit: float) -> None:
-        """Begin a pass that follows nothing dearer than `limit`."""
+    def deepened(self, limit: float, bound: float) -> None:
+        """Begin a pass that follows nothing dearer than `limit`; the passes before it have proven J ≥ `bound`."""
 
     def visited(self, way: str, group: int, places: Places, cost: float, bound: float) -> None:
         """Take a node up: what is laid costs at least `cost`, a whole alignment through it at least `bound`."""
@@ -115,6 +115,26 @@ class Observer(Protocol):
         self, way: str, group: int, places: Places, column: tuple[tuple[int, ...], ...], constraint: str
     ) -> None:
         """Leave an edge out, by ``"C1"``, ``"C3"`` or ``"boundary"`` (no letter of any word begins or ends there)."""
+
+    def pruned(
+        self,
+        way: str,
+        group: int,
+        places: Places,
+        column: tuple[tuple[int, ...], ...],
+        after: Places,
+        reason: str,
+        cost: float,
+        bound: float,
+        against: float,
+    ) -> None:
+        """Do not follow an edge that is permitted.
+
+        `cost` is what is laid with it, `bound` what an alignment with it costs at least. Reasons: ``"bound"``: that is
+        more than the limit of the pass; ``"known"``: another path has come to the same node for no more; ``"best"``:
+        what is known already costs no more, and has as many columns; ``"length"``: so it is, or above the limit, once
+        its pieces are longer than nothing. `against` is that limit, or that cost.
+        """
 
     def met(self, group: int, places: Places, cost: float, columns: int) -> None:
         """Join the two walks at a node into an alignment."""

@@ -34,6 +34,7 @@ from .choices import (
     WordJudged,
 )
 from .networks import (
+    PRUNED,
     BandNote,
     ColumnNote,
     ControlsAligned,
@@ -63,6 +64,7 @@ from .placements import (
 )
 
 __all__ = [
+    "PRUNED",
     "ActiveSetStep",
     "AxisPosed",
     "AxisSolved",

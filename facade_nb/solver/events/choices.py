@@ -143,3 +143,8 @@ class CandidateJudged(Event):
     omega: float | None = None
     floor: float | None = None
     networks: tuple[int, ...] = ()
+
+    @property
+    def proven(self) -> float:
+        """What has been proven of it: J is at least that, by its sizes or by what the search has gone through."""
+        return max(self.bound, self.floor or 0.0)

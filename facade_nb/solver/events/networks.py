@@ -9,6 +9,7 @@ from .base import Event
 from .choices import LetterNote
 
 __all__ = [
+    "PRUNED",
     "BandNote",
     "ColumnNote",
     "ControlsAligned",
@@ -24,6 +25,10 @@ __all__ = [
     "StructurePriced",
     "WaysMet",
 ]
+
+
+PRUNED = ("bound", "known", "best", "length")
+"""Why a permitted column is not followed: what `EdgeRefused` has as `constraint` where no constraint is against it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,10 +57,14 @@ class NetworkOpened(Event):
 
 @dataclass(frozen=True, slots=True)
 class LimitRaised(Event):
-    """The search goes on, up to this cost (the threshold of iterative deepening; a candidate's turn)."""
+    """The search goes on, up to this cost (the threshold of iterative deepening; a candidate's turn).
+
+    `bound` is what has been proven before: no alignment costs less.
+    """
 
     network: int
     limit: float | None
+    bound: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +115,8 @@ class EdgeWeighed(Event):
         one came later.
     path, parent
         Numbers of the longer path and of the one that it was made from (see `NodeTaken`).
+    rival
+        Number of the path that makes it needless, where it was dropped or overtaken.
     """
 
     network: int
@@ -121,11 +132,12 @@ class EdgeWeighed(Event):
     way: str = "forward"
     path: int | None = None
     parent: int | None = None
+    rival: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class EdgeRefused(Event):
-    """A column that may not come next.
+    """A column that may not come next (forbidden), or that need not be looked at (pruned).
 
     Attributes
     ----------
@@ -136,7 +148,10 @@ class EdgeRefused(Event):
         column is refused whatever stands there.
     constraint
         ``C1`` to ``C4``, ``omega`` (ω > μ), ``width`` (W beyond canvas ± μ), ``empty`` (no row has a letter in it),
-        ``boundary`` (no row's letter begins or ends there), or ``bound`` (its cost is above the limit).
+        ``boundary`` (no row's letter begins or ends there): these forbid it. It is pruned by ``bound`` (what an
+        alignment with it costs at least is above the limit), ``known`` (another path has come to the same node for
+        no more), ``best`` (no better than what is known, not even by its columns), or ``length`` (too dear once its
+        pieces are longer than nothing).
     bands, letters
         Who is to blame: bands, and letters as ``(band, letter)``.
     amount
@@ -145,6 +160,9 @@ class EdgeRefused(Event):
         A sentence.
     parent
         Number of the path that it would make longer (see `NodeTaken`).
+    cost, bound, against
+        Where it is pruned: J so far with it, J of any alignment with it at least, and what that was held against: the
+        limit, J so far of the other path, or J of the best that is known.
     """
 
     network: int
@@ -159,6 +177,9 @@ class EdgeRefused(Event):
     text: str = ""
     way: str = "forward"
     parent: int | None = None
+    cost: float | None = None
+    bound: float | None = None
+    against: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -293,6 +293,8 @@ class AxisSearch:
                     heapreplace(queue, (self.cases[n].floor, n))
                     continue
                 limit = min(top, own + steps[n])
+                if self.method == "ida" and len(queue) == 1 and stream.bound == inf:
+                    limit = top  # nobody else has a turn: it deepens by itself, and does not begin anew in every step
                 steps[n] *= tuning.STEP_GROWTH
                 case = self.cases[n]
                 self.progress.at("alignment", self.problem.axis, candidate=n + 1, of=len(self.cases))

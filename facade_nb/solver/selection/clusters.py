@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from math import inf
 
 from .. import tuning
@@ -21,7 +22,11 @@ from ..budget import Stopped
 from ..effort import Effort
 from ..model.precision import EPS
 
-__all__ = ["GroupSearch"]
+__all__ = ["PLAINER", "GroupSearch"]
+
+
+PLAINER = ("no-heuristic", "no-table")
+"""The reference search without one of its parts: as exact, and slower. Lessons compare them."""
 
 
 class GroupSearch:
@@ -79,7 +84,8 @@ class GroupSearch:
 
     def _begin(self) -> None:
         method, nodes, check, accept = self._options
-        self._first = best_first(
+        plain = partial(BestFirst, informed=method != "no-heuristic", table=method != "no-table")
+        self._first = (plain if method in PLAINER else best_first)(
             self.groups,
             keep=tuning.TIES,
             nodes=nodes,

@@ -11,6 +11,8 @@ from ..alignment.elements import Option
 from ..alignment.group import Group
 from ..alignment.observer import Partial
 from ..alignment.pricing import Priced
+from ..alignment.reference.network import Network
+from ..alignment.reference.shortfall import ahead
 from ..alignment.rules import tally
 from ..events import (
     BandNote,
@@ -45,6 +47,16 @@ LOOKED = 1_000
 """and so many columns looked at;"""
 BUDGET = 30_000
 """so many in a whole network."""
+
+
+_PRUNED = {
+    "": "No alignment that keeps the tolerance begins like that.",
+    "bound": "An alignment with it costs at least {bound:.3g} m; the limit is {against:.3g} m.",
+    "known": "It costs {cost:.3g} m so far; a path that costs {against:.3g} m has come to the same node.",
+    "length": "With pieces that are longer than nothing it costs more than the {against:.3g} m that are allowed.",
+    "best": "An alignment with it costs at least {bound:.3g} m; the best so far costs {against:.3g} m.",
+}
+"""Why an edge that is permitted was not followed: by the reason."""
 
 
 def letter_note(letter: Letter) -> LetterNote:
@@ -85,6 +97,8 @@ class Walked:
         self.walk = walk
         self._number: dict[int, int] = {}
         self._left = self._looked = 0
+        self._later: list[float] | None = None
+        self._alike: dict[object, list[Partial]] | None = None
         self._paths: list[Partial] = []  # holds on to them, so that an identity stays one
         for kind, *own in walk.steps:
             if kind in ("node", "edge", "price"):
@@ -112,9 +126,11 @@ class Walked:
             axis, network, walk.names, bands, groups[0].canvas, groups[0].tolerance, walk.search
         )
         made, seen = self._made(), set[object]()
+        limit: float | None = None
         for kind, *own in walk.steps:
             if kind == "limit":
-                yield LimitRaised(axis, network, own[0] if isfinite(own[0]) else None)
+                limit, proven = (value if isfinite(value) else None for value in own)
+                yield LimitRaised(axis, network, limit, proven)
             elif kind == "node":
                 yield self._node(*own)
                 path: Partial = own[0]
@@ -122,7 +138,7 @@ class Walked:
                 if path.group < len(groups) and node not in seen:
                     seen.add(node)
                     if len(seen) <= NODES:
-                        yield from self._refused(path, made.get(self._number[id(path)], set()))
+                        yield from self._refused(path, made.get(self._number[id(path)], set()), limit)
                     else:
                         self._left += 1
             elif kind == "edge":
@@ -180,7 +196,28 @@ class Walked:
             "dropped" if dropped else "overtaken" if path.dropped else "open",
             path=self._number[id(path)],
             parent=self._name(parent),
+            rival=self._rival(path, dropped),
         )
+
+    def _rival(self, path: Partial, dropped: bool) -> int | None:
+        """The path to the same node that makes this one needless: the cheapest known before, or one that came later."""
+        if not (dropped or path.dropped):
+            return None
+        if self._alike is None:
+            self._alike = {}
+            for own in self._paths[: self._told]:
+                self._alike.setdefault((own.group, tuple(own.state), own.owed), []).append(own)
+        number = self._number[id(path)]
+        others = [
+            own
+            for own in self._alike.get((path.group, tuple(path.state), path.owed), [])
+            if (self._number[id(own)] < number) == dropped
+            and own is not path
+            and own.cost <= path.cost + EPS
+            and own.width <= path.width + EPS
+        ]
+        best = min(others, key=lambda own: (own.dropped, own.cost, -own.columns), default=None)
+        return None if best is None else self._number[id(best)]
 
     def _price(self, path: Partial, priced: Priced | None) -> StructurePriced:
         axis, network, number = self.walk.axis, self.walk.number, self._number[id(path)]
@@ -207,8 +244,8 @@ class Walked:
                 made.setdefault(self._number[id(path.parent)], set()).add(key)
         return made
 
-    def _refused(self, path: Partial, made: set[object]) -> Iterator[EdgeRefused]:
-        """At a node: the columns that were not made, each with what forbids it."""
+    def _refused(self, path: Partial, made: set[object], limit: float | None) -> Iterator[EdgeRefused]:
+        """At a node: the columns that were not made, each with what forbids it, or why they were pruned."""
         group = self.walk.groups[path.group]
         count: dict[str, int] = {}
         for looked, (column, refused) in enumerate(columns_at(group, path.state, path.owed)):
@@ -219,7 +256,7 @@ class Walked:
             if refused is None:
                 if tuple((o.letters, o.target) for o in column if o is not None) in made:
                     continue
-                refused = _too_dear(group, path, [option for option in column if option is not None])
+                refused = self._too_dear(path, [option for option in column if option is not None], limit)
             count[refused.constraint] = count.get(refused.constraint, 0) + 1
             if count[refused.constraint] > REFUSED:
                 self._left += 1
@@ -237,7 +274,39 @@ class Walked:
                 refused.amount,
                 refused.text,
                 parent=self._number[id(path)],
+                cost=refused.cost,
+                bound=refused.bound,
+                against=refused.against,
             )
+
+    def _too_dear(self, path: Partial, column: Sequence[Option], limit: float | None) -> Refusal:
+        """Why a column was not made that keeps all constraints: by W, or by its cost.
+
+        The search does not make what, with all that rows two by two still cost each other, is above its limit.
+        """
+        group = self.walk.groups[path.group]
+        everyone = tuple(range(len(column)))
+        weight = weigh(group, column)
+        width = path.width + weight.width
+        over = width + max(b.at_least(o.target) for b, o in zip(group.bands, column, strict=True))
+        over -= group.canvas + group.tolerance
+        if over > EPS:
+            return Refusal("width", everyone, (), f"W would be {over:.3g} m more than canvas + μ.", over)
+        last = all(o.target >> 2 == band.end >> 2 for o, band in zip(column, group.bands, strict=True))
+        under = group.canvas - group.tolerance - width
+        if last and group.stiff and under > EPS:
+            return Refusal("width", everyone, (), f"W would be {under:.3g} m less than canvas − μ.", under)
+        if self._later is None:
+            self._later = Network(self.walk.groups).later
+        cost = path.cost + weight.cost
+        bound = cost
+        if self.walk.search != "no-heuristic":
+            bound += ahead(group, tuple(o.target for o in column)) + self._later[path.group + 1]
+        text = "An alignment with it costs more than the search had to look at."
+        if limit is None or bound <= limit + EPS:
+            return Refusal("bound", (), (), text)
+        text = f"An alignment with it costs at least {bound:.3g} m; the limit is {limit:.3g} m."
+        return Refusal("bound", (), (), text, bound - limit, cost, bound, limit)
 
 
 def _observed(walk: Walk, kind: str, own: Sequence[Any]) -> Event:
@@ -260,6 +329,22 @@ def _observed(walk: Walk, kind: str, own: Sequence[Any]) -> Event:
     if kind == "weighed":
         column, error, cost, after = rest
         return EdgeWeighed(axis, network, group, places, column, error, cost, after, way=way)
+    if kind == "pruned":
+        column, after, reason, cost, bound, against = rest
+        return EdgeRefused(
+            axis,
+            network,
+            group,
+            places,
+            column,
+            reason,
+            after,
+            text=_PRUNED[reason if isfinite(bound) else ""].format(cost=cost, bound=bound, against=against),
+            way=way,
+            cost=cost,
+            bound=bound if isfinite(bound) else None,
+            against=against if isfinite(against) else None,
+        )
     column, constraint = rest
     options = [_option(band, letters) for band, letters in zip(walk.groups[group].bands, column, strict=True)]
     why = refusal(walk.groups[group], constraint == "boundary", tuple(options))
@@ -289,21 +374,6 @@ def _option(band: Band, letters: tuple[int, ...]) -> Option:
     if band.letters[letters[0]].transparent and band.cuts:
         place += 4
     return next(option for option in band.options(place) if option.letters == letters)
-
-
-def _too_dear(group: Group, path: Partial, column: Sequence[Option]) -> Refusal:
-    """Why a column was not made that keeps all constraints: by W, or by its cost."""
-    everyone = tuple(range(len(column)))
-    width = path.width + weigh(group, column).width
-    over = width + max(b.at_least(o.target) for b, o in zip(group.bands, column, strict=True))
-    over -= group.canvas + group.tolerance
-    if over > EPS:
-        return Refusal("width", everyone, (), f"W would be {over:.3g} m more than canvas + μ.", over)
-    last = all(o.target >> 2 == band.end >> 2 for o, band in zip(column, group.bands, strict=True))
-    under = group.canvas - group.tolerance - width
-    if last and group.stiff and under > EPS:
-        return Refusal("width", everyone, (), f"W would be {under:.3g} m less than canvas − μ.", under)
-    return Refusal("bound", (), (), "An alignment with it costs more than the search had to look at.")
 
 
 def _places(state: Sequence[int]) -> tuple[int, ...]:

@@ -59,7 +59,7 @@ class Walk:
     Attributes
     ----------
     steps
-        ``("limit", limit)``, ``("node", path, bound)``, ``("edge", path, bound, dropped)`` with the longer path,
+        ``("limit", limit, bound)``, ``("node", path, bound)``, ``("edge", path, bound, dropped)`` with the longer path,
         ``("price", path, priced)``: as they happened. Of the paper's search, what it told as `Observer`, under the
         names of its methods.
     left
@@ -95,9 +95,9 @@ class Walk:
         else:
             self.left += 1
 
-    def limit(self, limit: float) -> None:
-        """The search goes on, up to this cost."""
-        self._note("limit", limit)
+    def limit(self, limit: float, bound: float) -> None:
+        """The search goes on, up to this cost; it has been proven to cost at least `bound`."""
+        self._note("limit", limit, bound)
 
     def node(self, path: Partial, bound: float) -> None:
         """A path is taken up."""
@@ -116,14 +116,14 @@ class Walk:
 
     # The paper's search tells these (`alignment.observer.Observer`).
 
-    def deepened(self, limit: float) -> None:
+    def deepened(self, limit: float, bound: float) -> None:
         """Begin a pass that follows nothing dearer. It goes over all that earlier ones did, which make room for it."""
         if len(self.steps) > STEPS // 2:
             kept = [step for step in self.steps if step[0] in ("limit", "prealigned", "merged")]
             self._recorder.give_back(len(self.steps) - len(kept))
             self.left += len(self.steps) - len(kept)
             self.steps = kept
-        self._note("limit", limit)
+        self._note("limit", limit, bound)
 
     def visited(self, way: str, group: int, places: Places, cost: float, bound: float) -> None:
         """Take a node up."""
@@ -152,6 +152,21 @@ class Walk:
     def forbidden(self, way: str, group: int, places: Places, column: _Letters, constraint: str) -> None:
         """Leave an edge out."""
         self._note("forbidden", way, group, places, column, constraint)
+
+    def pruned(
+        self,
+        way: str,
+        group: int,
+        places: Places,
+        column: _Letters,
+        after: Places,
+        reason: str,
+        cost: float,
+        bound: float,
+        against: float,
+    ) -> None:
+        """Do not follow an edge."""
+        self._note("pruned", way, group, places, column, after, reason, cost, bound, against)
 
     def met(self, group: int, places: Places, cost: float, columns: int) -> None:
         """Join the walks from both ends."""

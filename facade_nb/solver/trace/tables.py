@@ -7,6 +7,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..events import (
+    PRUNED,
     ActiveSetStep,
     AxisPosed,
     BandNote,
@@ -154,7 +155,7 @@ def edges(trace: Trace) -> pd.DataFrame:
             or (e.axis, e.network, *sorted((e.places, e.after or ())), e.column) in chosen
         )
         if isinstance(e, EdgeRefused):
-            row["fate"] = "refused"
+            row["fate"] = "pruned" if e.constraint in PRUNED else "forbidden"
         rows.append(row)
     return _frame(rows, _EDGES)
 

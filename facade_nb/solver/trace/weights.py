@@ -49,6 +49,9 @@ class Refusal:
     letters: tuple[tuple[int, int], ...]
     text: str
     amount: float | None = None
+    cost: float | None = None
+    bound: float | None = None
+    against: float | None = None
 
 
 Column = tuple[Option, ...]

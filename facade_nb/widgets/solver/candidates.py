@@ -39,7 +39,7 @@ class CandidatesView(TraceView):
     def _table(self, axis: str, told: list[CandidateJudged]) -> str:
         counters = list(dict.fromkeys(name for e in told for name in e.counters))
         patterns = list(told[0].words)
-        best = sorted(told, key=lambda e: (e.cost is None, e.cost or e.bound, e.number))[:_ROWS]
+        best = sorted(told, key=lambda e: (e.cost is None, e.cost or e.proven, e.number))[:_ROWS]
         rows = [
             (
                 str(e.number),
@@ -47,7 +47,7 @@ class CandidatesView(TraceView):
                 *(str(e.counters.get(name, "")) for name in counters),
                 *(_number(value) for value in (e.cost, e.omega)),
                 "" if e.columns is None else str(e.columns),
-                *(_number(value) for value in (e.deviation, e.bound, e.tolerance)),
+                *(_number(value) for value in (e.deviation, e.proven, e.tolerance)),
                 *(e.words[name].replace(" ", "") or "ε" for name in patterns),
             )
             for e in best

@@ -14,7 +14,10 @@ __all__ = ["caption", "captions"]
 
 def captions(trace: Trace) -> dict[str, Any]:
     """The sentences of all events, in their order."""
-    return {"text": [caption(event) for event in trace.events]}
+    text = [caption(event) for event in trace.events]
+    if any(isinstance(event, told.NoLayoutFound) for event in trace.events) and text:
+        text[-1] = text[-1].replace("All done", "It ends without a layout,")
+    return {"text": text}
 
 
 def caption(event: Event) -> str:
@@ -68,7 +71,7 @@ def _word(e: told.WordJudged) -> str:
 
 def _candidate(e: told.CandidateJudged) -> str:
     values = f" ({_values(e.counters)})" if e.counters else ""
-    cost = "" if e.cost is None else f", J = {_m(e.cost)}"
+    cost = f", J ≥ {_m(e.proven)} is proven" if e.cost is None else f", J = {_m(e.cost)}"
     return f"Candidate {e.number}{values}: {e.fate}{cost}."
 
 
@@ -80,12 +83,14 @@ def _network(e: told.NetworkOpened) -> str:
 
 
 def _raised(e: told.LimitRaised) -> str:
-    return f"Network {e.network} goes on, up to a cost of {_m(e.limit)}."
+    proven = "" if e.bound is None else f"; J ≥ {_m(e.bound)} is proven"
+    return f"A pass through network {e.network} begins, limit {_m(e.limit)}{proven}."
 
 
 def _node(e: told.NodeTaken) -> str:
     way = " from the end" if e.way == "backward" else ""
-    return f"A node is taken up{way}, {_letters(e.places)} read: J ≥ {_m(e.bound)}."
+    f = f"f = g + h = {_m(e.cost)[:-2]} + {_m(max(0.0, e.bound - e.cost))[:-2]} = {_m(e.bound)}"
+    return f"A node is expanded{way}, {_letters(e.places)} letters read: {f}."
 
 
 def _letters(places: Sequence[int]) -> str:
@@ -93,8 +98,9 @@ def _letters(places: Sequence[int]) -> str:
 
 
 def _weighed(e: told.EdgeWeighed) -> str:
-    fate = {"dropped": "; a path as good is known", "overtaken": "; a better one came later"}.get(e.fate, "")
-    return f"A column of {_count(e.column)} letters is weighed: ω = {_m(e.omega)}{fate}."
+    fate = "; pruned, for a path as good has come to the same node" if e.fate == "dropped" else ""
+    bound = "" if e.bound is None else f", f = {_m(e.bound)}"
+    return f"A column of {_count(e.column)} letters is weighed: ω = {_m(e.omega)}{bound}{fate}."
 
 
 def _count(column: Sequence[Sequence[int] | None]) -> str:
@@ -102,7 +108,8 @@ def _count(column: Sequence[Sequence[int] | None]) -> str:
 
 
 def _refused(e: told.EdgeRefused) -> str:
-    return f"A column of {_count(e.column)} letters is refused: {e.text or e.constraint}"
+    what = "pruned" if e.constraint in told.PRUNED else "forbidden"
+    return f"A column of {_count(e.column)} letters is {what}: {e.text or e.constraint}"
 
 
 def _region(e: told.RegionTraced) -> str:

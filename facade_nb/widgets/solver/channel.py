@@ -8,6 +8,7 @@ from typing import Any
 
 from traitlets import Bytes, Int, List, Unicode
 
+from ... import gallery
 from ..shared.bundled import Message, ModelWire
 from .chunks import CHUNKS, chunk
 from .model import TraceModel
@@ -16,6 +17,10 @@ __all__ = ["TraceChannel"]
 
 _FIRST = ("timeline", "captions")
 """What the frame of every view reads."""
+_ASKED = ("position", "picked", "lesson")
+"""What the page may change."""
+_SHARED = ("position", "picked", "stale")
+"""What it is told as it changes; a lesson comes with its trace."""
 
 
 def _piece() -> Bytes:
@@ -43,24 +48,39 @@ class TraceChannel(ModelWire):
     network = _piece()
     alignment = _piece()
     sizing = _piece()
+    run_heuristic = _piece()
+    run_table = _piece()
+    run_paper = _piece()
 
     serial = Int(help="Goes up when the pieces are those of another trace.").tag(sync=True)
     position = Int(-1).tag(sync=True)
     picked = List(Unicode()).tag(sync=True)
+    lesson = Unicode(help="Name of the lesson that is shown; empty: the source is.").tag(sync=True)
+    about = Unicode(help="What to look at in the lesson.").tag(sync=True)
+    lessons = List(List(Unicode()), help="Names and titles of all lessons.").tag(sync=True)
+    stale = Unicode(help="Why what is shown is not the present design.").tag(sync=True)
 
     def __init__(self, model: TraceModel) -> None:
         self._provided: dict[str, None] = {}
-        super().__init__(model, position=model.position, picked=model.picked)
+        notes = [gallery.lesson_note(name) for name in gallery.lessons()]
+        super().__init__(
+            model,
+            position=model.position,
+            picked=model.picked,
+            lessons=[[note.name, note.title] for note in notes],
+            stale=model.stale,
+        )
+        self._tell_lesson()
         self.provide(_FIRST)
         model.observe(self._on_trace, "trace")
-        model.observe(self._on_moment, ["position", "picked"])
-        self.observe(self._on_page, ["position", "picked"])
+        model.observe(self._on_moment, _SHARED)
+        self.observe(self._on_page, _ASKED)
 
     def close(self) -> None:
         """Close the wire; the model lives on."""
         if self.comm is not None:
             self.model.unobserve(self._on_trace, "trace")
-            self.model.unobserve(self._on_moment, ["position", "picked"])
+            self.model.unobserve(self._on_moment, _SHARED)
         super().close()
 
     def provide(self, names: Iterable[str]) -> None:
@@ -95,8 +115,13 @@ class TraceChannel(ModelWire):
             self.trouble = ""
             if not self._asleep:
                 self._refill()
+            self._tell_lesson()
             self.serial += 1
             self.position, self.picked = self.model.position, self.model.picked
+
+    def _tell_lesson(self) -> None:
+        self.lesson = self.model.lesson
+        self.about = gallery.lesson_note(self.lesson).look if self.lesson else ""
 
     def _on_moment(self, change: Any) -> None:
         setattr(self, change["name"], change["new"])

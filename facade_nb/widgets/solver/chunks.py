@@ -29,6 +29,7 @@ from .built import built
 from .captions import captions
 from .code import code
 from .networks import aligned, networks
+from .otherwise import CHANGES, run
 from .packing import pack
 from .timeline import timeline
 
@@ -58,6 +59,7 @@ CHUNKS: Mapping[str, Callable[[Trace], Json]] = {
     "network": networks,
     "alignment": aligned,
     "sizing": _picking(SystemPosed, ActiveSetStep, SystemSolved),
+    **{f"run_{change}": run(change) for change in CHANGES},
 }
 """Every piece by its name; one line each. A view says in its `needs` which it reads."""
 

@@ -6,11 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from weakref import WeakKeyDictionary, WeakValueDictionary
 
-from traitlets import HasTraits, Instance, Int, List, Unicode
+from traitlets import Bunch, HasTraits, Instance, Int, List, Unicode, observe, validate
 
+from ... import gallery
 from ...design import Design, DesignError, NoLayout
-from ...solver import Layout, Trace
+from ...solver import Layout, Trace, solve
 from ..shared.turns import Turns
+from ..studio import newcomers
 from ..studio.model import FacadeModel
 from .timeline import begun, locate, moment_of
 
@@ -29,16 +31,24 @@ class TraceModel(Turns, HasTraits):
         The number of the event that was played last; -1 is the end, also of a trace to come.
     picked
         The targets that the reader has picked, as the front end's links name them; most often empty.
+    lesson
+        The name of the lesson that is shown in place of the source (`gallery.lessons`); empty: the source is.
+    stale
+        Why what is shown is not the present design of the model that is followed; empty where it is.
     """
 
     trace: Trace = Instance(Trace)
     position: int = Int(-1)
     picked: list[str] = List(Unicode())
+    lesson: str = Unicode()
+    stale: str = Unicode()
     follows = False
     """Whether the trace is that of a model, and another one when that is edited."""
 
     def __init__(self, trace: Trace) -> None:
         super().__init__(trace=_whole(trace))
+        self._own = self.trace
+        self._before = -1
 
     @classmethod
     def of(
@@ -89,11 +99,36 @@ class TraceModel(Turns, HasTraits):
         """Pick targets in all views; without arguments nothing is picked any more."""
         self.picked = list(targets)
 
+    @validate("lesson")
+    def _known(self, proposal: Bunch) -> str:
+        """Raises `DesignError` for a lesson that there is not."""
+        return gallery.lesson_note(proposal["value"]).name if proposal["value"] else ""
+
+    @observe("lesson")
+    def _take(self, change: Bunch) -> None:
+        """Show a lesson from where it begins; or the source again, where it was left."""
+        with self.hold_trait_notifications():
+            if not change["old"]:
+                self._before = self.position
+            if self.lesson:
+                note = gallery.lesson_note(self.lesson)
+                trace = solve(note.design, search=note.search, trace=True, time_limit=None).trace
+                assert trace is not None
+                self.trace = trace
+                self.moment = note.moment
+            else:
+                self.trace, self.position = self._own, self._before
+            self.picked = []
+
     def _follow(self, trace: Trace) -> None:
         """Another solve: stay at the same moment where there is one."""
+        self._own = _whole(trace)
+        if self.lesson:
+            self._before = -1
+            return
         moment = None if self.position < 0 else self.moment
         with self.hold_trait_notifications():
-            self.trace = _whole(trace)
+            self.trace = trace
             if moment is not None:
                 try:
                     self.moment = moment
@@ -118,8 +153,27 @@ def _following(model: FacadeModel) -> TraceModel:
     made = TraceModel(model.trace)
     made.follows = True
     model.observe(lambda change: made._follow(change["new"]), "trace")
+
+    def judge(_: object) -> None:
+        made.stale = _staleness(model)
+
+    model.observe(judge, "version")
+    judge(None)
     _of_model[model] = made
     return made
+
+
+def _staleness(model: FacadeModel) -> str:
+    """Why the last trace of a model does not tell of its present design; empty where it does."""
+    if model.busy:
+        return "The design has been changed since; it is being solved."
+    if model.drafts:
+        return "What stands in the fields is at fault: this is the solve of the design without it."
+    told = None if model.trace is None else Design.from_dict(begun(model.trace).design)
+    if told != newcomers.begun(model.design):
+        why = model.message or str(model.trouble or "")
+        return "The design has been changed since, and was not solved" + (f": {why}" if why else ".")
+    return ""
 
 
 _of_trace: WeakValueDictionary[int, TraceModel] = WeakValueDictionary()

@@ -15,6 +15,7 @@ from ...solver.events import (
     ControlsAligned,
     EdgeRefused,
     EdgeWeighed,
+    LimitRaised,
     NetworkClosed,
     NetworkOpened,
     NodeTaken,
@@ -46,6 +47,7 @@ def networks(trace: Trace) -> Json:
     regions: list[Json] = []
     merged: list[Json] = []
     priced: list[Json] = []
+    limits: list[Json] = []
     for at, e in enumerate(trace.events):
         if isinstance(e, NetworkOpened):
             opened[e.axis, e.network] = len(told)
@@ -54,6 +56,8 @@ def networks(trace: Trace) -> Json:
             told[opened[e.axis, e.network]]["closed"] = {"at": at, **to_plain(e)}
         elif isinstance(e, _Step) and (e.axis, e.network) in opened:
             steps.add(at, opened[e.axis, e.network], e)
+        elif isinstance(e, LimitRaised):
+            limits.append({"at": at, **to_plain(e)})
         elif isinstance(e, RegionTraced):
             regions.append({"at": at, **to_plain(e)})
         elif isinstance(e, StructurePriced) and e.cost is not None:
@@ -66,6 +70,7 @@ def networks(trace: Trace) -> Json:
         "regions": regions,
         "merged": merged,
         "priced": priced,
+        "limits": limits,
         "paths": aligned(trace)["paths"],
     }
 
@@ -145,7 +150,8 @@ class _Steps:
             self.after.append(to)
             self.filled.append(bool(letters))
         fate = e.constraint if isinstance(e, EdgeRefused) else e.fate if isinstance(e, EdgeWeighed) else ""
-        text = e.text if isinstance(e, EdgeRefused) else ""
+        # what the numbers say is put in words where it is shown
+        text = e.text if isinstance(e, EdgeRefused) and e.bound is None else ""
         self.rows.append(
             (
                 at,
@@ -157,13 +163,15 @@ class _Steps:
                 int(getattr(e, "way", "forward") == "backward"),
             )
         )
-        self.numbers.append(tuple(_real(getattr(e, name, None)) for name in ("omega", "cost", "bound")))
-        self.paths.append(tuple(_whole(getattr(e, name, None)) for name in ("path", "parent")))
+        self.numbers.append(
+            tuple(_real(getattr(e, name, None)) for name in ("omega", "cost", "bound", "against"))
+        )
+        self.paths.append(tuple(_whole(getattr(e, name, None)) for name in ("path", "parent", "rival")))
 
     def arrays(self) -> Json:
         rows = np.array(self.rows, np.int32).reshape(-1, 7).T
-        omega, cost, bound = np.array(self.numbers, np.float64).reshape(-1, 3).T
-        path, parent = np.array(self.paths, np.int32).reshape(-1, 2).T
+        omega, cost, bound, against = np.array(self.numbers, np.float64).reshape(-1, 4).T
+        path, parent, rival = np.array(self.paths, np.int32).reshape(-1, 3).T
         at, network, kind, group, fate, text, way = rows
         small = {"network": network, "group": group}
         return {
@@ -174,8 +182,10 @@ class _Steps:
             "omega": omega.copy(),
             "cost": cost.copy(),
             "bound": bound.copy(),
+            "against": against.copy(),
             "path": path.copy(),
             "parent": parent.copy(),
+            "rival": rival.copy(),
             "offset": np.array([*self.offsets, len(self.places)], np.int32),
             "places": np.array(self.places, np.int16),
             "after": np.array(self.after, np.int16),

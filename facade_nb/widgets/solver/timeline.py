@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -14,19 +15,24 @@ from ...solver import Trace
 from ...solver.events import (
     AxisPosed,
     CandidateJudged,
+    ControlsAligned,
     Event,
     HoleFound,
     NetworkOpened,
     NoLayoutFound,
     PairInconsistent,
+    PairsMerged,
     PathChosen,
     StageBegun,
     StageEnded,
+    StructurePriced,
     SystemSolved,
     TraceBegun,
     TraceEnded,
     Warned,
+    WaysMet,
 )
+from ...solver.model.precision import EPS
 from .captions import caption
 
 __all__ = ["STAGES", "Segment", "begun", "hues", "locate", "moment_of", "segments", "timeline"]
@@ -153,6 +159,7 @@ def timeline(trace: Trace) -> dict[str, Any]:
             }
             for own in segments(events)
         ],
+        "improved": np.array(_improved(events), np.int32),
         "marks": [{"at": at, "kind": type(e).__name__, "text": caption(e)} for at, e in _marked(events)],
         "patterns": [_pattern(design, name) for name in design.patterns],
         "symbols": hues(design),
@@ -162,6 +169,19 @@ def timeline(trace: Trace) -> dict[str, Any]:
         "seconds": last.seconds if isinstance(last, TraceEnded) else None,
         "failure": next((e.message for e in events if isinstance(e, NoLayoutFound)), ""),
     }
+
+
+def _improved(events: Sequence[Event]) -> list[int]:
+    """Where an alignment is found that is cheaper than all before it in its network."""
+    best: dict[tuple[str, int], float] = {}
+    found: list[int] = []
+    for at, e in enumerate(events):
+        if isinstance(e, (StructurePriced, WaysMet, ControlsAligned, PairsMerged)) and e.cost is not None:
+            own = (e.axis, e.network)
+            if e.cost < best.get(own, inf) - EPS:
+                best[own] = e.cost
+                found.append(at)
+    return found
 
 
 def _marked(events: Sequence[Event]) -> list[tuple[int, Event]]:

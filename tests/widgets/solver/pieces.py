@@ -64,6 +64,11 @@ def _figure_8(search: str = "best") -> Trace:
     return solve(gallery.load("figure-8"), search=search, trace=True).trace
 
 
+def _lesson(name: str) -> Trace:
+    note = gallery.lesson_note(name)
+    return solve(note.design, search=note.search, trace=True).trace
+
+
 def _alternation() -> Trace:
     """A pattern with alternatives, one of them of the wrong length, and a mirrored group."""
     design = Design.from_dict(
@@ -92,6 +97,8 @@ TRACES: Mapping[str, Callable[[], Trace]] = {
         "figure-8": _figure_8,
         "figure-8-ida": lambda: _figure_8("ida"),
         "qualifiers-d": _gallery("qualifiers-d"),
+        "lesson-deepening": lambda: _lesson("deepening"),
+        "lesson-table": lambda: _lesson("table"),
     }.items()
 }
 
@@ -102,6 +109,8 @@ def write(folder: Path) -> None:
     for name, make in TRACES.items():
         trace = make()
         for piece in CHUNKS:
+            if piece.startswith("run_") and name != "lesson-table":
+                continue  # it has the design searched again
             (folder / f"{name}.{piece}.bin").write_bytes(chunk(trace, piece))
         (folder / f"{name}.oracle.bin").write_bytes(pack(_oracle(trace)))
 

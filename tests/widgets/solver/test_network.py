@@ -55,7 +55,11 @@ class TestNetworkPiece:
                 assert [bool(own) for own in e.column] == steps["filled"][span].astype(bool).tolist()
             if isinstance(e, EdgeRefused):
                 assert steps["fates"][steps["fate"][n]] == e.constraint
-                assert steps["texts"][steps["text"][n]] == e.text
+                # what numbers say is put in words where it is shown
+                assert steps["texts"][steps["text"][n]] == ("" if e.bound is not None else e.text)
+                assert steps["against"][n] == e.against or (
+                    e.against is None and np.isnan(steps["against"][n])
+                )
                 assert [own is None for own in e.column] == (steps["after"][span] < 0).tolist()
             if isinstance(e, NodeTaken):
                 assert np.isnan(steps["omega"][n])

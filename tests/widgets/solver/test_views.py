@@ -18,7 +18,17 @@ from facade_nb import DesignError, NoLayout, gallery, solve
 from facade_nb import widgets as public
 from facade_nb.design.edit import with_canvas
 from facade_nb.solver import Trace
-from facade_nb.solver.events import AxisPosed, Event, ShapeMerged, WordJudged
+from facade_nb.solver.events import (
+    AxisPosed,
+    EdgeWeighed,
+    Event,
+    LimitRaised,
+    NodeTaken,
+    ShapeMerged,
+    StructurePriced,
+    WaysMet,
+    WordJudged,
+)
 from facade_nb.widgets import FacadeModel, FacadeView, QualifiersView, TraceModel, TraceView, WordsView
 from facade_nb.widgets.shared.bundled import AS_RUN
 from facade_nb.widgets.solver import captions, chunks, code, timeline
@@ -163,9 +173,33 @@ class TestPieces:
             text = "".join(piece for piece, _ in own["tokens"])
             assert re.match(r"(@\w+.*\n)*def \w+\(", text)
             assert {kind for _, kind in own["tokens"]} <= {"", "k", "s", "c"}
-        assert {*told["stages"]} == {*timeline.STAGES}
-        assert {*told["kinds"]} <= {*Event.registry}
-        assert told["functions"][told["stages"]["alignment"]]["file"].endswith(".py")
+        events = TRACES[name]().events
+        assert len(told["function"]) == len(told["line"]) == len(told["value"]) == len(events)
+        assert {*told["names"]} == {*told["functions"]}
+        for n, line in enumerate(told["line"]):
+            own = told["functions"][told["names"][told["function"][n]]]
+            assert 0 <= line <= "".join(piece for piece, _ in own["tokens"]).count("\n") + 1
+            assert own["file"].endswith(".py")
+
+    def test_every_event_of_a_search_has_its_line_and_its_variables(self) -> None:
+        """The reference search, and the paper's; each line is the one that its place begins with."""
+        said: dict[str, set[str]] = {}
+        for name in ("lesson-table", "lesson-deepening"):
+            trace = TRACES[name]()
+            told = code.code(trace)
+            for n, event in enumerate(trace.events):
+                if isinstance(event, (NodeTaken, WaysMet, StructurePriced, LimitRaised, EdgeWeighed)):
+                    own = told["functions"][told["names"][told["function"][n]]]
+                    text = "".join(piece for piece, _ in own["tokens"]).split("\n")[told["line"][n] - 1]
+                    said.setdefault(type(event).__name__, set()).add(text.strip())
+                    assert "=" in told["values"][told["value"][n]]
+        assert said == {
+            "LimitRaised": {"if not self.paused and not self._prepare(limit):", "meeting = Meeting("},
+            "NodeTaken": {"self.log.node(item, bound)", "self.found.nodes += 1"},
+            "EdgeWeighed": {"if not drops:", "columns, beyond = lattice.columns("},
+            "StructurePriced": {"priced = price(self.network.groups, self.network.structure(item))"},
+            "WaysMet": {"self.found.offer(priced, self.keep)"},
+        }
 
     def test_the_facade_has_a_shape_for_each_event(self, trace: Trace) -> None:
         told = unpack(chunks.chunk(trace, "facade"))

@@ -113,13 +113,21 @@ class Meeting:
             if child is None:
                 stack.pop()
                 continue
-            if child.bound > self.limit + EPS or self._hopeless(side, child):
+            if child.bound > self.limit + EPS:  # it was not when its node was taken up
+                side.pruned(child, "bound", self.limit)
+                continue
+            if self._hopeless(side, child):
+                side.pruned(child, "best", self._rival)
                 continue
             if side is self.backward and 2 * side.progress(child) > side.total:
                 continue  # the other walk's half
-            if self.accept is None and table.drops(child):
+            other = table.drops(child) if self.accept is None else None
+            if other is not None:
+                side.pruned(child, "known", other.cost)
                 continue
-            if child.trail and self._beyond(side, child):
+            reason = self._beyond(side, child) if child.trail else ""
+            if reason:
+                side.pruned(child, reason, self._rival if reason == "best" else self.limit)
                 continue
             self.found.nodes += 1
             if self.check is not None:
@@ -142,8 +150,11 @@ class Meeting:
             left -= 1
         return self._no_better(half.bound, half.columns + left)
 
-    def _beyond(self, side: Side, half: Half) -> bool:
-        """Whether lengths that depend on each other make it too dear (`relaxation`)."""
+    def _beyond(self, side: Side, half: Half) -> str:
+        """Why lengths that depend on each other make it too dear (`relaxation`); empty: they do not.
+
+        Reasons are those of `Observer.pruned`.
+        """
         g = half.group
         inside = g < len(side.groups)
         later = side.later[g + 1 if inside else g]
@@ -157,18 +168,24 @@ class Meeting:
         half.bound = max(half.bound, bound)
         if half.bound > self.limit + EPS:
             side.beyond = min(side.beyond, half.bound)
-            return True
+            return "bound"
         if self._hopeless(side, half):
-            return True
+            return "best"
         best = self.found.best
         rival = best.cost if best is not None and best.proper else self.known[0] if self.known[1] else inf
         if half.bound >= rival - EPS and positive > rival + EPS:
-            return True  # it ties at best, with pieces of no length
+            return "length"  # it ties at best, with pieces of no length
         if self.proper and positive > self.limit + EPS:
             self.thinned = True
             side.beyond = min(side.beyond, positive)
-            return True
-        return False
+            return "length"
+        return ""
+
+    @property
+    def _rival(self) -> float:
+        """J of the best alignment that is known; where there is none, the limit."""
+        best = self.found.best
+        return min(self.limit, self.known[0], inf if best is None else best.cost)
 
     def _no_better(self, bound: float, columns: int) -> bool:
         best = self.found.best

@@ -161,7 +161,7 @@ class Deepening:
         found.cut, found.ties = False, self._alike[: self.keep] if given else []
         while True:
             if self.observer is not None:
-                self.observer.deepened(self._threshold)
+                self.observer.deepened(self._threshold, max(found.bound, self.ends.least))
             forward.beyond = backward.beyond = inf
             before = found.nodes
             meeting = Meeting(

@@ -19,7 +19,7 @@ from ..group import Group
 from ..observer import Observer, Places
 from ..pricing import Priced, Structure
 from .decision_network import Column, Lattice, State
-from .observer import places_from_left
+from .observer import Watch, places_from_left
 from .pieces import Stretch, ledger_bound, with_column
 from .remainder import Remainder
 
@@ -176,6 +176,16 @@ class Side:
                 yield child
             else:
                 self.beyond = min(self.beyond, child.bound)
+                self.pruned(child, "bound", limit)
+
+    def pruned(self, child: Half, reason: str, against: float) -> None:
+        """Tell whoever watches that a partial alignment is not followed, and what it was held against."""
+        half = child.parent
+        if self.observer is None or half is None or child.column is None:
+            return
+        index = self._index(half.group)
+        watch = Watch(self.observer, self.way, index, self.groups[half.group], half.state)
+        watch.pruned(child.column.options, reason, child.cost, child.bound, against)
 
     def _index(self, g: int) -> int:
         return g if self.way == "forward" else len(self.groups) - 1 - g

@@ -45,6 +45,15 @@ class Watch:
             self._way, self._index, self._places, self._letters(options), error, cost, after
         )
 
+    def pruned(
+        self, options: Sequence[Option], reason: str, cost: float, bound: float, against: float
+    ) -> None:
+        """Tell of an edge that is not followed."""
+        after = places_from_left(self._group, [option.target for option in options], self._way)
+        self._observer.pruned(
+            self._way, self._index, self._places, self._letters(options), after, reason, cost, bound, against
+        )
+
     def forbidden(self, options: Sequence[Option], constraint: str) -> None:
         """Tell of an edge that is none."""
         self._observer.forbidden(self._way, self._index, self._places, self._letters(options), constraint)

@@ -34,8 +34,8 @@ class Transpositions:
         self._keep = keep
         self._known: dict[object, list[Half]] = {}
 
-    def drops(self, half: Half) -> bool:
-        """Whether a known path makes this one needless; if not, it becomes known, and what it beats is dropped."""
+    def drops(self, half: Half) -> Half | None:
+        """A known path that makes this one needless; if none does, this one is known now, and what it beats dropped."""
         key = (
             half.group,
             half.state,
@@ -46,21 +46,21 @@ class Transpositions:
         known = self._known.get(key)
         if known is None:
             self._known[key] = [half]
-            return False
+            return None
         equals = 0
         for other in known:
             verdict = self._beats(other, half)
             if verdict > 0:
-                return True
+                return other
             equals += verdict == 0
         if equals >= self._keep:
-            return True
+            return known[0]
         kept = [other for other in known if self._beats(half, other) <= 0]
         if len(kept) < len(known):
             for other in known:
                 other.dropped = other.dropped or other not in kept
         known[:] = [*kept, half]
-        return False
+        return None
 
     def _beats(self, a: Half, b: Half) -> int:
         """1: `a` makes `b` needless; 0: as good as it in every respect; -1: neither."""

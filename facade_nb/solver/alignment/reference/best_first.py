@@ -36,6 +36,13 @@ _GRID = 1e10
 class BestFirst:
     """A best-first search of one network.
 
+    Parameters
+    ----------
+    informed
+        Whether what is to come is bounded; if not, only what is laid counts.
+    table
+        Whether paths that come to one node are compared, and the dearer dropped.
+
     Attributes
     ----------
     found
@@ -56,8 +63,11 @@ class BestFirst:
         accept: Callable[[Priced], bool] | None = None,
         log: PathObserver | None = None,
         turn: float = inf,
+        informed: bool = True,
+        table: bool = True,
     ) -> None:
-        self.network = Network(groups, check)
+        self.network = Network(groups, check, informed=informed)
+        self._table = table
         self.turn = turn
         self.paused = False
         self.log = log
@@ -134,7 +144,7 @@ class BestFirst:
     def _prepare(self, limit: float) -> bool:
         """Take up what a lesser limit left aside; whether there is anything to search."""
         if self.log is not None:
-            self.log.limit(limit)
+            self.log.limit(limit, self.found.bound)
         if self.network.tall:
             if not self.network.bind(limit):
                 self._nothing_within(limit)
@@ -184,7 +194,7 @@ class BestFirst:
             self._push(upto, path)
 
     def _take(self, bound: float, child: Path) -> None:
-        drops = self.accept is None and self._seen.drops(child)
+        drops = self.accept is None and self._table and self._seen.drops(child)
         if self.log is not None:
             self.log.edge(child, bound, drops)
         if not drops:

@@ -39,10 +39,16 @@ class Network:
 
     With `sizable`, columns are left out that no sizes of symbols can make. With `binds`, pieces that need more or less
     than what costs nothing may come up against the tolerance on ω; where no path may cost so much, they do not.
+    Not `informed`, it says of what is to come that it costs nothing, as lessons want to see it (not of tall groups).
     """
 
     def __init__(
-        self, groups: Sequence[Group], check: Callable[[], None] | None = None, most: float = inf
+        self,
+        groups: Sequence[Group],
+        check: Callable[[], None] | None = None,
+        most: float = inf,
+        *,
+        informed: bool = True,
     ) -> None:
         self.groups = tuple(groups)
         self.check = check
@@ -53,9 +59,11 @@ class Network:
         self._made: list[Made] = [{} for _ in groups]
         self.skeletons: list[Skeleton | None] = [None] * len(groups)
         self.later = [0.0] * (len(groups) + 1)
+        self.informed = informed or self.tall
         for g in range(len(groups) - 1, -1, -1):
             group = groups[g]
-            self.later[g] = self.later[g + 1] + shortfall(group, self._enter(g))
+            if self.informed:
+                self.later[g] = self.later[g + 1] + shortfall(group, self._enter(g))
 
     def bind(self, limit: float) -> bool:
         """Look only for what costs at most `limit` from here on; False: there is no such alignment."""
@@ -77,7 +85,7 @@ class Network:
     def _enter(self, g: int) -> Path:
         group = self.groups[g]
         path = Path(g, group.start, 0.0, 0.0, 0, spans=(_NOTHING,) * len(group.bands))
-        path.ahead = ahead(group, group.start)
+        path.ahead = ahead(group, group.start) if self.informed else 0.0
         return path
 
     def complete(self, path: Path) -> bool:
@@ -106,6 +114,12 @@ class Network:
         if skeleton is not None:
             own = path.cost + later
             found = steps(group, skeleton, path, made - own, limit - own, self.check, self.most)
+        elif not self.informed:
+            own = path.cost + later
+            every = edges(
+                group, path.state, path.owed, -inf, inf, self.check, self.most, self._made[path.group]
+            )
+            found = [edge for edge in every if made - own + EPS < edge.cost <= limit - own + EPS]
         else:
             found = edges(
                 group,
@@ -148,7 +162,7 @@ class Network:
                 child = Path(g, state, cost, 0.0, path.columns + 1, True, False, trail, path, edge.column)
                 child.ranges = ranges
                 child.spans = (_NOTHING,) * len(state)
-                child.ahead = ahead(self.groups[g], state) if state else 0.0
+                child.ahead = ahead(self.groups[g], state) if state and self.informed else 0.0
                 child.learnt, child.late = learnt, pinched
             else:
                 child = Path(
@@ -166,7 +180,7 @@ class Network:
                 child.spans, child.learnt = spans, learnt
                 child.ahead = ahead(group, edge.state) if group.tall else edge.ahead
                 child.ranges = ranges
-                rest = shortfall(group, child)
+                rest = shortfall(group, child) if self.informed else 0.0
                 if skeleton is not None:
                     far = width if group.stiff else skeleton.width
                     rest = max(rest, skeleton.ahead(width, far))

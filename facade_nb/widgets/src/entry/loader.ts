@@ -15,12 +15,20 @@ const shared = globalThis as Shared;
 shared[bundles] ??= new Map();
 const loaded = shared[bundles];
 
-function load(source: string): Promise<Bundle> {
-  let bundle = loaded.get(source);
+/** The text of a file as Python packs it (widgets/shared/bundled.py): a third of it travels, and is saved. */
+function unpack(packed: string): Promise<string> {
+  const bytes = Uint8Array.from(atob(packed), (sign) => sign.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
+}
+
+function load(packed: string): Promise<Bundle> {
+  let bundle = loaded.get(packed);
   if (!bundle) {
-    const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
-    bundle = import(/* @vite-ignore */ url).finally(() => URL.revokeObjectURL(url)) as Promise<Bundle>;
-    loaded.set(source, bundle);
+    bundle = unpack(packed).then((source) => {
+      const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+      return import(/* @vite-ignore */ url).finally(() => URL.revokeObjectURL(url)) as Promise<Bundle>;
+    });
+    loaded.set(packed, bundle);
   }
   return bundle;
 }
@@ -65,7 +73,8 @@ export default {
       }
       await woken;
     }
+    const packed = code.get<string>("css");
     const bundle = await load(code.get<string>("module"));
-    return bundle.mount({ model, el, channel, css: code.get<string>("css") });
+    return bundle.mount({ model, el, channel, css: packed ? await unpack(packed) : "" });
   },
 };

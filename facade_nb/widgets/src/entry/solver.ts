@@ -11,6 +11,7 @@ import "../styles/network.css";
 import "../styles/page.css";
 import "../styles/player.css";
 import "../styles/qualifiers.css";
+import "../styles/runs.css";
 import "../styles/sizing.css";
 import "../styles/solver-views.css";
 import { absence } from "../shared/absence.ts";
@@ -20,6 +21,7 @@ import { keepKeys } from "../shared/keys.ts";
 import { adoptStyle, watchTheme } from "../shared/theme.ts";
 import type { Mount } from "../shared/types.ts";
 import { alone, apology } from "../solver/frame.ts";
+import { staleNotice } from "../solver/lessons.ts";
 import { page } from "../solver/page.ts";
 import { qualifiers } from "../solver/qualifiers.ts";
 import { Session } from "../solver/session.ts";
@@ -48,6 +50,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   const session = Session.of(channel);
   // All that is asked of a trace is answered here: a view goes on being read.
   const notice = absence(root, session.kernel, end.signal, { what: "solve", needs: "" });
+  const stale = staleNotice(session, end.signal);
   let shown: AbortController | null = null;
   const show = async () => {
     shown?.abort("ended");
@@ -57,9 +60,9 @@ export function mount({ el, model, channel, css }: Mount): () => void {
       const loaded = await session.load();
       const make = kind ? alone(kind, session, model, loaded, own.signal) : page(session, model, loaded, own.signal);
       const made = await make;
-      if (!own.signal.aborted) root.replaceChildren(notice.el, made);
+      if (!own.signal.aborted) root.replaceChildren(notice.el, stale, made);
     } catch (error) {
-      if (!own.signal.aborted) root.replaceChildren(notice.el, apology(error));
+      if (!own.signal.aborted) root.replaceChildren(notice.el, stale, apology(error));
     }
   };
   session.hold(() => void show(), end.signal);

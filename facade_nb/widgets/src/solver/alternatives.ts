@@ -138,6 +138,9 @@ export class Alternatives {
   }
 }
 
+/** What has been proven of a candidate: J is at least that, by its sizes or by what the search has gone through. */
+export const proven = ({ bound, floor }: Pick<CandidateNote, "bound" | "floor">): number => Math.max(bound, floor ?? 0);
+
 function alternative(note: CandidateNote, pieces: Pieces, timeline: Timeline): Alternative {
   const { axis, number } = note;
   const posed = pieces.words.events.find((own) => own.event === "AxisPosed" && own.axis === axis);
@@ -166,7 +169,7 @@ function alternative(note: CandidateNote, pieces: Pieces, timeline: Timeline): A
 export function fateOf(note: CandidateNote, best: CandidateNote | undefined): string {
   const metres = (value: number | null | undefined) => `${formatNumber(value ?? 0)} m`;
   const layout = best?.cost == null ? "" : ` against ${metres(best.cost)} of the layout`;
-  const least = Math.max(note.bound, note.floor ?? 0);
+  const least = proven(note);
   switch (note.fate) {
     case "best":
       return "It is the layout.";

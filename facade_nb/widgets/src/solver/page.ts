@@ -20,9 +20,9 @@ const SPEAKS: Record<string, string[]> = {
   merging: ["alignment", "words"],
 };
 /** Views that stand in the first column. */
-const BESIDE = ["facade", "player"];
+const BESIDE = ["code", "facade", "player"];
 /** The order of the buttons: that of the stages. */
-const ORDER = ["facade", "player", "analysis", "words", "candidates", "network", "alignment", "sizing"];
+const ORDER = ["code", "facade", "player", "analysis", "words", "candidates", "network", "alignment", "runs", "sizing"];
 
 export async function page(
   session: Session,

@@ -3,8 +3,9 @@
 import { h, mark, setText } from "../shared/dom.ts";
 import { type IconName, icon, setIcon } from "../shared/icons.ts";
 import type { Asking } from "./asking.ts";
+import { lessonChoice, lessonNote } from "./lessons.ts";
 import { fragmentOf } from "./moments.ts";
-import { type Player, SPEEDS } from "./player.ts";
+import { type Player, SPEEDS, UNITS, type Unit } from "./player.ts";
 import type { Session } from "./session.ts";
 import type { Stage } from "./timeline.ts";
 
@@ -77,6 +78,14 @@ export function playbar(session: Session, player: Player, asking: Asking, signal
   for (const each of SPEEDS) speed.append(h("option", { value: each }, `${each}/s`));
   speed.value = String(player.speed);
   speed.addEventListener("change", () => player.setSpeed(Number(speed.value)));
+  const unit = h("select", {
+    class: "fnb-select fnb-unit",
+    "aria-label": "What a step goes to",
+    title: "What a step goes to: the next event, node that is expanded, pass, or improvement",
+  });
+  for (const each of Object.keys(UNITS)) unit.append(h("option", { value: each }, `by ${each}`));
+  unit.value = player.unit;
+  unit.addEventListener("change", () => player.setUnit(unit.value as Unit));
   const link = control("Copy a link to this moment", "link", () => {
     const fragment = fragmentOf({ moment: timeline.momentOf(player.position), design: timeline.data.name });
     void navigator.clipboard?.writeText(location.href.replace(/#.*$/, "") + fragment);
@@ -112,7 +121,7 @@ export function playbar(session: Session, player: Player, asking: Asking, signal
   });
   track.append(past);
   const ticks = marks.map((one) => {
-    const tick = h("i", { class: "fnb-play-mark", "data-kind": one.kind, title: one.text });
+    const tick = h("i", { class: "fnb-play-mark" });
     tick.style.left = `${100 * scale.place(one.at)}%`;
     track.append(tick);
     return tick;
@@ -158,11 +167,14 @@ export function playbar(session: Session, player: Player, asking: Asking, signal
       play,
       forward,
       stageForward,
+      unit,
       speed,
     ),
     h("div", { class: "fnb-play-line" }, h("div", { class: "fnb-play-stages" }, ...tabs), track),
     caption,
     h("div", { class: "fnb-play-end" }, count, link),
+    lessonChoice(session, signal),
+    lessonNote(session),
   );
 
   const show = () => {
@@ -171,8 +183,25 @@ export function playbar(session: Session, player: Player, asking: Asking, signal
     setIcon(play, player.playing ? "pause" : "play");
     mark(play, "aria-label", player.playing ? "Pause" : "Play");
     mark(play, "title", player.playing ? "Pause" : "Play");
-    back.disabled = stageBack.disabled = position === 0;
-    forward.disabled = stageForward.disabled = player.atEnd;
+    back.disabled = !player.canStep(-1);
+    forward.disabled = !player.canStep(1);
+    stageBack.disabled = position === 0;
+    stageForward.disabled = player.atEnd;
+    for (const [button, way] of [
+      [back, "back"],
+      [forward, "forward"],
+    ] as const) {
+      const label = `Step ${way}${player.unit === "event" ? "" : ` to ${player.unit === "improvement" ? "an" : "a"} ${player.unit}`}`;
+      mark(button, "title", label);
+    }
+    if (unit.value !== player.unit) unit.value = player.unit;
+    // What a mark says, and how it ended, is told when it is played.
+    for (const [n, tick] of ticks.entries()) {
+      const one = marks[n];
+      const played = one && one.at <= position;
+      mark(tick, "title", played ? one.text : null);
+      mark(tick, "data-kind", played ? one.kind : null);
+    }
     const left = `${(100 * scale.place(position)).toFixed(3)}%`;
     cursor.style.left = left;
     past.style.width = left;

@@ -1,6 +1,10 @@
 // The position in a trace, and its clock. All views of one trace follow one player; they are functions of its position.
 
-import type { Timeline } from "./timeline.ts";
+import { played, type Timeline } from "./timeline.ts";
+
+/** What a step goes to: the next event, or the next one of a kind. */
+export const UNITS = { event: "event", node: "node", pass: "pass", improvement: "improvement" } as const;
+export type Unit = keyof typeof UNITS;
 
 export const SPEEDS = [1, 4, 16, 64, 256, 1024] as const;
 
@@ -11,6 +15,9 @@ export class Player {
   private from = 0;
   private readonly watchers = new Set<() => void>();
   speed: number = 16;
+  /** What a step goes to. */
+  unit: Unit = "event";
+  private readonly stops = new Map<Unit, ArrayLike<number>>();
 
   constructor(
     readonly timeline: Timeline,
@@ -39,9 +46,46 @@ export class Player {
     this.tell();
   }
 
+  /** Go so many steps on, of the unit that is chosen; where there is none that way, stay. */
   step(by: number): void {
     this.pause();
-    this.go(this.at + by);
+    if (this.unit === "event") {
+      this.go(this.at + by);
+      return;
+    }
+    const next = this.stopBeside(by);
+    if (next !== undefined) this.go(next);
+  }
+
+  /** Whether a step leads anywhere. */
+  canStep(by: 1 | -1): boolean {
+    if (this.unit === "event") return by > 0 ? !this.atEnd : this.at > 0;
+    return this.stopBeside(by) !== undefined;
+  }
+
+  setUnit(unit: Unit): void {
+    this.unit = unit;
+    this.tell();
+  }
+
+  private stopBeside(by: number): number | undefined {
+    const stops = this.stopsOf(this.unit);
+    const before = played(stops, this.at);
+    return by > 0 ? stops[before] : stops[before - (stops[before - 1] === this.at ? 2 : 1)];
+  }
+
+  private stopsOf(unit: Unit): ArrayLike<number> {
+    let found = this.stops.get(unit);
+    if (!found) {
+      const { kind, kinds, improved } = this.timeline.data;
+      const wanted = kinds.indexOf(unit === "node" ? "NodeTaken" : "LimitRaised");
+      found =
+        unit === "improvement"
+          ? improved
+          : Array.from(kind.keys()).filter((position) => kind[position] === wanted && wanted >= 0);
+      this.stops.set(unit, found);
+    }
+    return found;
   }
 
   /** Go to the first event of the next stage, or, back, of this one, or of the one before if it is there already. */

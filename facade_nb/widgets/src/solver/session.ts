@@ -31,6 +31,37 @@ export class Session extends Shared {
   /** The last position that came from Python or was told to it: -1 is the end. */
   private known = -1;
 
+  /** The lesson that is shown; empty: what the views were made of is. */
+  get lesson(): string {
+    return this.channel.get<string>("lesson") ?? "";
+  }
+
+  /** What to look at in it. */
+  get about(): string {
+    return this.channel.get<string>("about") ?? "";
+  }
+
+  /** Names and titles of all lessons. */
+  get lessons(): [name: string, title: string][] {
+    return this.channel.get<[string, string][]>("lessons") ?? [];
+  }
+
+  /** Why what is shown is not the present design; empty: it is. */
+  get stale(): string {
+    return this.channel.get<string>("stale") ?? "";
+  }
+
+  /** Have Python show a lesson, or, without a name, what the views were made of. */
+  learn(name: string): void {
+    this.save({ lesson: name }, "lesson");
+  }
+
+  /** Call back when the present design is not that of the trace any more, or is again. */
+  watchStale(callback: () => void, signal: AbortSignal): void {
+    this.channel.on("change:stale", callback);
+    signal.addEventListener("abort", () => this.channel.off("change:stale", callback));
+  }
+
   /** Timeline, player and links of the present trace. */
   load(): Promise<Loaded> {
     this.loading ??= this.make();

@@ -31,6 +31,8 @@ export interface TimelineData {
   kind: Uint8Array;
   stages: Stage[];
   marks: Mark[];
+  /** Where an alignment is found that is cheaper than all before it in its network. */
+  improved: Int32Array;
   patterns: PatternInfo[];
   /** A number for each symbol, by which every view colours it. */
   symbols: Record<string, number>;

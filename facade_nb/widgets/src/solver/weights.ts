@@ -42,6 +42,9 @@ export interface Weight {
   omega: number;
   cost: number;
   width: number;
+  /** What it adds to J beside ω: empty·E and loose·Λ of the column, metres. */
+  empty: number;
+  loose: number;
 }
 
 export interface Refusal {
@@ -219,9 +222,34 @@ export function weigh({ objective, share }: Group, column: readonly Option[]): W
   }
   if (low === Infinity) low = elastic || lowest === Infinity ? high : lowest;
   const omega = Math.max(0, high - low);
-  const cost =
-    omega + objective.empty * share * empties * high + objective.loose * share * (loose + softs * high - softSizes);
-  return { omega, cost, width: high };
+  const [E, L] = [share * empties * high, share * (loose + softs * high - softSizes)];
+  const parts = { empty: objective.empty * E, loose: objective.loose * L };
+  return { omega, cost: omega + parts.empty + parts.loose, width: high, ...parts };
+}
+
+/** J of an alignment, term by term: its columns, and what W misses the canvas by. */
+export interface Ledger {
+  columns: Weight[];
+  fit: number;
+  omega: number;
+  empty: number;
+  loose: number;
+  cost: number;
+}
+
+/** The ledger of J; the one place where its terms are added up. `width`: W, where the columns do not say it exactly. */
+export function ledgerOf(group: Group, columns: readonly Weight[], width?: number): Ledger {
+  const sum = (name: "omega" | "empty" | "loose" | "width" | "cost") =>
+    columns.reduce((all, column) => all + column[name], 0);
+  const fit = group.objective.fit * Math.abs((width ?? sum("width")) - group.canvas);
+  return {
+    columns: [...columns],
+    fit,
+    omega: sum("omega"),
+    empty: sum("empty"),
+    loose: sum("loose"),
+    cost: sum("cost") + fit,
+  };
 }
 
 /** The first constraint that a column breaks, of those that do not depend on what came before. */

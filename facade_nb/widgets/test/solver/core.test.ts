@@ -108,7 +108,12 @@ describe("the bar of the player", () => {
     const player = new Player(timeline, 0);
     const end = new AbortController();
     const asking = new Asking();
-    const session = { piece: (name: string) => unpack(pieceOf("apartment-house", name)) } as unknown as Session;
+    const session = {
+      piece: (name: string) => unpack(pieceOf("apartment-house", name)),
+      lessons: [],
+      lesson: "",
+      about: "",
+    } as unknown as Session;
     const bar = playbar(session, player, asking, end.signal);
     expect(bar.querySelectorAll(".fnb-play-stage")).toHaveLength(timeline.data.stages.length);
     expect(bar.querySelectorAll(".fnb-play-mark")).toHaveLength(timeline.data.marks.length);
@@ -132,6 +137,37 @@ describe("the bar of the player", () => {
     end.abort();
     player.go(0);
     expect(track?.getAttribute("aria-valuenow")).toBe(String(timeline.last));
+  });
+});
+
+describe("steps", () => {
+  it("go to events, nodes, passes and improvements, and nowhere where there is none", async () => {
+    const timeline = await timelineOf("lesson-deepening");
+    const player = new Player(timeline, 0);
+    const visited = (unit: "node" | "pass" | "improvement") => {
+      player.go(0);
+      player.setUnit(unit);
+      const kinds: string[] = [];
+      while (player.canStep(1)) {
+        player.step(1);
+        kinds.push(timeline.kindAt(player.position));
+      }
+      const last = player.position;
+      player.step(1);
+      expect(player.position).toBe(last);
+      const back: string[] = [];
+      while (player.canStep(-1)) {
+        player.step(-1);
+        back.push(timeline.kindAt(player.position));
+      }
+      expect(back).toEqual(kinds.slice(0, -1).reverse());
+      return kinds;
+    };
+    const count = (kind: string) =>
+      Array.from(timeline.data.kind).filter((own) => timeline.data.kinds[own] === kind).length;
+    expect(visited("node")).toEqual(Array(count("NodeTaken")).fill("NodeTaken"));
+    expect(visited("pass")).toEqual(Array(count("LimitRaised")).fill("LimitRaised"));
+    expect(visited("improvement")).toEqual(["WaysMet", "WaysMet", "WaysMet"]); // at 1.8 and 1.55 m; and upwards
   });
 });
 

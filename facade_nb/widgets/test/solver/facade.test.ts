@@ -46,12 +46,14 @@ describe("the façade", () => {
     expect(lit()).toHaveLength(0);
   });
 
-  it("without its preview nothing that is not built lights up", async () => {
+  it("tells nothing early: what is not built is seen, and lights up, only where a preview is asked for", async () => {
     one = await show(facade, "residential-house");
     one.go(0);
-    expect(lit(target.symbol("B"))).toHaveLength(5);
-    one.view.controls?.[0]?.click();
+    expect(one.view.el.hasAttribute("data-preview")).toBe(false);
     expect(lit(target.symbol("B"))).toHaveLength(0);
+    one.view.controls?.[0]?.click();
+    expect(one.view.el.hasAttribute("data-preview")).toBe(true);
+    expect(lit(target.symbol("B"))).toHaveLength(5);
   });
 
   it("of a design without a layout is its canvas, and the reason", async () => {

@@ -132,7 +132,7 @@ describe("the tolerance region (supplement, Figure 6)", () => {
 });
 
 describe("the network while it is searched", () => {
-  it("shows what has been taken up, weighed and refused by then, and the path only when it is chosen", async () => {
+  it("shows what has been expanded, weighed and refused by then, and the path only when it is chosen", async () => {
     const { story, timeline, subject } = await storyOf("residential-house");
     const own = subject("default");
     const choices = { pair: [0, 2] as [number, number], cuts: true, forbidden: true, picked: null };

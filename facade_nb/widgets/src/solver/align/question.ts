@@ -9,6 +9,8 @@ import {
   EPS,
   type Group,
   judge,
+  type Ledger,
+  ledgerOf,
   type Option,
   refusal,
   rowsNamed,
@@ -143,6 +145,11 @@ export function nextCases(path: PathNote, group: Group): Next[] {
 
 /** J of the solver's alignment, with the sizes of its pieces. */
 export function costOf(path: PathNote, group: Group): number {
+  return ledgerOfPath(path, group).cost;
+}
+
+/** J of an alignment that was made, term by term, at the sizes that its pieces have got. */
+export function ledgerOfPath(path: PathNote, group: Group): Ledger {
   const steps = walk(group, columnsOf(cutsOf(path))) ?? [];
   const columns = steps.map(({ options }, j) =>
     options.map((option, b) => ({
@@ -150,8 +157,11 @@ export function costOf(path: PathNote, group: Group): number {
       size: option.size ?? (path.columns[j]?.sizes[b] ?? []).reduce((sum, size) => sum + size, 0),
     })),
   );
-  const fit = group.objective.fit * Math.abs(path.width - path.canvas);
-  return columns.reduce((sum, column) => sum + weigh(group, column).cost, fit);
+  return ledgerOf(
+    group,
+    columns.map((column) => weigh(group, column)),
+    path.width,
+  );
 }
 
 /** Columns that may not stand here, or with which every alignment costs more: nearest to the right one first. */

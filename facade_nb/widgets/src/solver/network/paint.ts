@@ -6,7 +6,7 @@ import type { Arc, ArcKind, Scene } from "./scene.ts";
 import { restOf } from "./story.ts";
 
 export const ASPECT = 0.58; // rows are so much closer than columns
-export const MARGIN = { left: 46, top: 36, right: 30, bottom: 24 };
+export const MARGIN = { left: 46, top: 44, right: 44, bottom: 26 };
 const BOXES = 58; // pixels between columns from which nodes are boxes with words in them
 const DOTS = 11; // from which every node is drawn
 const STRIP = 30;
@@ -31,6 +31,8 @@ export interface Marks {
   lit: ReadonlySet<string>;
   picked: ReadonlySet<string>;
   hovered: Arc | null;
+  /** The node under the pointer. */
+  hovering: readonly number[] | null;
   /** Letters of the words that are lit: bands and numbers. */
   letters: ReadonlySet<string>;
   /** Choices of the question, by key: what stands beside them. */
@@ -44,16 +46,30 @@ export function pointOf(scene: Pick<Scene, "pair">, places: readonly number[]): 
 
 export function boundsOf(scene: Scene) {
   const [rows, cols] = scene.size;
-  const above = rows === 1 ? 0.15 * (cols - 1) + 0.2 : 0;
-  return { left: -0.4, right: cols - 0.6, top: -0.25 - above, bottom: (rows - 1) * ASPECT + 0.3 };
+  // Arcs along the first row bend above it, those along the last column beyond it, at the most by half of their bend.
+  const above = bendOf(scene, cols - 1, 0) / 2;
+  const beyond = rows > 1 ? bendOf(scene, 0, (rows - 1) * ASPECT) / 2 : 0;
+  return {
+    left: -0.4,
+    right: cols - 1 + Math.max(0.4, beyond + 0.1),
+    top: -Math.max(0.25, above + 0.08),
+    bottom: (rows - 1) * ASPECT + 0.3,
+  };
+}
+
+/** How far the point that bends an arc lies beside its chord: longer arcs bend more, but not as much as they are longer. */
+function bendOf(scene: Pick<Scene, "size">, dx: number, dy: number): number {
+  const length = Math.hypot(dx, dy);
+  const flat = dx === 0 || dy === 0;
+  const share = scene.size[0] === 1 ? 0.3 : flat ? 0.16 : 0.09;
+  return share * (length <= 2 ? length : Math.sqrt(2 * length));
 }
 
 /** The curve of an arc: its ends and the point that bends it. */
 export function curveOf(scene: Scene, arc: Arc): [Point, Point, Point] {
   const [from, to] = [pointOf(scene, arc.from), pointOf(scene, arc.to)];
   const [dx, dy] = [to.x - from.x, to.y - from.y];
-  const flat = dx === 0 || dy === 0;
-  const bend = scene.size[0] === 1 ? 0.3 : flat ? 0.16 : 0.09;
+  const bend = bendOf(scene, dx, dy) / (Math.hypot(dx, dy) || 1);
   return [from, { x: (from.x + to.x) / 2 + dy * bend, y: (from.y + to.y) / 2 - dx * bend }, to];
 }
 
@@ -69,13 +85,14 @@ export function paint(
   new Painter(context, scene, camera, width, height, look, marks).run();
 }
 
-const KINDS: Record<ArcKind, { alpha: number; width: number; dash: number[] }> = {
-  forbidden: { alpha: 0.3, width: 0.9, dash: [2, 3] },
-  refused: { alpha: 0.45, width: 0.9, dash: [2, 3] },
-  permitted: { alpha: 0.5, width: 1.1, dash: [] },
-  weighed: { alpha: 0.95, width: 1.5, dash: [] },
-  choice: { alpha: 1, width: 2.2, dash: [] },
-  path: { alpha: 1, width: 3.2, dash: [] },
+/** How arcs are drawn; faint: while another node's edges are looked at. */
+const KINDS: Record<ArcKind, { alpha: number; faint: number; width: number; dash: number[] }> = {
+  forbidden: { alpha: 0.3, faint: 0.08, width: 0.9, dash: [2, 3] },
+  refused: { alpha: 0.45, faint: 0.1, width: 0.9, dash: [2, 3] },
+  permitted: { alpha: 0.32, faint: 0.13, width: 1.1, dash: [] },
+  weighed: { alpha: 0.95, faint: 0.4, width: 1.5, dash: [] },
+  choice: { alpha: 1, faint: 1, width: 2.2, dash: [] },
+  path: { alpha: 1, faint: 1, width: 3.2, dash: [] },
 };
 
 class Painter {
@@ -158,17 +175,36 @@ class Painter {
   }
 
   private arcs(kind: ArcKind): void {
-    const { c, scene, look } = this;
+    const { c, look } = this;
     const style = KINDS[kind];
     c.strokeStyle = kind === "path" ? look.path : kind === "refused" || kind === "forbidden" ? look.error : look.arc;
-    const focused = scene.focus !== null && kind === "permitted";
-    c.globalAlpha = focused ? 0.85 : style.alpha;
     c.lineWidth = this.cell < DOTS && kind !== "path" ? 0.7 : style.width;
     c.setLineDash(this.cell < DOTS ? [] : style.dash);
+    if (kind === "path" || kind === "choice") {
+      this.strokes((arc) => arc.kind === kind, kind, style.alpha);
+      return;
+    }
+    // Of the node that is looked at, or pointed at, all edges are plain to see; the others are faint.
+    const near = this.near();
+    const ours = (arc: Arc) => near !== null && this.shown(arc.from) === near;
+    this.strokes((arc) => arc.kind === kind && !ours(arc), kind, near === null ? style.alpha : style.faint);
+    this.strokes((arc) => arc.kind === kind && ours(arc), kind, Math.min(1, 1.7 * style.alpha));
+  }
+
+  /** The node whose edges are looked at: the one under the pointer, else the one that is picked or expanded. */
+  private near(): string | null {
+    const { hovering } = this.marks;
+    const own = hovering ?? this.scene.focus;
+    return own && this.shown(own);
+  }
+
+  private strokes(chosen: (arc: Arc) => boolean, kind: ArcKind, alpha: number): void {
+    const { c, scene } = this;
+    c.globalAlpha = alpha;
     c.beginPath();
     const heads: [Point, Point, boolean][] = [];
     for (const arc of scene.arcs) {
-      if (arc.kind !== kind) continue;
+      if (!chosen(arc)) continue;
       const [from, bend, to] = curveOf(scene, arc).map((point) => this.screen(point)) as [Point, Point, Point];
       if (Math.max(from.x, to.x, bend.x) < 0 || Math.min(from.x, to.x, bend.x) > this.width) continue;
       if (Math.max(from.y, to.y, bend.y) < 0 || Math.min(from.y, to.y, bend.y) > this.height) continue;
@@ -345,6 +381,7 @@ class Painter {
     c.stroke();
     if (boxed) this.label(places, x, y, w, ahead === true);
     c.globalAlpha = 1;
+    if (this.cell >= BOXES) this.numbers(places, x, y + (boxed ? h / 2 : 4));
   }
 
   /** Whether a node can be come to from the one that is looked at; null: none is. */
@@ -352,6 +389,25 @@ class Painter {
     const { focus, pair } = this.scene;
     if (!focus) return null;
     return pair.every((band) => band < 0 || (places[band] ?? 0) >= (focus[band] ?? 0));
+  }
+
+  /** g + h of a node, under it. */
+  private numbers(places: readonly number[], x: number, bottom: number): void {
+    const { c, scene, look } = this;
+    const own = scene.nodes.get(this.shown(places))?.numbers;
+    if (!own || own.f === null) return;
+    const short = (value: number) => String(Number(value.toFixed(2)));
+    const text = `${short(own.g)}+${short(Math.max(0, own.f - own.g))}`;
+    c.font = `${own.standing === "expanded" ? "600 " : ""}9.5px ${look.mono}`;
+    c.textAlign = "center";
+    c.textBaseline = "top";
+    const wide = c.measureText(text).width + 4;
+    c.globalAlpha = 0.85;
+    c.fillStyle = look.paper;
+    c.fillRect(x - wide / 2, bottom + 1, wide, 11);
+    c.globalAlpha = 1;
+    c.fillStyle = own.standing === "expanded" ? look.arc : look.muted;
+    c.fillText(text, x, bottom + 2);
   }
 
   private label(places: readonly number[], x: number, y: number, w: number, ahead: boolean): void {
@@ -426,19 +482,32 @@ class Painter {
   private weights(): void {
     const { c, scene, look, marks } = this;
     if (this.cell < 38) return;
-    const few = scene.arcs.length <= 24 && !marks.choices.size && this.cell >= 80 && !scene.delta;
+    const near = this.near();
+    const own = (arc: Arc) => near !== null && this.shown(arc.from) === near;
+    const few =
+      scene.arcs.filter((arc) => arc.kind !== "forbidden" && (near === null || own(arc))).length <= 24 &&
+      !marks.choices.size &&
+      this.cell >= 80 &&
+      !scene.delta;
     c.font = `600 11px ${look.mono}`;
     c.textAlign = "center";
     c.textBaseline = "middle";
     for (const arc of scene.arcs) {
       const beside = arc.kind === "choice" ? marks.choices.get(`${arc.key}>${arc.to.join()}`) : undefined;
-      const shown = arc.kind === "path" || beside !== undefined || (few && arc.kind !== "forbidden");
+      const shown =
+        arc.kind === "path" || beside !== undefined || (few && arc.kind !== "forbidden" && (near === null || own(arc)));
       if (!shown || (arc.omega === null && beside === undefined)) continue;
       const [from, bend, to] = curveOf(scene, arc);
       const middle = { x: (from.x + 2 * bend.x + to.x) / 4, y: (from.y + 2 * bend.y + to.y) / 4 };
-      const { x, y } = this.screen(middle);
+      const at = this.screen(middle);
       const text = beside ?? String(Number((arc.omega ?? 0).toFixed(2)));
       const wide = 6.8 * text.length + 8;
+      // A label is not cut off by the edge of the canvas, nor by the words along it.
+      const inside = (value: number, low: number, high: number) => Math.max(low, Math.min(high, value));
+      const outside = at.x < 0 || at.y < 0 || at.x > this.width || at.y > this.height;
+      if (outside) continue;
+      const x = inside(at.x, STRIP + 6 + wide / 2, this.width - wide / 2 - 2);
+      const y = inside(at.y, STRIP + 9, this.height - 10);
       c.fillStyle = look.paper;
       c.beginPath();
       c.roundRect(x - wide / 2, y - 8, wide, 16, 8);
@@ -488,7 +557,15 @@ class Painter {
     c.textAlign = "center";
     c.textBaseline = "middle";
     c.fillStyle = letter.transparent ? look.ink : look.onHue;
-    c.fillText(letter.symbol.slice(0, 2) + (letter.mirrored ? "′" : ""), x, y + 0.5);
+    const name = letter.symbol.slice(0, 2);
+    if (letter.mirrored) {
+      c.save();
+      c.translate(x, y + 0.5);
+      c.scale(-1, 1);
+      c.font = `italic 600 11px ${look.mono}`;
+      c.fillText(`′${name}`, 0, 0); // the prime stands behind it once it is turned
+      c.restore();
+    } else c.fillText(name, x, y + 0.5);
     c.fillStyle = look.paper;
   }
 }

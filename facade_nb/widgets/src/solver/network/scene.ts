@@ -5,6 +5,7 @@ import { type Lattice, latticeOf, type Region, traceRegion } from "../lattice.ts
 import type { LetterNote } from "../letters.ts";
 import { target } from "../links.ts";
 import { Group, type Objective } from "../weights.ts";
+import { type Numbers, nodesAt } from "./numbers.ts";
 import { type RegionNote, type Story, type Subject, sizeOf, type Told } from "./story.ts";
 
 const NODES = 2_000; // up to so many nodes,
@@ -35,6 +36,8 @@ export interface SceneNode {
   /** How often the search has taken it up, or nodes that look like it. */
   taken: number;
   onPath: boolean;
+  /** g and f, where the search has told them. */
+  numbers?: Numbers | undefined;
 }
 
 export interface Delta {
@@ -62,6 +65,8 @@ export interface Scene {
   /** Nodes of the whole letters: the lattice's rows × columns. */
   size: [number, number];
   exact: boolean;
+  /** Whether transparent letters may be cut. */
+  cutting: boolean;
   leftOut: number;
   alive: Set<string>;
   cut: number[][];
@@ -209,14 +214,21 @@ export function sceneOf(
   const shown = (places: readonly number[]) => [places[a] ?? 0, places[b] ?? 0].join();
   const chosen = !!subject.path && subject.path.at <= position && !quiet;
   const nodes = new Map<string, SceneNode>();
+  const numbers = nodesAt(story, subject, told, shown);
   const node = (places: number[]): SceneNode => {
     const key = shown(places);
     let own = nodes.get(key);
     if (!own) {
-      own = { places, taken: 0, onPath: false };
+      own = { places, taken: 0, onPath: false, numbers: numbers.get(key) };
       nodes.set(key, own);
     }
     return own;
+  };
+  const waiting = (step: number) => {
+    const after = story.afterOf(step);
+    if (after.includes(null)) return;
+    const own = numbers.get(shown(after as number[]));
+    if (own?.standing === "waiting" && !nodes.has(shown(after as number[]))) node(after as number[]);
   };
   const taken = new Map<number, { step: number; times: number }>();
   for (const step of told.taken) {
@@ -227,6 +239,7 @@ export function sceneOf(
     else taken.set(at, { step, times: 1 });
   }
   for (const { step, times } of taken.values()) node(story.placesOf(step)).taken += times;
+  if (!quiet) for (const step of told.weighed) waiting(step);
   const path = chosen ? (choices.cuts ? pathArcs(subject) : base.shortest) : [];
   for (const arc of path) for (const places of [arc.from, arc.to]) node(places).onPath = true;
 
@@ -248,6 +261,7 @@ export function sceneOf(
     delta: focus && a >= 0 ? deltaOf(story, subject, focus, choices.pair, position) : null,
     size: [a < 0 ? 1 : down.length + 1, right.length + 1],
     exact: base.lattice !== null,
+    cutting: choices.cuts,
     leftOut: base.lattice?.leftOut ?? 0,
     alive: base.alive,
     cut: base.cut,
@@ -263,17 +277,18 @@ function arcsOf(
   at: { chosen: boolean; focus: number[] | null; shown: (places: readonly number[]) => string },
 ): Arc[] {
   const arcs: Arc[] = [];
-  const drawn = new Set<string>();
   const small = base.arcs.length <= SMALL;
   const focused = at.focus && at.shown(at.focus);
+  const own = focused === null ? [] : base.arcs.filter((arc) => at.shown(arc.from) === focused);
+  for (const arc of own) if (arcs.length < ARCS && (arc.kind !== "forbidden" || choices.forbidden)) arcs.push(arc);
+  // The others are drawn faintly: what is permitted, in a small network also what is forbidden, if no node is looked at.
+  let others = 0;
   for (const arc of base.arcs) {
-    // Looking at a node: what leaves it. Else what is permitted; in a small network also what is forbidden.
-    if (focused !== null ? at.shown(arc.from) !== focused : arc.kind === "forbidden" && !small) continue;
-    if (arc.kind === "forbidden" && !choices.forbidden) continue;
-    if (focused === null && !small && arc.text) continue; // it leads nowhere
-    if (arcs.length >= (focused === null && !small ? LIGHT : ARCS)) break;
+    if (focused !== null && at.shown(arc.from) === focused) continue;
+    if (arc.kind === "forbidden" && !(small && focused === null && choices.forbidden)) continue;
+    if (!small && arc.text) continue; // it leads nowhere
+    if (others++ >= (small ? ARCS : LIGHT)) break;
     arcs.push(arc);
-    drawn.add(arc.key);
   }
   const exact = base.lattice !== null;
   const seen = new Set<number>();

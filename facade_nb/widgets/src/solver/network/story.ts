@@ -47,8 +47,12 @@ export interface Steps {
   omega: Float64Array;
   cost: Float64Array;
   bound: Float64Array;
+  /** What a pruned edge was held against. */
+  against: Float64Array;
   path: Int32Array;
   parent: Int32Array;
+  /** The path that makes a dropped one needless. */
+  rival: Int32Array;
   offset: Int32Array;
   places: Int16Array;
   after: Int16Array;
@@ -91,9 +95,19 @@ export interface PricedNote {
   unsized: Record<string, number> | null;
 }
 
+/** A pass begins: nothing dearer than `limit` is followed, and `bound` has been proven. */
+export interface LimitNote {
+  at: number;
+  axis: Axis;
+  network: number;
+  limit: number | null;
+  bound: number | null;
+}
+
 export interface NetworkData {
   networks: NetworkNote[];
   priced: PricedNote[];
+  limits: LimitNote[];
   steps: Steps;
   regions: RegionNote[];
   merged: MergerNote[];
@@ -103,6 +117,9 @@ export interface NetworkData {
 export const TAKEN = 0;
 export const WEIGHED = 1;
 export const REFUSED = 2;
+export const MET = 3;
+/** Reasons for which a permitted edge is not followed (solver/events/networks.py). */
+export const PRUNED: readonly string[] = ["bound", "known", "best", "length"];
 
 /** The network of one group. */
 export interface Subject {

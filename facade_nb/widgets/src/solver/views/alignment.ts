@@ -3,11 +3,12 @@
 
 import { focused, h, mark } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
+import { ledgerTable } from "../align/ledger.ts";
 import { asSolved, atPreferred, type Cuts, columnsOf, cutsOf, type Drawn, sizeIn } from "../align/matrix.ts";
 import {
   CONSTRAINTS,
-  costOf,
   elementText,
+  ledgerOfPath,
   type Moved,
   movedCases,
   movedTruths,
@@ -24,7 +25,7 @@ import { Placing, type PlacingData } from "../placing.ts";
 import { offers, type Question, Quiz } from "../quiz.ts";
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
-import { Group, judge, type Objective, rowsNamed, type Verdict } from "../weights.ts";
+import { Group, judge, ledgerOf, type Objective, rowsNamed, type Verdict } from "../weights.ts";
 
 interface AlignmentData {
   paths: PathNote[];
@@ -336,10 +337,9 @@ class AlignmentView implements View {
     if (!verdicts) return h("p", { class: "fnb-align-sums" }, "These columns do not hold every word.");
     const omega = tried ? verdicts.reduce((sum, each) => sum + each.omega, 0) : path.error;
     const width = tried || this.unaligned.has(path) ? drawn.width : path.width;
-    const fit = this.group(path).objective.fit;
-    const whole = costOf(path, this.group(path));
-    const cost = (list: readonly Verdict[], w: number) =>
-      list.reduce((sum, each) => sum + each.cost, 0) + fit * Math.abs(w - path.canvas);
+    const own = ledgerOfPath(path, this.group(path));
+    const whole = own.cost;
+    const ledger = tried ? ledgerOf(this.group(path), verdicts, width) : own;
     const wide = Math.abs(width - path.canvas) > path.tolerance + 1e-9;
     const broken = verdicts.flatMap((each, j) => each.refusals.map((refusal) => ({ j, refusal })));
     const figure = (name: string, value: number, other: number, title: string) =>
@@ -356,7 +356,7 @@ class AlignmentView implements View {
       figure("W =", width, path.width, "Sum of the columns' widths"),
       h("span", { class: "fnb-muted" }, `canvas ${formatNumber(path.canvas)} ± μ ${formatNumber(path.tolerance)} m`),
       tried
-        ? figure("J ≥", cost(verdicts, width), whole, "The objective, as far as columns show it")
+        ? figure("J ≥", ledger.cost, whole, "The objective, as far as columns show it")
         : this.unaligned.has(path)
           ? null
           : figure(
@@ -365,6 +365,7 @@ class AlignmentView implements View {
               whole,
               "The objective: errors, empty elements, letters that share an element, and |W − canvas|",
             ),
+      !tried && this.unaligned.has(path) ? null : ledgerTable(ledger, this.group(path).objective, tried),
       h(
         "ul",
         { class: "fnb-align-broken" },

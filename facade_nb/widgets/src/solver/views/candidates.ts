@@ -3,7 +3,7 @@
 
 import { focused, h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
-import type { CandidateNote as Candidate } from "../alternatives.ts";
+import { type CandidateNote as Candidate, proven } from "../alternatives.ts";
 import { AxisChoice } from "../axes.ts";
 import { filter } from "../filter.ts";
 import { parsed, spelled } from "../letters.ts";
@@ -80,9 +80,10 @@ const METRICS: Column[] = [
   {
     name: "bound",
     label: "J ≥",
-    title: "What it costs at least, by its sizes alone, metres",
+    title:
+      "What has been proven of it, metres: J is at least that, by its sizes or by what the search has gone through",
     width: "44px",
-    value: (own) => own.bound,
+    value: (own) => proven(own),
     tells: true,
   },
   {
@@ -193,7 +194,7 @@ class CandidatesView implements View {
     const now = !this.quiz.hides && seen.at(-1)?.at === position ? position : -1;
     if (axis !== this.axis) {
       this.axis = axis;
-      this.scale = Math.max(1e-9, ...own.map((each) => Math.max(each.cost ?? 0, each.bound)).filter((n) => n < 1e6));
+      this.scale = Math.max(1e-9, ...own.map((each) => Math.max(each.cost ?? 0, proven(each))).filter((n) => n < 1e6));
       this.columns = this.columnsOf(own);
       this.headed = this.by = "";
     }
@@ -394,8 +395,8 @@ class CandidatesView implements View {
     const least = h("i", { class: "fnb-bar-least" });
     least.style.width = hides ? "0" : place(own.bound);
     const cell = h("span", { role: "cell", class: "fnb-bar", "aria-hidden": "true" }, least);
-    const cost = own.cost ?? own.floor;
-    if (!hides && cost !== null) {
+    const cost = own.cost ?? proven(own);
+    if (!hides && (own.cost !== null || cost > own.bound)) {
       const whole = h("i", { class: own.cost === null ? "fnb-bar-floor" : "fnb-bar-cost" });
       whole.style.left = place(cost);
       cell.append(whole);
@@ -423,8 +424,8 @@ const SHORT: Record<string, string> = {
 /** What the bars and the fates mean, as far as there are such; the tolerance, where it has no column. */
 function barLegend(own: readonly Candidate[]): Node[] {
   const kinds: [boolean, string, string][] = [
-    [true, "fnb-bar-least", "J ≥ what its sizes alone cost"],
-    [own.some((each) => each.cost === null && each.floor !== null), "fnb-bar-floor", "J ≥ what the search has proven"],
+    [true, "fnb-bar-least", "what its sizes alone cost"],
+    [own.some((each) => each.cost === null && proven(each) > each.bound), "fnb-bar-floor", "J ≥, proven by the search"],
     [own.some((each) => each.cost !== null), "fnb-bar-cost", "J"],
   ];
   const bars = kinds
@@ -452,13 +453,13 @@ function byCounters(a: Candidate, b: Candidate): number {
 function because(own: Candidate, best: Candidate | undefined): string {
   const why = FATES[own.fate] ?? own.fate;
   if (own === best || !best || best.cost === null) return why;
-  const known = own.cost ?? own.floor ?? own.bound;
+  const known = own.cost ?? proven(own);
   const least = own.cost === null ? "at least " : "";
   return `${why} ${least}${formatNumber(known)} m against ${formatNumber(best.cost)} m.`;
 }
 
 function filterable(own: Candidate) {
-  const { bound, tolerance, number, omega, columns, deviation } = own;
+  const { tolerance, number, omega, columns, deviation } = own;
   return {
     numbers: {
       ...own.counters,
@@ -467,7 +468,7 @@ function filterable(own: Candidate) {
       Ω: omega,
       columns,
       deviation,
-      bound,
+      bound: proven(own),
       tolerance,
       μ: tolerance,
       number,

@@ -66,7 +66,7 @@ class FacadeView implements View {
   private readonly marks = svg("g");
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
   readonly controls: HTMLElement[];
-  private preview = true;
+  private preview = false;
   /** Where letters and boundaries are placed. */
   private readonly placed: number[];
   private by = "";
@@ -80,12 +80,12 @@ class FacadeView implements View {
     this.placing = new Placing(context.pieces.placing as PlacingData, context.timeline.data.chosen);
     const events = (context.pieces.sizing as { events: SizingEvent[] } | undefined)?.events ?? [];
     this.systems = systemsOf(events, (context.pieces.alignment as { paths: PathNote[] } | undefined)?.paths ?? []);
-    this.el = h("div", { class: "fnb-traced", "data-preview": true }, this.sheet, this.legend, this.note);
+    this.el = h("div", { class: "fnb-traced", "data-preview": false }, this.sheet, this.legend, this.note);
     const { letters, boundaries } = this.placing;
     this.placed = [...letters, ...boundaries].map((own) => own.at).sort((a, b) => a - b);
     const toggle = h(
       "button",
-      { type: "button", class: "fnb-button fnb-wide", "aria-pressed": "true", title: "Show faintly what it becomes" },
+      { type: "button", class: "fnb-button fnb-wide", "aria-pressed": "false", title: "Show faintly what it becomes" },
       icon("eye"),
       h("span", {}, "Preview"),
     );

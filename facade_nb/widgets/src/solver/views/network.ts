@@ -5,14 +5,17 @@
 import { h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
 import { watchDress } from "../../shared/theme.ts";
+import { ledgerOfPath } from "../align/question.ts";
 import type { Alternative } from "../alternatives.ts";
 import { target } from "../links.ts";
-import { columnText, LeavingList, litLetters } from "../network/lists.ts";
+import { columnText, LeavingList, litLetters, MEANINGS } from "../network/lists.ts";
+import { edgesAt, gone, sum } from "../network/numbers.ts";
 import { ASPECT, boundsOf, curveOf, type Look, MARGIN, paint, pointOf } from "../network/paint.ts";
 import { Plane, type Point } from "../network/plane.ts";
 import { type Choice, choicesOf, keyOf, nameOf, question } from "../network/question.ts";
-import { type Arc, type Base, baseOf, leaving, nodeKey, type Scene, sceneOf } from "../network/scene.ts";
-import { type NetworkData, Story, type Subject, sizeOf, TAKEN, type Told } from "../network/story.ts";
+import { type Arc, type Base, baseOf, edgeKey, leaving, nodeKey, type Scene, sceneOf } from "../network/scene.ts";
+import { type NetworkData, PRUNED, restOf, Story, type Subject, sizeOf, TAKEN, type Told } from "../network/story.ts";
+import { Strip } from "../network/strip.ts";
 import { warp } from "../network/warp.ts";
 import { Quiz, type Truth } from "../quiz.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -50,6 +53,8 @@ class NetworkView implements View {
   private scene: Scene | null = null;
   private told: Told | null = null;
   private hovered: Arc | null = null;
+  private hovering: number[] | null = null;
+  private readonly strip: Strip;
   private looked: Look | null = null;
   private by = "";
   private belowBy = "";
@@ -63,6 +68,7 @@ class NetworkView implements View {
 
   constructor(private readonly context: ViewContext) {
     this.story = new Story(context.pieces.network as NetworkData, context.timeline);
+    this.strip = new Strip(this.story, context.player);
     const check = (label: string, title: string, on: boolean) => {
       const input = h("input", { type: "checkbox" });
       input.checked = on;
@@ -105,6 +111,7 @@ class NetworkView implements View {
             lit,
             picked,
             hovered: this.hovered,
+            hovering: this.hovering,
             letters: litLetters(this.scene.subject, new Set([...lit, ...picked])),
             choices: this.quiz.on ? this.marks() : new Map(),
           });
@@ -118,7 +125,7 @@ class NetworkView implements View {
     this.body = h(
       "div",
       { class: "fnb-net-body" },
-      h("div", { class: "fnb-net-main" }, this.plane.el, this.legend, this.status),
+      h("div", { class: "fnb-net-main" }, this.plane.el, this.strip.el, this.legend, meanings(), this.status),
       this.beside,
     );
     this.el = h("div", { class: "fnb-network" }, this.said, this.note);
@@ -162,6 +169,9 @@ class NetworkView implements View {
     const fresh = this.scene?.subject !== subject || this.scene.pair.join() !== pair.join();
     this.scene = scene;
     this.hovered = null;
+    this.hovering = null;
+    if (this.quiz.on) this.strip.hide();
+    else this.strip.show(subject, position);
     const by = [
       subject.key,
       pair.join(),
@@ -239,9 +249,13 @@ class NetworkView implements View {
         : `${cols} nodes`;
     const cut = scene.cut.length ? ` and ${scene.cut.length} within cut letters` : "";
     const told = this.told as Told;
-    const found = steps.length ? ` The path has ${steps.length} columns, Ω = ${formatNumber(omega, 3)} m.` : "";
+    // Where letters are not cut it is another path than the layout's, of which the objective is not told.
+    const ledger = scene.cutting && subject.path ? ledgerOfPath(subject.path, base.group) : null;
+    const found = steps.length
+      ? ` The path has ${steps.length} columns, Ω = ${formatNumber(omega, 3)} m${ledger ? `, J = ${formatNumber(ledger.cost)} m` : ""}.`
+      : "";
     const search = subject.at.length
-      ? ` ${told.taken.length} taken up, ${told.weighed.length} edges weighed, ${told.refused.length} refused.`
+      ? ` ${told.taken.length} expanded, ${told.weighed.length} edges weighed, ${this.counts(subject, told, position)}.`
       : "";
     setText(
       this.status,
@@ -264,7 +278,7 @@ class NetworkView implements View {
         ? ([["region", "|δ| ≤ μ, traced along its border; numbers: δ from ✕"]] as [string, string][])
         : []),
       ...(scene.arcs.some((arc) => arc.constraint) ? ([["forbidden", "forbidden"]] as [string, string][]) : []),
-      ...(told.taken.length ? ([["taken", "taken up"]] as [string, string][]) : []),
+      ...(told.taken.length ? ([["taken", "expanded"]] as [string, string][]) : []),
     ];
     const legendBy = legend.join("|");
     if (legendBy !== this.legendBy) {
@@ -280,8 +294,18 @@ class NetworkView implements View {
       const focus = scene.focus ?? subject.bands.map(() => 0);
       const arcs = leaving(this.story, subject, base, told, focus);
       const onPath = new Set(steps.map((arc) => arc.key));
-      const marked = arcs.map((arc) => (onPath.has(arc.key) ? { ...arc, kind: "path" as const } : arc));
-      this.leaving.show(subject, focus, marked);
+      const nameOf = (column: (number[] | null)[], to: readonly (number | null)[]) =>
+        `${edgeKey(subject, focus, column)}>${to.map((place, b) => place ?? focus[b] ?? 0).join()}`;
+      const numbers = edgesAt(this.story, subject, told, focus, position, nameOf);
+      const marked = arcs.map((own) => {
+        const arc = onPath.has(own.key) ? { ...own, kind: "path" as const } : own;
+        const found = numbers.get(nameOf(own.column, own.to)) ?? null;
+        const forbidden = !!own.constraint && !PRUNED.includes(own.constraint);
+        const standing = forbidden ? "forbidden" : (found?.standing ?? (own.constraint ? "pruned" : "permitted"));
+        return { arc, numbers: forbidden ? null : found, standing } as const;
+      });
+      const at = scene.nodes.get([focus[scene.pair[0]] ?? 0, focus[scene.pair[1]] ?? 0].join())?.numbers ?? null;
+      this.leaving.show(subject, focus, marked, at);
       if (this.leaving.el.parentNode !== this.beside) this.beside.replaceChildren(this.leaving.el);
     }
     const chosen = subject.path && subject.path.at <= position && !this.quiz.hides;
@@ -300,6 +324,16 @@ class NetworkView implements View {
           ]
         : []),
     );
+  }
+
+  /** How many edges were pruned and forbidden, as far as that is told. */
+  private counts(subject: Subject, told: Told, position: number): string {
+    const { story } = this;
+    let pruned = 0;
+    for (const step of told.refused) if (PRUNED.includes(story.reasonOf(step))) pruned++;
+    const forbidden = told.refused.length - pruned;
+    for (const step of told.weighed) if (gone(story, subject, step, position)) pruned++;
+    return `${pruned} pruned, ${forbidden} forbidden`;
   }
 
   /** Which word is read downwards, and which to the right. */
@@ -399,15 +433,16 @@ class NetworkView implements View {
     const { links } = this.context;
     const scene = this.scene;
     if (!scene || !at) {
-      if (this.hovered) this.plane.invalidate();
-      this.hovered = null;
+      if (this.hovered || this.hovering) this.plane.invalidate();
+      this.hovered = this.hovering = null;
       links.hover([]);
       return;
     }
     const node = this.nodeAt(at);
     const arc = node ? null : this.arcAt(at);
     this.hovered = arc;
-    mark(this.plane.canvas, "title", arc ? this.sentence(arc) : null);
+    this.hovering = node;
+    mark(this.plane.canvas, "title", arc ? this.sentence(arc) : node ? this.nodeSentence(node) : null);
     if (node) links.hover([nodeKey(scene.subject, node)]);
     else if (arc) {
       const path = scene.subject.path;
@@ -500,6 +535,14 @@ class NetworkView implements View {
     return found;
   }
 
+  private nodeSentence(places: readonly number[]): string {
+    const scene = this.scene as Scene;
+    const rests = scene.subject.bands.map((band, b) => restOf(band, places[b] ?? 0)).join(" / ");
+    const own = scene.nodes.get([places[scene.pair[0]] ?? 0, places[scene.pair[1]] ?? 0].join());
+    const numbers = own?.numbers ? `: g + h = f, ${sum(own.numbers)} m, ${own.numbers.standing}` : "";
+    return `${rests}${numbers}${own && own.taken > 1 ? ` (${own.taken} times)` : ""}`;
+  }
+
   private sentence(arc: Arc): string {
     const subject = (this.scene as Scene).subject;
     const names = columnText(subject, arc.column, arc.to).textContent ?? "";
@@ -529,6 +572,21 @@ class NetworkView implements View {
     };
     return this.looked;
   }
+}
+
+/** What the words mean, where they are first used. */
+function meanings(): HTMLElement {
+  const words = Object.entries(MEANINGS).flatMap(([word, meaning]) => [h("dt", {}, word), h("dd", {}, meaning)]);
+  const numbers = [
+    h("dt", {}, "g + h = f"),
+    h("dd", {}, "J of what is laid; what is still to come at least; what an alignment that goes on so costs at least"),
+  ];
+  return h(
+    "details",
+    { class: "fnb-net-meanings" },
+    h("summary", {}, "What permitted, waiting, expanded, pruned, forbidden and g + h = f mean"),
+    h("dl", {}, ...words, ...numbers),
+  );
 }
 
 const labelOf = (subject: Subject): string =>

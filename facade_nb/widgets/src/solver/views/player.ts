@@ -2,17 +2,12 @@
 
 import { h, mark, setText } from "../../shared/dom.ts";
 import { icon } from "../../shared/icons.ts";
+import { type CodeData, CodePanel } from "../codepanel.ts";
 import { type Rows, rows } from "../rows.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
 
 interface Captions {
   text: string[];
-}
-
-interface CodeData {
-  stages: Record<string, string>;
-  kinds: Record<string, string>;
-  functions: Record<string, { file: string; line: number; tokens: [string, string][] }>;
 }
 
 const HEIGHT = 22;
@@ -31,11 +26,8 @@ class PlayerView implements View {
   private readonly list: Rows<number>;
   private readonly positions: number[];
   private readonly kept = h("p", { class: "fnb-events-kept", role: "status", hidden: true });
-  private readonly code = h("div", { class: "fnb-code-panel", hidden: true });
-  private readonly title = h("p", { class: "fnb-code-title" });
-  private readonly text = h("pre", { class: "fnb-code-text", tabindex: 0, "aria-label": "Code of what is played" });
-  private data: CodeData | null = null;
-  private shown = "";
+  private readonly panel = new CodePanel();
+  private readonly code = this.panel.el;
   private now = -1;
   /** How many events are listed: while a view asks, not those that give its answer away. */
   private told = -1;
@@ -52,7 +44,7 @@ class PlayerView implements View {
       },
       context.signal,
     );
-    this.code.append(this.title, this.text);
+    this.code.hidden = true;
     const log = h("div", { class: "fnb-events", role: "table", "aria-label": "Events" }, this.kept, this.list.el);
     this.el = h("div", { class: "fnb-player" }, log, this.code);
     const toggle = h(
@@ -88,43 +80,32 @@ class PlayerView implements View {
       const range = rest === 1 ? `${told + 1}` : `${told + 1} to ${this.positions.length}`;
       setText(this.kept, `${first} ${range}: kept back while a view asks`);
     }
-    this.showCode(position);
+    // While a view asks, the variables would tell the answer.
+    if (!this.code.hidden && !this.context.asking.on) this.panel.show(position);
   }
 
   private async load(): Promise<void> {
-    if (this.data || this.code.hidden) return;
-    setText(this.title, "Loading…");
+    if (this.panel.loaded || this.code.hidden) return;
+    this.panel.say("Loading…");
     try {
-      this.data = await this.context.session.piece<CodeData>("code");
+      this.panel.load(await this.context.session.piece<CodeData>("code"));
       if (!this.context.signal.aborted) this.context.refresh();
     } catch (error) {
-      setText(this.title, error instanceof Error ? error.message : String(error));
+      this.panel.say(error instanceof Error ? error.message : String(error));
     }
-  }
-
-  private showCode(position: number): void {
-    if (!this.data || this.code.hidden) return;
-    const { timeline } = this.context;
-    const stage = timeline.data.stages[timeline.stageAt(position)]?.stage ?? "";
-    const name = this.data.kinds[timeline.kindAt(position)] ?? this.data.stages[stage] ?? "";
-    if (name === this.shown) return;
-    this.shown = name;
-    const found = this.data.functions[name];
-    setText(this.title, found ? `${name}  ·  ${found.file}, line ${found.line}` : "");
-    this.text.replaceChildren(
-      ...(found?.tokens ?? []).map(([text, kind]) => (kind ? h("span", { class: `fnb-code-${kind}` }, text) : text)),
-    );
-    this.text.scrollTop = 0;
   }
 
   private row(at: number, caption: string): HTMLElement {
     const { player, timeline } = this.context;
+    // What an event says is told when it is played: a list that says it before tells the answer.
+    const later = at > this.now;
+    const said = later ? "" : caption;
     const row = h(
       "div",
-      { role: "row", class: "fnb-event", "data-now": at === this.now, "data-later": at > this.now, title: caption },
+      { role: "row", class: "fnb-event", "data-now": at === this.now, "data-later": later, title: said || null },
       h("span", { role: "cell", class: "fnb-event-at" }, String(at + 1)),
       h("span", { role: "cell", class: "fnb-event-kind" }, timeline.kindAt(at)),
-      h("span", { role: "cell", class: "fnb-event-text" }, caption),
+      h("span", { role: "cell", class: "fnb-event-text" }, said),
     );
     row.addEventListener("click", () => {
       player.pause();
