@@ -13,7 +13,7 @@ import pytest
 
 from facade_nb.design import Design
 from facade_nb.solver import Objective, align, solve
-from facade_nb.solver.experiments import Case, Column, ExperimentError, Node, Pass, check, experiment
+from facade_nb.solver.experiments import Case, Column, ExperimentError, Node, Pass, check, experiment, weigh
 from facade_nb.solver.experiments.cases import houses, small_cases
 
 HOUSE = houses()[2]
@@ -257,3 +257,37 @@ def test_a_pass_says_what_it_saw() -> None:
     assert told.exact and told.passes > len(passes) > 3
     assert all(own.beyond > own.limit for own in passes)
     assert [own.number for own in passes[:2]] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("Ce/ABA | C/BA", "Column 1 puts Ce into one element"),
+        ("C/A | C/A", "Word 1 is CeC; these columns take CC from it."),
+        ("C/A | e/BAB | C/AA", "Word 2 is ABABA; these columns take ABABAA from it."),
+        ("C/A | e/BAB | C", "Column 3 has 1 elements; there are 2 words."),
+        ("C/ε | e/ABABA | C/ε", "W is 16 m; the canvas is 12 m, and μ 1 m."),
+        ("C/AB | e/AB | C/A", "Column 1 errs by 3 m; μ is 1 m."),
+    ],
+)
+def test_what_is_wrong_with_an_alignment_is_said(text: str, told: str) -> None:
+    case = Case.of("CeC", "ABABA", A=2, B=3, C=2, e=8, transparent="e", cuts=False, canvas=12, tolerance=1)
+    weighed = weigh(case, text)
+    assert any(told in fault for fault in weighed.faults), weighed.faults
+    assert f"✗ {told}"[:20] in weighed._repr_html_()
+
+
+def test_the_ledger_of_an_alignment_is_that_of_the_solver() -> None:
+    weighed_so_far = 0
+    for case in [*small_cases(9, 5), Case.of("CeC", "ABABA", A=2, B=3, C=2, canvas=13)]:
+        best = align(case.words, case.canvas, case.tolerance, Objective(), search="best")
+        if best is None:
+            continue
+        weighed_so_far += 1
+        weighed = weigh(case, str(best))
+        assert not weighed.faults
+        assert weighed.cost == pytest.approx(best.cost) and weighed.omega == pytest.approx(best.error)
+        assert weighed.width == pytest.approx(best.width)
+        parts = weighed.omega + 0.8 * weighed.empty + 0.25 * weighed.loose
+        assert weighed.cost == pytest.approx(parts + 0.25 * abs(weighed.width - case.canvas))
+    assert weighed_so_far > 5

@@ -6,6 +6,7 @@ from .functions import ExperimentError
 from .outcome import Counterexample, Experiment, Run
 from .running import experiment
 from .views import Choice, Column, Node, Pass, Visit
+from .weighing import Weighed, WeighedColumn, weigh
 
 __all__ = [
     "Case",
@@ -19,6 +20,9 @@ __all__ = [
     "Run",
     "Verdict",
     "Visit",
+    "Weighed",
+    "WeighedColumn",
     "check",
     "experiment",
+    "weigh",
 ]
