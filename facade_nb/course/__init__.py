@@ -1,9 +1,10 @@
 """The exercises of the tutorials: what is right, hints before it is told, and the solutions, which are kept apart."""
 
 from .exercises import Chapter, Exercise
+from .houses import house
 from .network import drawn
 
-__all__ = ["Chapter", "Exercise", "chapter", "drawn"]
+__all__ = ["Chapter", "Exercise", "chapter", "drawn", "house"]
 
 
 def chapter(name: str) -> Chapter:

@@ -1,0 +1,34 @@
+"""The chapters that have exercises, by the names of their files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from .exercises import Chapter
+
+__all__ = ["CHAPTERS"]
+
+
+def _shortest_path() -> Chapter:
+    from .shortest_path import EXERCISES
+
+    return Chapter("06-a-shortest-path", EXERCISES)
+
+
+def _deepening() -> Chapter:
+    from .deepening import EXERCISES
+
+    return Chapter("07-iterative-deepening", EXERCISES)
+
+
+def _own_code() -> Chapter:
+    from .own_code import EXERCISES
+
+    return Chapter("13-change-the-solver", EXERCISES)
+
+
+CHAPTERS: Mapping[str, Callable[[], Chapter]] = {
+    "06-a-shortest-path": _shortest_path,
+    "07-iterative-deepening": _deepening,
+    "13-change-the-solver": _own_code,
+}

@@ -1,8 +1,9 @@
-"""Exercises: an answer is judged; a wrong one gets a hint, the next one another, and then the solution may be asked for."""
+"""Exercises: an answer is judged; a wrong one gets a hint, the next another, and then there is the solution."""
 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -10,7 +11,11 @@ from importlib import resources
 
 from ..solver.experiments import ExperimentError
 
-__all__ = ["Chapter", "Exercise", "solution_of"]
+__all__ = ["Chapter", "Exercise", "Open", "solution_of"]
+
+
+class Open(Exception):
+    """There is no answer yet: that is no wrong one, and costs no hint."""
 
 
 @dataclass(frozen=True)
@@ -44,37 +49,49 @@ class Chapter:
     def __init__(self, name: str, exercises: Mapping[str, Exercise]) -> None:
         self.name, self.exercises = name, exercises
         self._wrong: dict[str, int] = {}
+        self._right: set[str] = set()
 
     def __call__(self, name: str, answer: object) -> None:
         """Judge an answer, and print what there is to say."""
         exercise = self._of(name)
         if answer is ... or answer is None:
-            print(f"Put your answer in the place of the dots. (Not yet: {name!r} is open.)")
+            _say("Not yet: put your answer in the place of the dots.")
             return
         try:
             fault = exercise.judge(answer)
+        except Open as nothing:
+            _say(f"Not yet: {nothing}")
+            return
         except ExperimentError as error:
             fault = str(error)
         except Exception as error:
             at = f"line {line}: " if (line := _line(answer, error)) else ""
             fault = f"{at}{type(error).__name__}: {error}"
         if not fault:
-            print(f"✓ {exercise.why}")
+            self._right.add(name)
+            _say(f"✓ {exercise.why}")
             return
         tries = self._wrong[name] = self._wrong.get(name, 0) + 1
-        print(f"Not yet. {fault}")
+        _say(f"Not yet. {fault}")
         if tries <= len(exercise.hints):
-            print(f"Hint {tries} of {len(exercise.hints)}: {exercise.hints[tries - 1]}")
+            _say(f"Hint {tries} of {len(exercise.hints)}: {exercise.hints[tries - 1]}")
         else:
-            print(f"No hints are left: check.solution({name!r}) shows one that works.")
+            _say(f"No hints are left: check.solution({name!r}) shows one that works.")
+
+    def after(self, name: str) -> bool:
+        """Whether an exercise has been solved: what would give it away waits for that, and says so."""
+        self._of(name)
+        if name not in self._right:
+            _say(f"This cell waits for the exercise {name!r}. Solve that, then run this again.")
+        return name in self._right
 
     def solution(self, name: str) -> None:
         """Show a solution, once it has been tried."""
         exercise = self._of(name)
         if self._wrong.get(name, 0) < len(exercise.hints):
-            print("Try it first: there are hints.")
+            _say("Try it first: there are hints.")
             return
-        print(solution_of(self.name, name))
+        _say(solution_of(self.name, name))
 
     def _of(self, name: str) -> Exercise:
         if name not in self.exercises:
@@ -91,6 +108,12 @@ def solution_of(chapter: str, name: str) -> str:
     if found is None:
         raise LookupError(f"solutions/{chapter}.md: no code under {name!r}")
     return found.group(1).rstrip("\n")
+
+
+def _say(text: str) -> None:
+    sys.stdout.write(
+        f"{text}\n"
+    )  # at once, so that a notebook does not make two outputs of a line and its end
 
 
 def _line(answer: object, error: BaseException) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
+from itertools import pairwise
 
 from ..solver.experiments import Case
 
@@ -49,7 +50,7 @@ def drawn(
     Parameters
     ----------
     at
-        A node, by the letters read of both words: the edges that leave it are drawn, and where each leads stands its ω (Eq. 9).
+        A node, by the letters read of both words: the edges that leave it are drawn, with ω (Eq. 9) where each leads.
     path
         An alignment, as in ``"C/A | e/BAB | C/A"``: its path is drawn.
     within
@@ -84,7 +85,7 @@ def drawn(
         nodes = nodes_of(path)
         if nodes[-1] != (n, m):
             raise ValueError(f"drawn: {path!r} reads {nodes[-1]} letters; the words have {(n, m)}")
-        out += [_line(a, b, _PATH, 4.0) for a, b in zip(nodes, nodes[1:], strict=False)]
+        out += [_line(a, b, _PATH, 4.0) for a, b in pairwise(nodes)]
         told.append(f"path {nodes}")
     for i in range(n + 1):
         for j in range(m + 1):
@@ -125,7 +126,7 @@ def _lattice(n: int, m: int) -> str:
 
 
 def _line(a: tuple[int, int], b: tuple[int, int], colour: str, width: float, more: str = "") -> str:
-    """A line from node to node; one along a row or a column of nodes is bent, so that it is seen beside shorter ones."""
+    """A line from node to node; one along a row or column of nodes is bent, so that it is seen beside others."""
     (x0, y0), (x1, y1) = (_x(a[0]), _y(a[1])), (_x(b[0]), _y(b[1]))
     bend = 0
     if (a[0] == b[0] and abs(a[1] - b[1]) > 1) or (a[1] == b[1] and abs(a[0] - b[0]) > 1):

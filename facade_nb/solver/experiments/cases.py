@@ -134,7 +134,10 @@ def small_cases(count: int, seed: int) -> Iterator[Case]:
         most = 2 + 3 * n // count
         rows = 2 if n % 4 else 3
         sizes = {a: chance.choice((0.5, 1.0, 1.5, 2.0, 3.0)) for a in "ABC"}
-        words = ["".join(chance.choice("ABC") for _ in range(chance.randint(1, most))) for _ in range(rows)]
+        words: list[str] = []
+        while len(words) < rows:
+            word = "".join(chance.choice("ABC") for _ in range(chance.randint(1, most)))
+            words += [word] if word not in words else []
         if n % 3 == 2:
             words[0] = words[0][:1] + "e" + words[0][1:]
         used: dict[str, Any] = {a: sizes[a] for word in words for a in word if a != "e"}

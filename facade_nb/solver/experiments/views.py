@@ -22,7 +22,8 @@ class Node:
     Attributes
     ----------
     rests
-        Per word, topmost first: the letters that are still to come. A letter that has been begun is among them.
+        Per word, topmost first (equal words are one): the letters that are still to come. One that has been begun is
+        among them.
     sizes
         Per word: the sum of the sizes of those, metres. Placeholders that may be cut count nothing: they take what
         length they like.
