@@ -3,8 +3,9 @@
 from .exercises import Chapter, Exercise
 from .houses import house
 from .network import drawn
+from .words import listed
 
-__all__ = ["Chapter", "Exercise", "chapter", "drawn", "house"]
+__all__ = ["Chapter", "Exercise", "chapter", "drawn", "house", "listed"]
 
 
 def chapter(name: str) -> Chapter:

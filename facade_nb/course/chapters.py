@@ -9,6 +9,18 @@ from .exercises import Chapter
 __all__ = ["CHAPTERS"]
 
 
+def _patterns() -> Chapter:
+    from .patterns import EXERCISES
+
+    return Chapter("02-patterns-and-words", EXERCISES)
+
+
+def _columns() -> Chapter:
+    from .columns import EXERCISES
+
+    return Chapter("05-columns-and-constraints", EXERCISES)
+
+
 def _shortest_path() -> Chapter:
     from .shortest_path import EXERCISES
 
@@ -28,6 +40,8 @@ def _own_code() -> Chapter:
 
 
 CHAPTERS: Mapping[str, Callable[[], Chapter]] = {
+    "02-patterns-and-words": _patterns,
+    "05-columns-and-constraints": _columns,
     "06-a-shortest-path": _shortest_path,
     "07-iterative-deepening": _deepening,
     "13-change-the-solver": _own_code,

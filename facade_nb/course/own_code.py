@@ -45,7 +45,7 @@ def _pairs(error: Callable[..., Any]) -> str:
 
 
 def _faster(heuristic: Callable[..., Any]) -> str:
-    cases = [*small_cases(12, 1), _HALVED]
+    cases = [*small_cases(6, 1), _HALVED]
     verdict = check(column_error=_half, heuristic=heuristic, cases=cases)
     fault = verdict.worse or verdict.overestimate
     if fault is not None:

@@ -7,18 +7,21 @@ import contextlib
 import doctest
 import io
 import re
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import nbformat
 import pytest
+from nbclient import NotebookClient
 
 from facade_nb.course import Chapter, Exercise, chapter
 from facade_nb.course.chapters import CHAPTERS
 from facade_nb.course.deepening import CENTRED
 from facade_nb.course.exercises import Open, solution_of
 from facade_nb.course.own_code import TRIPLET
-from facade_nb.solver.experiments import Case, Node, experiment
+from facade_nb.solver.experiments import Case, Node, checking, experiment
+from facade_nb.solver.experiments.cases import small_cases
 
 TUTORIALS = Path(__file__).resolve().parents[2] / "tutorials"
 CHECKED = re.compile(r'^check\("([^"]+)", (\w+)\)$', re.MULTILINE)
@@ -53,6 +56,26 @@ def cells(name: str) -> list[nbformat.NotebookNode]:
     ]
 
 
+def test_they_run_one_after_the_other() -> None:
+    """In one kernel, which forgets all names in between: a kernel takes longer to start than most of them to run."""
+    joined = nbformat.v4.new_notebook()
+    for name in CHAPTERS:
+        joined.cells += [nbformat.v4.new_code_cell("%reset -f"), *cells(name)]
+    client = NotebookClient(
+        joined, timeout=None, kernel_name="python3", resources={"metadata": {"path": str(TUTORIALS)}}
+    )
+    client.execute()  # raises at the first cell that fails
+    outputs = [output for cell in joined.cells for output in cell.get("outputs", ())]
+    assert len(outputs) > 60 and not [own.text for own in outputs if own.get("name") == "stderr"]
+
+
+@pytest.fixture
+def few_cases(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a cell shows of sixty cases is seen in three as well."""
+    monkeypatch.setattr(checking, "small_cases", lambda count, seed: islice(small_cases(count, seed), 3))
+
+
+@pytest.mark.usefixtures("few_cases")
 @pytest.mark.parametrize("name", CHAPTERS)
 def test_exercises_pass_with_their_solutions(name: str) -> None:
     found: dict[str, Any] = {"display": print}
@@ -110,6 +133,35 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
 @pytest.mark.parametrize(
     ("name", "exercise", "answer", "told"),
     [
+        ("02-patterns-and-words", "pairs", "A(BA)^k", "It makes ABA, which is not wanted."),
+        ("02-patterns-and-words", "pairs", "A(BBA", "A(BBA"),
+        ("02-patterns-and-words", "choice", "A B A", "It does not make ACA."),
+        ("02-patterns-and-words", "centred", "y A(BA)^k y", "y"),
+        ("02-patterns-and-words", "mirrors", ["ABCC'B'A'", "ABCC'B'A'"], "is not the word there"),
+        ("02-patterns-and-words", "row", "A(BA)^|k", "is opposite"),
+        ("02-patterns-and-words", "row", "A(BA)^k", "is no mirrored A"),
+        (
+            "02-patterns-and-words",
+            "lower",
+            lambda canvas, mu, front: canvas - mu,
+            "[0.6, 0.6] m of opaque letters",
+        ),
+        ("02-patterns-and-words", "fits", [[3], [3]], "Look again at the wall behind the posts."),
+        ("05-columns-and-constraints", "C1", lambda column: True, "Of [['soft'], []] you say True."),
+        (
+            "05-columns-and-constraints",
+            "windows",
+            "C/ε | e/BABAB | C/ε",
+            "Column 1 has nothing in it that is opaque",
+        ),
+        ("05-columns-and-constraints", "slender", "C/A | e/BAB | C/A", "There is a cheaper one."),
+        (
+            "05-columns-and-constraints",
+            "attached",
+            "e/F | e/D | C/ε | e/D | f/F",
+            "these columns take eeCef from it.",
+        ),
+        ("05-columns-and-constraints", "which", "C3", "It is not 'C3'."),
         ("06-a-shortest-path", "by hand", "C/A | e/BAB", "Word 1 is CeC; these columns take Ce from it."),
         ("06-a-shortest-path", "by hand", "C/ε | e/ABABA | C/ε", "J is 1.005 m. There is a cheaper one."),
         ("06-a-shortest-path", "omega", lambda column: 3.0, "Of the column [[2], [2]] you say 3 m."),
