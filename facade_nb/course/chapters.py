@@ -33,6 +33,18 @@ def _deepening() -> Chapter:
     return Chapter("07-iterative-deepening", EXERCISES)
 
 
+def _candidates() -> Chapter:
+    from .candidates import EXERCISES
+
+    return Chapter("08-candidates-and-proof", EXERCISES)
+
+
+def _sizes() -> Chapter:
+    from .sizes import EXERCISES
+
+    return Chapter("09-sizes", EXERCISES)
+
+
 def _own_code() -> Chapter:
     from .own_code import EXERCISES
 
@@ -44,5 +56,7 @@ CHAPTERS: Mapping[str, Callable[[], Chapter]] = {
     "05-columns-and-constraints": _columns,
     "06-a-shortest-path": _shortest_path,
     "07-iterative-deepening": _deepening,
+    "08-candidates-and-proof": _candidates,
+    "09-sizes": _sizes,
     "13-change-the-solver": _own_code,
 }

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ..design import Design
 
 __all__ = ["house"]
 
 
 def house(
-    walls: str = "A(BA)^k", front: str = "cec; c := C", width: float = 6.6, opaque_posts: bool = True
+    walls: str = "A(BA)^k",
+    front: str = "cec; c := C",
+    width: float = 6.6,
+    opaque_posts: bool = True,
+    most: Mapping[str, float] | None = None,
 ) -> Design:
     """One storey, ``width`` metres wide.
 
@@ -20,17 +26,20 @@ def house(
         Pattern of what stands in front: C is a post of 0.6 m, e what lies between.
     opaque_posts
         Whether posts hide all that is behind them.
+    most
+        The greatest size of some symbols, metres.
     """
     storey = {"pattern": "storey"}
+    limits = {name: {"max": size} for name, size in (most or {}).items()}
     return Design.from_dict(
         {
             "format": "facade-nb/design/1",
             "name": "Tiny house",
             "canvas": {"width": width, "height": 2.8},
             "symbols": {
-                "A": {"size": 0.9},
-                "B": {"size": 1.2, "unoccludable": True},
-                "C": {"size": 0.6, "opaque": opaque_posts},
+                "A": {"size": 0.9, **limits.get("A", {})},
+                "B": {"size": 1.2, "unoccludable": True, **limits.get("B", {})},
+                "C": {"size": 0.6, "opaque": opaque_posts, **limits.get("C", {})},
                 "Y": {"size": 2.8},
             },
             "patterns": {"walls": walls, "front": front, "storey": "Y"},

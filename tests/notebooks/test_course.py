@@ -177,6 +177,18 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
         ("07-iterative-deepening", "rests", lambda node: node.size, "A node has canvas"),
         ("07-iterative-deepening", "next limit", lambda own: own.limit + 0.1, "pass 2 has the limit 0.1 m"),
         ("07-iterative-deepening", "tie", lambda column: -column.letters, "It takes up 65 nodes"),
+        ("08-candidates-and-proof", "bounds", [0.9, 0.375, 0.2], "Look again at k = 3."),
+        ("08-candidates-and-proof", "bound", lambda choice: 0.0, "candidates are aligned; 7 will do"),
+        ("08-candidates-and-proof", "bound", lambda choice: 3 * choice.least, "It says too much."),
+        (
+            "09-sizes",
+            "grow",
+            lambda counts, missing: [missing / sum(counts)] * len(counts),
+            "there are smaller ones",
+        ),
+        ("09-sizes", "grow", lambda counts, missing: [0.1, 0.1, 0.1], "your letters grow by 0.7 m together"),
+        ("09-sizes", "sized", lambda p, B, d: p, "do not keep B x = d"),
+        ("09-sizes", "limited", [0.92, 1.26, 0.67], "Look again at C."),
         ("13-change-the-solver", "windows", lambda column: 0, "A post still stands before a window"),
         (
             "13-change-the-solver",
