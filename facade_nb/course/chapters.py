@@ -2,61 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from importlib import import_module
 
 from .exercises import Chapter
 
-__all__ = ["CHAPTERS"]
+__all__ = ["CHAPTERS", "chapter"]
 
-
-def _patterns() -> Chapter:
-    from .patterns import EXERCISES
-
-    return Chapter("02-patterns-and-words", EXERCISES)
-
-
-def _columns() -> Chapter:
-    from .columns import EXERCISES
-
-    return Chapter("05-columns-and-constraints", EXERCISES)
-
-
-def _shortest_path() -> Chapter:
-    from .shortest_path import EXERCISES
-
-    return Chapter("06-a-shortest-path", EXERCISES)
-
-
-def _deepening() -> Chapter:
-    from .deepening import EXERCISES
-
-    return Chapter("07-iterative-deepening", EXERCISES)
-
-
-def _candidates() -> Chapter:
-    from .candidates import EXERCISES
-
-    return Chapter("08-candidates-and-proof", EXERCISES)
-
-
-def _sizes() -> Chapter:
-    from .sizes import EXERCISES
-
-    return Chapter("09-sizes", EXERCISES)
-
-
-def _own_code() -> Chapter:
-    from .own_code import EXERCISES
-
-    return Chapter("13-change-the-solver", EXERCISES)
-
-
-CHAPTERS: Mapping[str, Callable[[], Chapter]] = {
-    "02-patterns-and-words": _patterns,
-    "05-columns-and-constraints": _columns,
-    "06-a-shortest-path": _shortest_path,
-    "07-iterative-deepening": _deepening,
-    "08-candidates-and-proof": _candidates,
-    "09-sizes": _sizes,
-    "13-change-the-solver": _own_code,
+CHAPTERS: Mapping[str, str] = {
+    "02-patterns-and-words": "patterns",
+    "05-columns-and-constraints": "columns",
+    "06-a-shortest-path": "shortest_path",
+    "07-iterative-deepening": "deepening",
+    "08-candidates-and-proof": "candidates",
+    "09-sizes": "sizes",
+    "13-change-the-solver": "own_code",
 }
+"""The module of each, which is loaded when the chapter is opened."""
+
+
+def chapter(name: str) -> Chapter:
+    """The exercises of a tutorial, by its file's name: ``check = chapter("06-a-shortest-path")``."""
+    if name not in CHAPTERS:
+        raise ValueError(f"chapter: expected one of {', '.join(CHAPTERS)}; found {name!r}")
+    return Chapter(name, import_module(f"{__package__}.{CHAPTERS[name]}").EXERCISES)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ..solver.experiments import Case, experiment, weigh
-from .exercises import Exercise, Open
-from .judging import Judge, among, function, number
+from ..solver.experiments import Case
+from .exercises import Exercise
+from .judging import among, cheapest, function, number
 
 __all__ = ["CONTROLS", "DOOR", "EXERCISES", "SLENDER", "WINDOWS"]
 
@@ -16,27 +16,6 @@ SLENDER = Case.of("CeC", "ABABA", canvas=6.6, soft="C", **_SIZES)
 WINDOWS = Case.of("CeC", "BABAB", canvas=5.4, soft="C", unoccludable="B", **_SIZES)
 DOOR = Case.of("eCf", "FDDF", canvas=3.8, F=0.6, D=1.0, C=0.6, attached="D")
 CONTROLS = Case.of("fAf", "CeC", "ABABA", A=2, B=3, C=2, e=8, f=5, transparent="ef", canvas=12)
-
-
-def _cheapest(case: Case, given: str) -> Judge:
-    """An alignment as cheap as can be, that breaks no rule."""
-
-    def judge(answer: object) -> str:
-        if not isinstance(answer, str):
-            return f"Expected an alignment as a text, found {answer!r}."
-        if answer.replace(" ", "") == given.replace(" ", ""):
-            raise Open("that is the alignment above. Change it.")
-        weighed = weigh(case, answer)
-        if weighed.faults:
-            return weighed.faults[0]
-        best = experiment(case).cost
-        return (
-            ""
-            if weighed.cost < best + 1e-4
-            else f"It is allowed, and costs {weighed.cost:.3f} m. There is a cheaper one."
-        )
-
-    return judge
 
 
 def _c1(allowed: Callable[..., Any]) -> str:
@@ -73,7 +52,7 @@ EXERCISES: Mapping[str, Exercise] = {
         "That is C1: no holes, and nothing slender before nothing.",
     ),
     "slender": Exercise(
-        _cheapest(SLENDER, "C/ε | e/ABABA | C/ε"),
+        cheapest(SLENDER, "C/ε | e/ABABA | C/ε"),
         (
             "A post that is not opaque needs something opaque in its column (C1): a wall, or a window.",
             "C/A at both ends, and e cut beside B, A and B.",
@@ -81,7 +60,7 @@ EXERCISES: Mapping[str, Exercise] = {
         "0.450 m: the posts have come in front of the walls.",
     ),
     "windows": Exercise(
-        _cheapest(WINDOWS, "C/B | e/A | e/B | e/A | C/B"),
+        cheapest(WINDOWS, "C/B | e/A | e/B | e/A | C/B"),
         (
             "A post before a window breaks C3; a post alone breaks C1. What is left to stand before?",
             "The row above may be empty beside a window: ε/B. Then C/A.",
@@ -97,7 +76,7 @@ EXERCISES: Mapping[str, Exercise] = {
         "C4: no insertion beside an attached letter.",
     ),
     "attached": Exercise(
-        _cheapest(DOOR, "e/F | e/D | C/ε | f/D | f/F"),
+        cheapest(DOOR, "e/F | e/D | C/ε | f/D | f/F"),
         (
             "No column may be empty beside a D. So where can the post stand?",
             "Before one half of the door: it is opaque, and nothing forbids that.",
@@ -105,7 +84,7 @@ EXERCISES: Mapping[str, Exercise] = {
         "0.550 m. The door stays together, and the post stands before half of it.",
     ),
     "cut": Exercise(
-        _cheapest(CONTROLS, "f/C/A | f/e/B | A/e/A | f/e/BA | f/C/ε"),
+        cheapest(CONTROLS, "f/C/A | f/e/B | A/e/A | f/e/BA | f/C/ε"),
         (
             "Let the lower word have a column for each of its five letters.",
             "f is cut in two on either side: f beside C, then f beside e. And e is cut in three.",

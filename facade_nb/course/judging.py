@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from functools import wraps
 from typing import Any, TypeGuard
 
+from ..solver.experiments import Case, experiment, weigh
 from .exercises import Open
 
-__all__ = ["Judge", "among", "experimental", "function", "metres", "number", "numbers"]
+__all__ = ["Judge", "among", "cheapest", "experimental", "function", "metres", "number", "numbers"]
 
 Judge = Callable[[object], str]
 
@@ -52,6 +53,23 @@ def among(right: str, choices: Sequence[str]) -> Judge:
         if answer not in choices:
             return f"Expected one of {', '.join(map(repr, choices))}; found {answer!r}."
         return "" if answer == right else f"It is not {answer!r}."
+
+    return judge
+
+
+def cheapest(case: Case, given: str) -> Judge:
+    """An alignment that breaks no rule and is as cheap as can be; `given` stands in the cell already."""
+
+    def judge(answer: object) -> str:
+        if not isinstance(answer, str):
+            return f"Expected an alignment as a text, such as {given!r}; found {answer!r}."
+        if answer.replace(" ", "") == given.replace(" ", ""):
+            raise Open("that is the alignment above. Change it.")
+        weighed = weigh(case, answer)
+        if weighed.faults:
+            return weighed.faults[0]
+        best = experiment(case).cost
+        return "" if weighed.cost < best + 1e-4 else f"J is {weighed.cost:.3f} m. There is a cheaper one."
 
     return judge
 

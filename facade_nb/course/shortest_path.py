@@ -8,26 +8,14 @@ from math import prod
 from typing import Any
 
 from ..solver import Letter, Objective, align
-from ..solver.experiments import Case, weigh
+from ..solver.experiments import Case
 from .exercises import Exercise, Open
-from .judging import function, metres, number, numbers
+from .judging import cheapest, function, metres, number, numbers
 from .network import nodes_of
 
 __all__ = ["EXERCISES", "POSTS"]
 
-_GIVEN = "C/A | e/BAB | C/A"
 POSTS = Case.of("CeC", "ABABA", A=0.9, B=1.2, C=0.6, canvas=6.6)
-
-
-def _by_hand(answer: object) -> str:
-    if not isinstance(answer, str):
-        return f"Expected an alignment as a text, such as 'C/A | e/BAB | C/A'; found {answer!r}."
-    if answer.replace(" ", "") == _GIVEN.replace(" ", ""):
-        raise Open("that is the alignment above. Change it.")
-    weighed = weigh(POSTS, answer)
-    if weighed.faults:
-        return weighed.faults[0]
-    return "" if weighed.cost < 0.5551 else f"J is {weighed.cost:.3f} m. There is a cheaper one."
 
 
 def _omega(omega: Callable[..., Any]) -> str:
@@ -96,7 +84,7 @@ def _shortest(shortest: Callable[..., Any]) -> str:
 
 EXERCISES: Mapping[str, Exercise] = {
     "by hand": Exercise(
-        _by_hand,
+        cheapest(POSTS, "C/A | e/BAB | C/A"),
         (
             "What costs most in your ledger? ε leaves room empty in one word; a post beside a wall is no error at all.",
             "Cut e: let it stand beside each A and B in a column of its own, so that nothing is loose. "

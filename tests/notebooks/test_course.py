@@ -88,13 +88,13 @@ def test_exercises_pass_with_their_solutions(name: str) -> None:
         asked.append(exercise[1])
         told = run(f"{solution_of(name, exercise[1])}\n{exercise[0]}", found)
         assert told.startswith("✓"), (exercise[1], told)
-    assert asked == list(CHAPTERS[name]().exercises)
+    assert asked == list(chapter(name).exercises)
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
 def test_exercises_fail_without_solutions_and_give_nothing_away(name: str) -> None:
     """As they are saved; that they run like that from a fresh kernel is tested with all notebooks."""
-    exercises = CHAPTERS[name]().exercises
+    exercises = chapter(name).exercises
     found: dict[str, Any] = {"display": print}
     for cell in cells(name):
         exercise = CHECKED.search(cell.source)
