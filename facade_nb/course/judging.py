@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import wraps
+from numbers import Real
 from typing import Any, TypeGuard
 
 from ..solver.experiments import Case, experiment, weigh
@@ -43,7 +44,7 @@ def numbers(right: Sequence[float], names: Sequence[str]) -> Judge:
 
 
 def _is_number(value: object) -> TypeGuard[float]:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    return type(value) is not bool and isinstance(value, Real)
 
 
 def among(right: str, choices: Sequence[str]) -> Judge:

@@ -236,6 +236,12 @@ def test_a_case_that_cannot_be(words: tuple[str, ...], given: dict[str, Any], to
     assert told in str(fault.value)
 
 
+def test_a_design_without_layers_has_nothing_to_search() -> None:
+    empty = {"format": "facade-nb/design/1", "name": "Empty", "canvas": {"width": 3, "height": 3}}
+    with pytest.raises(ExperimentError, match="Empty has no layers"):
+        experiment(Design.from_dict(empty), heuristic=nothing)
+
+
 def test_a_counter_on_both_axes_is_held() -> None:
     document = HOUSE.to_dict()
     document["patterns"]["storey"] = "Y Z^k"

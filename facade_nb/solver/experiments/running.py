@@ -118,6 +118,10 @@ def compared(
                 )
         out = _of_words(case, functions, mine, usual, table, nodes, check)
     else:
+        if not case.stack:
+            raise ExperimentError(
+                f"{case.name or 'this design'} has no layers, so there is nothing to search"
+            )
         out = _of_design(case, functions, mine, usual, table, tolerances, nodes, check)
     return replace(out, changed=changed)
 
@@ -258,7 +262,7 @@ def _of_design(
                 )
         except Stopped:
             raise ExperimentError(
-                f"{axis}: the words of this design take longer than the time limit; experiments are made on small ones"
+                f"{axis}: this design takes longer than the time limit; experiments are made on small ones"
             ) from None
         value = known.cost
         if functions.column_error is None and layout is not None and layout.complete:
