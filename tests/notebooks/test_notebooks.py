@@ -11,6 +11,8 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
+from facade_nb.course.chapters import CHAPTERS
+
 ROOT = Path(__file__).resolve().parents[2]
 NOTEBOOKS = sorted(path for folder in ("notebooks", "tutorials") for path in (ROOT / folder).glob("*.ipynb"))
 LARGEST = 500_000  # bytes
@@ -49,7 +51,11 @@ def test_all_that_are_saved_with_widgets_are_made_by_one_command() -> None:
     assert set(saved) <= set(made)
 
 
-@every_notebook
+@pytest.mark.parametrize(
+    "path",
+    [path for path in NOTEBOOKS if path.stem not in CHAPTERS],  # those share a kernel: test_course
+    ids=lambda path: f"{path.parent.name}/{path.stem}",
+)
 def test_runs_from_a_fresh_kernel(path: Path) -> None:
     notebook = nbformat.read(path, as_version=4)
     client = NotebookClient(

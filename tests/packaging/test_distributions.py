@@ -17,6 +17,7 @@ DATA = {
     "gallery": ("facade_nb/gallery/", ".json"),
     "compiled search": ("facade_nb/solver/alignment/core/", ".wasm"),
     "licence of what is compiled in": ("facade_nb/solver/alignment/core/", ".txt"),
+    "solutions of exercises": ("facade_nb/course/solutions/", ".md"),
 }
 NOT_FOR_USERS = ("facade_nb/widgets/src/", "facade_nb/widgets/test/")
 SOURCES = (".hpp", ".cpp")

@@ -233,10 +233,7 @@ class Meeting:
         structure = self._read(left, right)
         if structure is None:
             return
-        if structure in self.forward.priced:
-            priced = self.forward.priced[structure]
-        else:
-            priced = self.forward.priced[structure] = price(self.forward.groups, structure)
+        priced = self._priced(structure)
         if priced is None:
             return
         self._idle += 1
@@ -254,6 +251,12 @@ class Meeting:
             if self.observer is not None:
                 self.observer.met(*key, priced.cost, priced.columns)
         self.limit = min(self.limit, priced.cost)
+
+    def _priced(self, structure: Structure) -> Priced | None:
+        """What a whole alignment costs."""
+        if structure not in self.forward.priced:
+            self.forward.priced[structure] = price(self.forward.groups, structure)
+        return self.forward.priced[structure]
 
     def _joined_bound(self, key: tuple[int, Places], left: Half, right: Half) -> float:
         """Both halves, the letters cut at the node, and W."""

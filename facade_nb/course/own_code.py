@@ -1,0 +1,160 @@
+"""Exercises of tutorial 13: other errors, bounds, orders and rules in the solver."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ..solver import Objective
+from ..solver.experiments import Case, Column, check, experiment
+from ..solver.experiments.cases import small_cases
+from .exercises import Exercise
+from .houses import house
+from .judging import Judge, among, experimental, function, number
+
+__all__ = ["ARCADE", "EXERCISES", "HOUSE", "TRIPLET"]
+
+HOUSE = house()
+ARCADE = Case.of("CeCeC", "BABAB", A=0.9, B=1.2, C=0.6, canvas=5.4)
+TRIPLET = Case.of("ABA", "CBA", "ACC", A=1.5, B=1, C=2, canvas=6.5)
+
+_HALVED = Case.of("ABC", "AA", A=0.5, B=1.5, C=1.5, canvas=4.5)
+"""Here the heuristic that was made for Eq. 9 loses the best for half of it."""
+
+
+def _half(column: Column) -> float:
+    return 0.5 * (max(column.sizes) - min(column.sizes))
+
+
+def _nothing(node: object) -> float:
+    return 0.0
+
+
+def _pairs(error: Callable[..., Any]) -> str:
+    for sizes, right in (
+        ((1.0, 1.0), 0.0),
+        ((1.0, 3.0), 2.0),
+        ((1.0, 2.0, 4.0), 6.0),
+        ((2.0,), 0.0),
+        ((1.0, 1.0, 2.0), 2.0),
+    ):
+        said = error(Column(tuple(() for _ in sizes), sizes, max(sizes) - min(sizes), max(sizes)))
+        if not isinstance(said, (int, float)) or abs(said - right) > 1e-6:
+            return f"Of elements of {', '.join(f'{size:g}' for size in sizes)} m you say {said!r}."
+    return ""
+
+
+def _faster(heuristic: Callable[..., Any]) -> str:
+    cases = [*small_cases(6, 1), _HALVED]
+    verdict = check(column_error=_half, heuristic=heuristic, cases=cases)
+    fault = verdict.worse or verdict.overestimate
+    if fault is not None:
+        return f"It says too much.\n{fault}"
+    usual = check(column_error=_half, heuristic=_nothing, cases=cases).nodes
+    return (
+        ""
+        if verdict.nodes < 0.8 * usual
+        else f"It is exact, but takes up {verdict.nodes:,} nodes of {usual:,}."
+    )
+
+
+def _windows(error: Callable[..., Any]) -> str:
+    told = experiment(ARCADE, column_error=error, heuristic=_nothing)
+    answer = told.yours[0].answer
+    if told.yours[0].alignment is None:
+        return "Nothing is found any more."
+    if any("C" in column.split("/")[0] and "B" in column.split("/")[1] for column in answer.split("|")):
+        return f"A post still stands before a window: {answer}"
+    plain = experiment(Case.of("CeC", "ABA", A=1, B=2, C=0.5, canvas=4), column_error=error)
+    if abs(plain.cost - plain.ours[0].cost) > 1e-6:
+        return "It changes J of façades in which no window is covered: elsewhere the error has to be column.omega."
+    return ""
+
+
+def _loose(answer: object) -> str:
+    if not isinstance(answer, (int, float)) or isinstance(answer, bool) or not answer >= 0:
+        return f"Expected a price of 0 or more, found {answer!r}."
+    told = experiment(TRIPLET, objective=Objective(loose=float(answer)))
+    columns = told.yours[0].answer.count("|") + 1
+    return "" if columns == 2 else f"With {answer:g} the answer has {columns} columns: {told.yours[0].answer}"
+
+
+def _order(order: Callable[..., Any]) -> str:
+    told = experiment(HOUSE, objective=Objective.paper(), tolerances=(0.5,), candidate_order=order)
+    if told.layout is None:
+        return "There is no layout."
+    k = told.layout.counters["k"]
+    return "" if k == 2 else f"The first candidate that aligns has k = {k}."
+
+
+def _bound(answer: object) -> str:
+    right: Judge = number(1.48)
+    return right(round(float(answer), 2)) if isinstance(answer, (int, float)) else right(answer)
+
+
+EXERCISES: Mapping[str, Exercise] = {
+    "windows": Exercise(
+        experimental(_windows),
+        (
+            "column.elements has the letters of each word, topmost first; a letter's name is letter.symbol.",
+            "If a C is above and a B below, return 1000 more than column.omega, else column.omega.",
+        ),
+        "No post before a window. A price that nobody would pay is a rule.",
+    ),
+    "pairs": Exercise(
+        function(_pairs),
+        (
+            "Go over all pairs of elements; each pair once.",
+            "itertools.combinations(column.sizes, 2) has the pairs; add up abs(a - b).",
+        ),
+        "With two words it is Eq. 9; with more, every element that differs counts.",
+    ),
+    "safe": Exercise(
+        among("still exact", ("still exact", "not exact")),
+        (
+            "Compare your error with Eq. 9 on a column of three elements: which is larger?",
+            "Ours says at least what is to come by Eq. 9. If columns cost more than that, does it ever say too much?",
+        ),
+        "Still exact. Your error is never less than Eq. 9, so what is a lower bound of one is one of the other.",
+    ),
+    "half": Exercise(
+        among("not exact", ("still exact", "not exact")),
+        (
+            "Now columns cost less than the heuristic was made for.",
+            "Where all that is to come is ω, it says twice the truth.",
+        ),
+        "Not exact: the heuristic says too much now, and paths to the best are given up.",
+    ),
+    "faster": Exercise(
+        experimental(_faster),
+        (
+            "Each part of J is at least half of what it was. So what of a lower bound of J?",
+            "Half of ours is a lower bound of yours: node.least has ours.",
+        ),
+        "Exact again, and quicker than without a heuristic.",
+    ),
+    "loose": Exercise(
+        _loose,
+        (
+            "Λ makes letters stand alone. What if they may share an element for nothing?",
+            "Try 0.",
+        ),
+        "Two columns: what is not paid for is not avoided.",
+    ),
+    "factor": Exercise(
+        _bound,
+        (
+            "It may be stretched until it says more of the best candidate than that costs: two numbers above.",
+            "0.555 / 0.375",
+        ),
+        "1.48: beyond it the bound of the best candidate exceeds its J, and it may be passed over.",
+    ),
+    "order": Exercise(
+        experimental(_order),
+        (
+            "Say how badly a candidate fills the canvas. choice.words has its words, and a word its size.",
+            "abs(sum(word.size for word in choice.words.values()) - choice.canvas)",
+        ),
+        "k = 2, the same as the best by J: a good order makes a greedy search a good one.",
+    ),
+}
