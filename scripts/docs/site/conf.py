@@ -56,5 +56,12 @@ def _bars(_: Sphinx, __: str, ___: str, ____: object, _____: object, lines: list
         lines[at] = re.sub(r"(`[^`]*`)|\|", lambda found: found[1] or r"\|", line)
 
 
+def _signature(*told: object) -> tuple[str, str | None] | None:
+    """Let what a field begins with be an ellipsis where a function makes it: then the signature can be read."""
+    signature, returned = told[-2:]
+    return (signature.replace("<factory>", "..."), returned) if isinstance(signature, str) else None
+
+
 def setup(app: Sphinx) -> None:
     app.connect("autodoc-process-docstring", _bars)
+    app.connect("autodoc-process-signature", _signature)

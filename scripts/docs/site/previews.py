@@ -83,5 +83,5 @@ def states(names: Iterable[str]) -> tuple[dict[str, Any], list[tuple[str, str]]]
         view = PREVIEWS[name]()
         bundle, _ = view._repr_mimebundle_()  # as a notebook asks for it: the view's state is whole then
         views.append((view, bundle.get("text/html", "")))
-    state = {"version_major": 2, "version_minor": 0, "state": dependency_state([view for view, _ in views])}
+    state = {"version_major": 2, "version_minor": 0, "state": dependency_state([view for view, _ in views], drop_defaults=False)}
     return state, [(view.model_id, static) for view, static in views]
