@@ -23,7 +23,7 @@ _ANY = Counter("")
 def design_schema() -> Schema:
     """The schema of ``facade-nb/design/1``, by draft 2020-12.
 
-    A document that the reader accepts is valid by it. One that is not valid is refused by the reader, in the same place.
+    A document that the reader accepts is valid by it, and one that is not valid is refused by the reader.
     What the reader may refuse beyond that: texts that are no patterns, names that nothing has, bounds that cross, and a
     list of variants without weight.
     """
@@ -138,7 +138,9 @@ def _shape(names: tuple[str, ...], what: str) -> Schema:
         "offset": _told(_number(-MOST_LENGTH), "Along the normal."),
         "thickness": _told(_number(0), "Along the normal."),
         "visible": _told({"type": "boolean"}, "Whether it is drawn."),
-        "variants": _told({"type": "array", "items": _ref("variant")}, "Looks of which each instance has one."),
+        "variants": _told(
+            {"type": "array", "items": _ref("variant")}, "Looks of which each instance has one."
+        ),
     }
     return _told(_record(names, {name: _or_null(members[name]) for name in names}), what)
 

@@ -47,7 +47,13 @@ def _table(schema: dict[str, Any]) -> str:
     required = schema.get("required", [])
     rows = ["| field | value | default | |", "|---|---|---|---|"]
     for name, member in schema["properties"].items():
-        default = "*required*" if name in required else f"`{json.dumps(member['default'])}`" if "default" in member else ""
+        default = (
+            "*required*"
+            if name in required
+            else f"`{json.dumps(member['default'])}`"
+            if "default" in member
+            else ""
+        )
         rows.append(f"| `{name}` | {_kind(member)} | {default} | {member.get('description', '')} |")
     return "\n".join(rows)
 
@@ -68,6 +74,8 @@ def refresh(page: str) -> str:
 
 
 if __name__ == "__main__":
-    write_atomically(DOCS / "design.schema.json", json.dumps(design_schema(), ensure_ascii=False, indent=2) + "\n")
+    write_atomically(
+        DOCS / "design.schema.json", json.dumps(design_schema(), ensure_ascii=False, indent=2) + "\n"
+    )
     page = DOCS / "design-schema.md"
     write_atomically(page, refresh(page.read_text("utf-8")))

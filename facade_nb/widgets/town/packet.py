@@ -141,7 +141,9 @@ def kept_piece(model: TownModel, blobs: dict[str, Blob], side: int) -> bytes:
     names = model.grammar.encoding.tiles
     told, pixels = tiles_piece(tiles_of(model.grammar), names, [0] * len(names), side)
     for one in told:  # finer sizes are not there to be asked for
-        one.update(sizes=one["sizes"][one["first"] : one["end"]], first=0, end=one["end"] - one["first"], draft=False)
+        one.update(
+            sizes=one["sizes"][one["first"] : one["end"]], first=0, end=one["end"] - one["first"], draft=False
+        )
     contents = {name: np.frombuffer(blob.content, np.uint8) for name, blob in blobs.items()}
     return pack({"blobs": contents, "tiles": told, "pixels": np.frombuffer(pixels, np.uint8)})
 

@@ -50,7 +50,9 @@ def main(out: Path) -> int:
     for fault in found:
         print(fault, file=sys.stderr)
     if not found:
-        print(f"{len(list(out.rglob('*.html')))} pages in {out.relative_to(ROOT) if out.is_relative_to(ROOT) else out}")
+        print(
+            f"{len(list(out.rglob('*.html')))} pages in {out.relative_to(ROOT) if out.is_relative_to(ROOT) else out}"
+        )
     return 1 if found else 0
 
 

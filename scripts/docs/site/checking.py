@@ -9,7 +9,14 @@ from urllib.parse import unquote, urlsplit
 
 __all__ = ["Page", "faults"]
 
-FETCHED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src"), ("video", "src")}
+FETCHED = {
+    ("script", "src"),
+    ("img", "src"),
+    ("link", "href"),
+    ("iframe", "src"),
+    ("source", "src"),
+    ("video", "src"),
+}
 
 
 class Page(HTMLParser):
@@ -57,7 +64,11 @@ def faults(site: Path) -> list[str]:
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             if not target.is_file():
                 found.append(f"{here}: there is no {link[:100]}")
-            elif parts.fragment and target.suffix == ".html" and not _has(read(target), unquote(parts.fragment)):
+            elif (
+                parts.fragment
+                and target.suffix == ".html"
+                and not _has(read(target), unquote(parts.fragment))
+            ):
                 found.append(f"{here}: {link[:100]} names a place that is not there")
     return found
 

@@ -63,7 +63,7 @@ function managerOf(source: string, name: string): Promise<SavedManager> {
 async function show(place: HTMLElement): Promise<void> {
   const { source = "", state = "", model = "" } = place.dataset;
   const manager = await managerOf(source, state);
-  const view = await manager.create_view(await manager.get_model(model) as base.DOMWidgetModel);
+  const view = await manager.create_view((await manager.get_model(model)) as base.DOMWidgetModel);
   const root = document.createElement("div");
   root.className = "fnb-live-view";
   place.prepend(root);

@@ -58,12 +58,12 @@ PREVIEWS: dict[str, Callable[[], Any]] = {
     "network": lambda: w.NetworkView(_solved("figure-8"), player=False),
     "alignment": lambda: w.AlignmentView(_solved(HOUSE), player=False),
     "sizing": lambda: w.SizingView(_solved(HOUSE), player=False),
-    "qualifiers": lambda: w.QualifiersView(),
+    "qualifiers": w.QualifiersView,
     "texture": lambda: w.TextureView(_texture()),
     "grammar": lambda: w.GrammarEditor(_texture()),
     "pixel": lambda: w.PixelInspector(_texture()),
     "table": lambda: w.GrammarTable(_texture()),
-    "town": lambda: w.TownView(_town(), "street").keep(),
+    "town": lambda: w.TownView(_town(), "distance").keep(),
 }
 """How each is made."""
 
@@ -83,5 +83,9 @@ def states(names: Iterable[str]) -> tuple[dict[str, Any], list[tuple[str, str]]]
         view = PREVIEWS[name]()
         bundle, _ = view._repr_mimebundle_()  # as a notebook asks for it: the view's state is whole then
         views.append((view, bundle.get("text/html", "")))
-    state = {"version_major": 2, "version_minor": 0, "state": dependency_state([view for view, _ in views], drop_defaults=False)}
+    state = {
+        "version_major": 2,
+        "version_minor": 0,
+        "state": dependency_state([view for view, _ in views], drop_defaults=False),
+    }
     return state, [(view.model_id, static) for view, static in views]

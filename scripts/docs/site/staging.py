@@ -21,6 +21,9 @@ MARK = re.compile(r"^<!-- live: ([\w-]+) -->$", re.MULTILINE)
 MOMENT = re.compile(r"\[([^\]]+)\]\((#facade-nb=[^)]*)\)")
 """A link that a view follows: no place of the page has its name."""
 
+SAVED = "fnb-as-saved"
+"""The class of a static form that stands in an output of its own."""
+
 Notebook = dict[str, Any]
 Previews = Callable[[list[str]], tuple[Notebook, list[tuple[str, str]]]]
 
@@ -34,7 +37,9 @@ def stage(root: Path, folder: Path) -> list[str]:
             target = folder / name
             target.parent.mkdir(parents=True, exist_ok=True)
             if source.suffix == ".ipynb":
-                target.write_text(json.dumps(saved(folder, name, json.loads(source.read_text("utf-8")))), "utf-8")
+                target.write_text(
+                    json.dumps(saved(folder, name, json.loads(source.read_text("utf-8")))), "utf-8"
+                )
             else:
                 shutil.copyfile(source, target)
             if pattern in PAGES:
@@ -68,13 +73,23 @@ def saved(folder: Path, page: Path | PurePosixPath, notebook: Notebook) -> Noteb
     for cell in notebook["cells"]:
         if cell["cell_type"] == "markdown":
             cell["source"] = MOMENT.sub(r'<a href="\2">\1</a>', "".join(cell["source"]))
-        for output in cell.get("outputs", []):
+        for output in list(cell.get("outputs", [])):
             data = output.get("data", {})
             view = data.pop(VIEW, None)
             if view and state and view["model_id"] in state["state"]:
-                static = "".join(data.get("text/html", ""))
+                static = _static(cell["outputs"], cell["outputs"].index(output))
                 data["text/html"] = place(PurePosixPath(page), name, view["model_id"], static)
     return notebook
+
+
+def _static(outputs: list[Notebook], at: int) -> str:
+    """The static form of a widget: its own, or that of the output after it, which goes (`apart` in scripts)."""
+    own = "".join(outputs[at]["data"].get("text/html", ""))
+    after = "".join(outputs[at + 1].get("data", {}).get("text/html", "")) if at + 1 < len(outputs) else ""
+    if SAVED not in after:
+        return own
+    del outputs[at + 1]
+    return after
 
 
 def with_previews(folder: Path, pages: Iterable[str], states: Previews) -> None:
@@ -88,5 +103,10 @@ def with_previews(folder: Path, pages: Iterable[str], states: Previews) -> None:
         state, views = states(names)
         name = f"{path.stem}-views"
         write_state(folder, name, state)
-        made = iter(views)
-        path.write_text(MARK.sub(lambda _: place(PurePosixPath(page), name, *next(made)), text), "utf-8")
+        path.write_text(_with_places(text, PurePosixPath(page), name, views), "utf-8")
+
+
+def _with_places(text: str, page: PurePosixPath, state: str, views: Iterable[tuple[str, str]]) -> str:
+    """A page's text with a place for each of its views."""
+    made = iter(views)
+    return MARK.sub(lambda _: place(page, state, *next(made)), text)
