@@ -180,9 +180,9 @@ def _integer() -> Schema:
 
 
 def _or_null(schema: Schema) -> Schema:
-    told = {key: schema[key] for key in ("description", "default") if key in schema}
+    told: Schema = {key: schema[key] for key in ("description", "default") if key in schema}
     bare = {key: value for key, value in schema.items() if key not in told}
-    return {"anyOf": [bare, {"type": "null"}], **told}
+    return {"anyOf": [bare, {"type": "null"}]} | told
 
 
 def _ref(name: str) -> Schema:
