@@ -68,11 +68,12 @@ class TownChannel(EditedWire):
             self._blobs = blobs_of(self.model)
             self.head = head_piece(self.model, self._blobs)
             if self._kept:
-                self.keep(self._kept)
+                self.kept = kept_piece(self.model, self._blobs, self._kept)
 
     def keep(self, side: int) -> None:
         """Have in the traits what is sent in blocks elsewise, with tiles up to a side."""
         self._kept = side
+        self.wake()
         self.kept = kept_piece(self.model, self._blobs, side)
 
     def _empty(self) -> None:

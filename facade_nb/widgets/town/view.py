@@ -104,7 +104,14 @@ class _TownWidget(PartView):
         Returns
         -------
         The view itself.
+
+        Raises
+        ------
+        ValueError
+            For a side that is no number of pixels.
         """
+        if isinstance(side, bool) or not isinstance(side, int) or side < 1:
+            raise ValueError(f"side: expected a whole number of pixels from 1; found {side!r}")
         self.channel.keep(side)
         return self
 
