@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import re
+from typing import Any
 
 from sphinx.application import Sphinx
 
@@ -50,18 +52,35 @@ napoleon_use_rtype = False
 napoleon_use_ivar = True
 
 
-def _bars(_: Sphinx, __: str, ___: str, ____: object, _____: object, lines: list[str]) -> None:
-    """Let a bar in a docstring be a bar, as in ``|W - canvas|``; within backticks it is one already."""
+_COLON = "\ue000"
+
+
+def _whole(_: Sphinx, what: str, __: str, ___: object, ____: object, lines: list[str]) -> None:
+    """Keep the sentence of a property whole: before a colon, napoleon would see its type."""
+    if what == "property" and lines:
+        lines[0] = lines[0].replace(":", _COLON)
+
+
+def _readable(_: Sphinx, __: str, ___: str, ____: object, _____: object, lines: list[str]) -> None:
+    """Let a bar in a docstring be a bar, as in ``|W - canvas|``, and names that are told together be names."""
     for at, line in enumerate(lines):
-        lines[at] = re.sub(r"(`[^`]*`)|\|", lambda found: found[1] or r"\|", line)
+        line = re.sub(r"(`[^`]*`)|\|", lambda found: found[1] or r"\|", line.replace(_COLON, ":"))
+        lines[at] = re.sub(
+            r"^(\s*:(?:ivar|param) )([\w, ]+:)", lambda found: found[1] + found[2].replace(", ", ","), line
+        )
 
 
-def _signature(*told: object) -> tuple[str, str | None] | None:
-    """Let what a field begins with be an ellipsis where a function makes it: then the signature can be read."""
-    signature, returned = told[-2:]
-    return (signature.replace("<factory>", "..."), returned) if isinstance(signature, str) else None
+def _signature(
+    _: Sphinx, what: str, __: str, value: object, ___: object, told: str | None, returned: str
+) -> Any:
+    """How a widget is made: traitlets hides it. And where a field begins with what a function makes, an ellipsis."""
+    if what == "class" and told and "**kwargs: t.Any" in told:
+        own = inspect.signature(value.__init__)  # type: ignore[misc]
+        told = str(own.replace(parameters=list(own.parameters.values())[1:], return_annotation=own.empty))
+    return (told.replace("<factory>", "..."), returned) if told else None
 
 
 def setup(app: Sphinx) -> None:
-    app.connect("autodoc-process-docstring", _bars)
+    app.connect("autodoc-process-docstring", _whole, priority=400)
+    app.connect("autodoc-process-docstring", _readable)
     app.connect("autodoc-process-signature", _signature)
