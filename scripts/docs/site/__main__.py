@@ -5,6 +5,7 @@ Warnings are errors: a dead link, a page that no table of contents has, a docstr
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -50,9 +51,8 @@ def main(out: Path) -> int:
     for fault in found:
         print(fault, file=sys.stderr)
     if not found:
-        print(
-            f"{len(list(out.rglob('*.html')))} pages in {out.relative_to(ROOT) if out.is_relative_to(ROOT) else out}"
-        )
+        first = out / "index.html"
+        print(f"{len(list(out.rglob('*.html')))} pages, the first: {os.path.relpath(first)}")
     return 1 if found else 0
 
 
