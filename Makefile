@@ -1,6 +1,7 @@
 # make lab    set everything up and open the studio in JupyterLab     make lab ARGS="--port=9000"
 # make test   set everything up and run all tests                     make test ONLY="pytest vitest"
-# Both can be run again at any time: what is there already is kept.
+# make docs   set everything up and make the site: out/site/index.html
+# All can be run again at any time: what is there already is kept.
 
 # The first Python on the path that is recent enough.
 PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 python3.11 python,$(shell \
@@ -9,7 +10,7 @@ VENV := .venv/bin
 # .venv/bin first: a Node that set-up brought lies there.
 export PATH := $(CURDIR)/$(VENV):$(PATH)
 
-.PHONY: help lab test check bench front watch core notebooks format floors lock clean setup-lab setup-test
+.PHONY: help lab test docs check bench front watch core notebooks format floors lock clean setup-lab setup-test
 .DEFAULT_GOAL := help
 
 help:  ## list the targets
@@ -20,6 +21,9 @@ lab: setup-lab  ## set up, start JupyterLab on the studio notebook, print its ad
 
 test: setup-test  ## set up, run all checks and tests (ONLY="…" for some of them)
 	@$(VENV)/python scripts/run_tests.py $(ONLY)
+
+docs: setup-test  ## set up, make the site, print where its first page is
+	@$(VENV)/python -m scripts.docs.site $(ARGS)
 
 check: setup-test  ## linters, types, imports, stale bundles: no tests
 	@$(VENV)/python scripts/run_tests.py check

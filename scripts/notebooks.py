@@ -17,6 +17,11 @@ WIDGETS = ("studio", "solver", "texture", "town", "inference")
 STATIC = ("texture", "town", "inference")
 """Saved with static forms alone: the tiles, or three bundles, would make their state too large."""
 
+VIEW = "application/vnd.jupyter.widget-view+json"
+STATE = "application/vnd.jupyter.widget-state+json"
+HIDING = "<style>.jp-OutputArea-child:has(.fnb) + .jp-OutputArea-child:has(.fnb-as-saved) { display: none }</style>"
+HIDING += '<span class="fnb-as-saved"></span>'
+
 
 def paths(names: Sequence[str]) -> list[Path]:
     """Those that are named; without names all that have widgets."""
@@ -27,9 +32,27 @@ def paths(names: Sequence[str]) -> list[Path]:
     return [every[name] for name in names or (*WIDGETS, *(path.stem for path in tutorials))]
 
 
+def apart(notebook: nbformat.NotebookNode) -> None:
+    """Let the static form of each widget stand in an output of its own.
+
+    A page that was made without widgets, such as nbconvert's, would show neither: it takes the widget of an output that
+    has both. Where the widget is shown, the static form after it hides itself.
+    """
+    for cell in notebook.cells:
+        for output in list(cell.get("outputs", [])):
+            data = output.get("data", {})
+            if VIEW in data and "text/html" in data:
+                static = nbformat.v4.new_output("display_data", {"text/html": HIDING + data.pop("text/html")})
+                cell.outputs.insert(cell.outputs.index(output) + 1, static)
+
+
 def write(notebook: nbformat.NotebookNode, path: Path) -> None:
     """Save a notebook, its widgets in one line: nobody reads them, and they take less room."""
+    apart(notebook)
     widgets = notebook.metadata.get("widgets")
+    for model in (widgets or {}).get(STATE, {}).get("state", {}).values():
+        if model["model_name"] == "LayoutModel":  # what is None there is so without being told
+            model["state"] = {key: value for key, value in model["state"].items() if value is not None}
     here = "the widgets"
     if widgets is not None:
         notebook.metadata["widgets"] = here

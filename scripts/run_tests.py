@@ -61,13 +61,25 @@ STEPS: dict[str, Step] = {
     "bundles": Step(("node", ROOT / "scripts" / "front.mjs", "--check")),
     "core": Step((PYTHON, ROOT / "scripts" / "core.py", "--check")),
     "vitest": Step((TOOLS / "vitest", "run")),
+    "site": Step((*PYTEST, "tests/site")),
     "pytest": Step(
-        (*PYTEST, "-n", "auto", "--dist", "loadfile", "tests", "--ignore=tests/browser"), cores=CORES
+        (
+            *PYTEST,
+            "-n",
+            "auto",
+            "--dist",
+            "loadfile",
+            "tests",
+            "--ignore=tests/browser",
+            "--ignore=tests/site",
+        ),
+        cores=CORES,
     ),
 }
 GROUPS = {
     "check": ("ruff", "format", "mypy", "imports", "biome", "tsc", "bundles", "core"),
     "python": ("ruff", "format", "mypy", "imports", "pytest"),
+    "docs": ("site",),
     "front-end": ("biome", "tsc", "bundles", "vitest"),
 }
 

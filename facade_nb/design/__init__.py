@@ -3,6 +3,7 @@
 from .errors import DesignError, FacadeError, Fault, NoLayout, PatternError, Suggestion
 from .model import Canvas, Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol, Variant
 from .pattern import Glyph, Pattern, parse
+from .schema import design_schema
 
 __all__ = [
     "Canvas",
@@ -22,5 +23,6 @@ __all__ = [
     "Suggestion",
     "Symbol",
     "Variant",
+    "design_schema",
     "parse",
 ]

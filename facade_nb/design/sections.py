@@ -17,18 +17,31 @@ from .pattern import Pattern, parse
 from .text import clean_name, counter_fault, fault_at, symbol_fault
 from .tree import MAX_LETTERS, too_long
 
-__all__ = ["FORMAT", "DocumentReader"]
+__all__ = [
+    "DESIGN_FIELDS",
+    "FLAGS",
+    "FORMAT",
+    "PLACEMENTS",
+    "SHAPE_FIELDS",
+    "SYMBOL_FIELDS",
+    "VARIANT_FIELDS",
+    "DocumentReader",
+]
 
 FORMAT = "facade-nb/design/1"
 """What a document's `format` says."""
 
 T = TypeVar("T")
 
-_SHAPE_FIELDS = tuple(field.name for field in fields(Shape))
-_VARIANT_FIELDS = ("weight", *(name for name in _SHAPE_FIELDS if name != "variants"))
-_SYMBOL_FIELDS = tuple(field.name for field in fields(Symbol))[1:]
-_FLAGS = {"opaque": True, "attached": False, "unoccludable": False, "transparent": False}
-_PLACEMENTS: tuple[Placement, ...] = ("center", "left", "right")  # the first is the default
+DESIGN_FIELDS = (
+    *("format", "name", "canvas", "seed", "grammar"),
+    *("symbols", "counters", "patterns", "layers", "shapes"),
+)
+SHAPE_FIELDS = tuple(field.name for field in fields(Shape))
+VARIANT_FIELDS = ("weight", *(name for name in SHAPE_FIELDS if name != "variants"))
+SYMBOL_FIELDS = tuple(field.name for field in fields(Symbol))[1:]
+FLAGS = {"opaque": True, "attached": False, "unoccludable": False, "transparent": False}
+PLACEMENTS: tuple[Placement, ...] = ("center", "left", "right")  # the first is the default
 _MAX_BLANKS = 40
 """Most blanks at which the key of a shape may be parted into two names."""
 _LOOKALIKES = "ϵєɛ"  # letters that a text copied from a paper may have for ε
@@ -64,11 +77,7 @@ class DocumentReader:
         if not isinstance(document, Mapping):
             faults.expected("", "a design document (an object)", document)
             return Design()
-        known = (
-            *("format", "name", "canvas", "seed", "grammar"),
-            *("symbols", "counters", "patterns", "layers", "shapes"),
-        )
-        values = faults.record(document, "", known, ("format",))
+        values = faults.record(document, "", DESIGN_FIELDS, ("format",))
         if "format" in values and values["format"] != FORMAT:
             faults.expected("format", repr(FORMAT), values["format"])
         name = faults.text(values.get("name", "Untitled"), "name", "Untitled", empty=True)
@@ -147,13 +156,13 @@ class DocumentReader:
 
     def symbol(self, name: str, value: object, place: str) -> Symbol:
         """A symbol."""
-        values = self.faults.record(value, place, _SYMBOL_FIELDS)
+        values = self.faults.record(value, place, SYMBOL_FIELDS)
         opaque, attached, unoccludable, transparent = (
             self.faults.flag(values.get(key, default), at(place, key), default)
-            for key, default in _FLAGS.items()
+            for key, default in FLAGS.items()
         )
         placement: Placement = self.faults.choice(
-            values.get("placement", "center"), at(place, "placement"), _PLACEMENTS
+            values.get("placement", "center"), at(place, "placement"), PLACEMENTS
         )
         size, least, most = (self.length(values, key, place) for key in ("size", "min", "max"))
         if size is None and values.get("size") is not None:
@@ -280,14 +289,14 @@ class DocumentReader:
 
     def shape(self, value: object, place: str) -> Shape:
         """A shape; null is as good as missing."""
-        return self.looks(self.faults.record(value, place, _SHAPE_FIELDS), place)
+        return self.looks(self.faults.record(value, place, SHAPE_FIELDS), place)
 
     def variants(self, value: object, place: str) -> tuple[Variant, ...] | None:
         """Variants of a shape, each with its fields and its weight; null and an empty list are as good as missing."""
         found: list[Variant] = []
         for index, item in enumerate(self.faults.sequence(value, place, "a list of variants")):
             inside = at(place, index)
-            values = dict(self.faults.record(item, inside, _VARIANT_FIELDS))
+            values = dict(self.faults.record(item, inside, VARIANT_FIELDS))
             weight = values.pop("weight", None)
             if weight is not None:
                 weight = self.faults.number(weight, at(inside, "weight"), None, least=0)

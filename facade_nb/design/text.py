@@ -11,6 +11,7 @@ from .modes import MODES, SYNONYMS
 from .names import is_identifier, nfc
 
 __all__ = [
+    "CONTROLS",
     "clean_name",
     "control_character",
     "counter_fault",
@@ -23,7 +24,9 @@ __all__ = [
 ]
 
 _LINE_END = re.compile(r"\r\n|\r|\n")
-_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufffe\uffff]")
+CONTROLS = r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufffe\uffff]"
+"""What is no part of readable text or cannot be stored, as a regular expression of Python and of JavaScript."""
+_CONTROL = re.compile(CONTROLS)
 _EXCERPT_WIDTH = 88
 _BRACKETS = ("<", ">", "{", "}")
 _PIECES = re.compile("[\u1100-\u11ff\ua960-\ua97f\ud7b0-\ud7ff]")

@@ -9,7 +9,9 @@ from pathlib import Path
 
 import nbformat
 import pytest
+from bs4 import BeautifulSoup
 from nbclient import NotebookClient
+from nbconvert import HTMLExporter
 
 from facade_nb.course.chapters import CHAPTERS
 
@@ -85,8 +87,26 @@ def test_is_saved_with_static_forms_where_a_widget_would_be_blank(path: Path) ->
     saved = outputs(nbformat.read(path, as_version=4))
     assert saved, "saved without outputs"
     assert not [output for output in saved if output.output_type == "error"]
-    widgets = [output.data for output in saved if WIDGET in output.get("data", {})]
-    assert not [data for data in widgets if not has_static_form(data)]
+    after = [*saved[1:], nbformat.from_dict({})]
+    widgets = [
+        (one.data, two.get("data", {}))
+        for one, two in zip(saved, after, strict=True)
+        if WIDGET in one.get("data", {})
+    ]
+    assert not [both for both in widgets if not any(map(has_static_form, both))]
+
+
+@pytest.mark.parametrize("name", ["notebooks/solver", "notebooks/town", "tutorials/how-the-solver-thinks"])
+def test_html_of_nbconvert_has_no_blank_output(name: str) -> None:
+    """Without a network its widgets are blank: what else the cell shows is not."""
+    html, _ = HTMLExporter(exclude_input=True).from_filename(str(ROOT / f"{name}.ipynb"))
+    page = BeautifulSoup(html, "html.parser")
+    cells = [cell for cell in page.select(".jp-CodeCell") if cell.select_one(".jp-OutputArea-child")]
+    assert len(cells) >= 3
+    for cell in cells:
+        for hidden in cell.select("script, style, .jp-OutputPrompt"):
+            hidden.decompose()
+        assert cell.select_one("img, svg, table") or cell.get_text(strip=True), cell
 
 
 @every_notebook

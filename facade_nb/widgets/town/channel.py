@@ -13,7 +13,7 @@ from ..shared.bundled import Message
 from ..shared.pictured import EditedWire
 from ..studio.wire import describe_faults
 from .model import TownModel
-from .packet import BLOCK, Blob, blobs_of, head_piece, row
+from .packet import BLOCK, Blob, blobs_of, head_piece, kept_piece, row
 from .still import still
 from .tiles import tiles_of, tiles_piece
 
@@ -41,6 +41,7 @@ class TownChannel(EditedWire):
     front = "town"
 
     head = Bytes(help="All that is small; see `packet.head_piece`.").tag(sync=True)
+    kept = Bytes(help="All that a page without a kernel can't ask for; see `keep`.").tag(sync=True)
     hour = Float().tag(sync=True)
     viewpoint = List(Float()).tag(sync=True)
     path = List(Dict()).tag(sync=True)
@@ -54,6 +55,7 @@ class TownChannel(EditedWire):
 
     def __init__(self, model: TownModel) -> None:
         self._blobs: dict[str, Blob] = {}
+        self._kept = 0  # the side of tiles that are kept; 0: nothing is
         super().__init__(model, **_state(model))
         self._refill()
         model.observe(self._on_model)
@@ -65,11 +67,19 @@ class TownChannel(EditedWire):
         with self._telling():
             self._blobs = blobs_of(self.model)
             self.head = head_piece(self.model, self._blobs)
+            if self._kept:
+                self.kept = kept_piece(self.model, self._blobs, self._kept)
+
+    def keep(self, side: int) -> None:
+        """Have in the traits what is sent in blocks elsewise, with tiles up to a side."""
+        self._kept = side
+        self.wake()
+        self.kept = kept_piece(self.model, self._blobs, side)
 
     def _empty(self) -> None:
         self._stills = False
         self._blobs = {}
-        self.head = self.still = b""
+        self.head = self.still = self.kept = b""
 
     def _on_model(self, change: Any) -> None:
         with self.hold_sync():

@@ -23,9 +23,9 @@ from ..solver.packing import pack
 from ..texture.packet import HOURS, attributes, passes_of, shaders_of
 from .model import TownModel
 from .places import EYE, edges_of
-from .tiles import question_of
+from .tiles import question_of, tiles_of, tiles_piece
 
-__all__ = ["BLOCK", "Blob", "blobs_of", "described", "head_piece", "hours", "needs_of", "row"]
+__all__ = ["BLOCK", "Blob", "blobs_of", "described", "head_piece", "hours", "kept_piece", "needs_of", "row"]
 
 _LOOKS = Looks()
 
@@ -134,6 +134,18 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
         head["starts"] = model.starts.places(model.grammar).reshape(-1).astype(int).tolist()
         head["town"] = described(model)
     return pack(head)
+
+
+def kept_piece(model: TownModel, blobs: dict[str, Blob], side: int) -> bytes:
+    """All that is large, for a page that no kernel answers: the blobs, and tiles whose sides are at most `side`."""
+    names = model.grammar.encoding.tiles
+    told, pixels = tiles_piece(tiles_of(model.grammar), names, [0] * len(names), side)
+    for one in told:  # finer sizes are not there to be asked for
+        one.update(
+            sizes=one["sizes"][one["first"] : one["end"]], first=0, end=one["end"] - one["first"], draft=False
+        )
+    contents = {name: np.frombuffer(blob.content, np.uint8) for name, blob in blobs.items()}
+    return pack({"blobs": contents, "tiles": told, "pixels": np.frombuffer(pixels, np.uint8)})
 
 
 @lru_cache(maxsize=1)

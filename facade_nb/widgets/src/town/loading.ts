@@ -2,7 +2,7 @@
 // context is lost or the kernel is gone.
 
 import { type Bytes, inflated } from "../solver/packing.ts";
-import { COARSE, type TileReply, Tiles } from "./tiles.ts";
+import { COARSE, type TileInfo, type TileReply, Tiles } from "./tiles.ts";
 import type { BlobInfo, Chunks, Head, Place } from "./types.ts";
 
 const AT_ONCE = 4_000_000; // bytes that one message asks for, about, before they are deflated
@@ -15,6 +15,13 @@ export interface Reply {
   version: number;
   blocks: number[];
   client: string;
+}
+
+/** What a saved state has in place of blocks. */
+export interface Kept {
+  blobs: Record<string, Uint8Array>;
+  tiles: TileInfo[];
+  pixels: Uint8Array;
 }
 
 export class Loading {
@@ -137,6 +144,19 @@ export class Loading {
   async receiveTiles({ tiles }: TileReply, buffer: Bytes): Promise<void> {
     this.flying = Math.max(0, this.flying - 1);
     this.tiles.receive(tiles, new Uint8Array(await inflated(buffer)));
+  }
+
+  /** Take all at once, where there is no kernel to ask. */
+  fill({ blobs, tiles, pixels }: Kept): void {
+    this.tiles.receive(tiles, pixels);
+    for (const [name, content] of Object.entries(blobs)) {
+      const own = this.blobs.get(name);
+      if (own?.content.length !== content.length) continue;
+      own.content.set(content);
+      for (let block = 0; block < countOf(own.info); block += 1) own.have.add(block);
+      this.come(name, 0, content.length);
+    }
+    for (const chunk of this.chunks?.first.keys() ?? []) this.has(chunk);
   }
 
   private next(place: Place): { name: string; blocks: number[] } | { names: string[]; upto: number } | null {

@@ -10,7 +10,7 @@ import { CHOSEN, MARKED, SHADER } from "./chosen.ts";
 import { Detail } from "./detail.ts";
 import { Fitted } from "./fitted.ts";
 import { cropped, daylight, frustumOf, isDay, type Sunlight, uniformsOf, visible } from "./frame.ts";
-import { Loading, type Reply } from "./loading.ts";
+import { type Kept, Loading, type Reply } from "./loading.ts";
 import { COARSE, sideNeeded, type TileReply } from "./tiles.ts";
 import type { Head, Light, Pass, Pixels, Place, Stop, Values, Vector } from "./types.ts";
 import { Walls } from "./walls.ts";
@@ -257,7 +257,10 @@ export class Session extends Entering<Entered> {
     this.follow(true);
     this.inTurn(async () => {
       await this.take();
+      const kept = this.live ? undefined : this.channel.get<Bytes>("kept");
+      if (this.head && byteLength(kept)) this.loading.fill(await unpack<Kept>(kept as Bytes));
       if (this.head) this.loading.ask(this.place);
+      this.arrange();
       this.tell();
     });
   }
