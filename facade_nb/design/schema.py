@@ -38,7 +38,9 @@ def design_schema() -> Schema:
                 "name": _told(_text(empty=True), "A title."),
                 "canvas": _told(_canvas(), "The rectangle to fill."),
                 "seed": _told(_integer(), "Chooses among variants.", 0),
-                "grammar": _told({"type": "string"}, "A texture grammar, whose rules may be materials: rule:Name."),
+                "grammar": _told(
+                    {"type": "string"}, "A texture grammar, whose rules may be materials: rule:Name."
+                ),
                 "symbols": _told(_named(_ref("symbol")), "The letters of patterns, by name."),
                 "counters": _told(_named(_ref("counter")), "The counts of patterns, by name."),
                 "patterns": _told(_named(_ref("pattern"), texts=True), "Patterns, by name."),

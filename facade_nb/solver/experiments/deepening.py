@@ -161,8 +161,8 @@ class _OwnMeeting(Meeting):
 
     forward: OwnSide
 
-    def _beyond(self, side: Side, half: Half) -> bool:
-        return False
+    def _beyond(self, side: Side, half: Half) -> str:
+        return ""
 
     def _priced(self, structure: Structure) -> Priced | None:
         priced = super()._priced(structure)
