@@ -313,7 +313,7 @@ def surface_axes(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     along = np.stack([out[:, 2], np.zeros(len(out)), -out[:, 0]], axis=1)  # up × out
     level = np.abs(out[:, 1]) > _LEVEL
     along[level] = np.array([1.0, 0.0, 0.0]) - out[level, :1] * out[level]
-    along /= np.sqrt((along * along).sum(axis=1, keepdims=True))
+    along /= np.maximum(np.sqrt((along * along).sum(axis=1, keepdims=True)), 1e-30)
     up = out[:, _NEXT] * along[:, _AFTER] - out[:, _AFTER] * along[:, _NEXT]
     return np.stack([along, up, out], axis=1)
 

@@ -22,7 +22,7 @@ SCHEMA = Draft202012Validator(design_schema())
 WHOLE = json.loads((Path(__file__).parent / "every-field.json").read_text("utf-8"))
 STRUCTURE = re.compile(
     r"unknown field|this field is missing|expected (an object|a list|a design document|a number|a whole number"
-    r"|true or false|a text|a pattern's text|one of (center|left|right)|'facade-nb/design/1')"
+    r"|true or false|a text|the text of|a pattern's text|one of (center|left|right)|'facade-nb/design/1')"
 )
 """What the reader says of structure; the rest is about names, patterns and bounds, which a schema cannot tell."""
 
