@@ -18,6 +18,7 @@ __all__ = [
     "FACADE",
     "PAGE",
     "PASSES",
+    "PLAIN",
     "THROUGH",
     "Buffer",
     "Pass",
@@ -144,6 +145,7 @@ BUFFERS: tuple[Buffer, ...] = (
     Buffer("specular", 4, "f2", "Its specular value, in rooms a lamp's colour; and how far it lies behind the wall."),
     Buffer("occlusion", 2, "f2", "How much around a point is open, of a few taps; and how deep it lies.", part=2),
     Buffer("softened", 2, "f2", "The same without the pattern of the taps.", part=2),
+    Buffer("overhang", 2, "f2", "How much of the sun is left by what stands out of the wall; and how deep.", part=2),
     Buffer("light", 4, "f2", "Light that comes from there, linear."),
     Buffer("air", 4, "f2", "The same after the air between, and the sky."),
     Buffer("toned", 4, "f1", "As a film has it; and how bright that is."),
@@ -171,8 +173,11 @@ PASSES: tuple[Pass, ...] = (
     Pass("occlusion", "occlusion.frag", ("specular", "facing"), ("occlusion",),
          "Looks how much its neighbours hide of a point's surroundings.", when="occlusion"),
     Pass("soften", "soften.frag", ("occlusion",), ("softened",), "Evens that out.", when="occlusion"),
-    Pass("light", "light.frag", ("color", "normal", "specular", "facing", "softened", "shadow_near", "shadow_far"),
-         ("light",), "Adds up sun, sky, ground and lamps.", options=("relief",), seen="depth"),
+    Pass("overhang", "overhang.frag", ("specular", "facing"), ("overhang",),
+         "Looks what stands out of a wall before the sun.", when="relief"),
+    Pass("light", "light.frag",
+         ("color", "normal", "specular", "facing", "softened", "overhang", "shadow_near", "shadow_far"), ("light",),
+         "Adds up sun, sky, ground and lamps.", options=("relief",), seen="depth"),
     Pass("pools", "pools.frag", ("color", "normal", "facing"), ("light",), "Adds pools of light around street lamps.",
          "pools.vert", "mesh", "camera", turning=True, adds=True, sums=True, when="lamps"),
     Pass("air", "air.frag", ("light", "facing"), ("air",), "Lets haze take what is far.", seen="depth"),
@@ -182,6 +187,9 @@ PASSES: tuple[Pass, ...] = (
          "Smooths edges of the mesh and of splits."),
 )  # fmt: skip
 """The pipeline."""
+
+PLAIN: tuple[Pass, ...] = tuple(own for own in PASSES if own.when != "relief")
+"""The same for who never draws relief: a page."""
 
 
 def arranged(passes: Sequence[Pass] = PASSES, buffers: Sequence[Buffer] = BUFFERS) -> tuple[Pass, ...]:
@@ -199,7 +207,9 @@ def arranged(passes: Sequence[Pass] = PASSES, buffers: Sequence[Buffer] = BUFFER
             if name not in names:
                 raise ValueError(f"pass {own.name!r}: there is no buffer {name!r}{nearest(name, names)}")
         if own.seen and own.seen not in written:
-            raise ValueError(f"pass {own.name!r}: it asks {own.seen!r} what is seen, which no pass before it writes")
+            raise ValueError(
+                f"pass {own.name!r}: it asks {own.seen!r} what is seen, which no pass before it writes"
+            )
         for name in own.reads:
             if name in own.writes:
                 raise ValueError(f"pass {own.name!r}: it reads {name!r}, which it writes itself")
