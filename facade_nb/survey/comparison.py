@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from ..solver.model.layout import Layout, PlacedShape, Rect
 from .openings import OPENING_KINDS, rect_of
@@ -77,6 +76,8 @@ def match(layout: Layout, openings: Sequence[Mapping[str, Any]]) -> tuple[Pair, 
     solved = _to_corner([shape.rect for _, shape in shapes])
     if not len(surveyed) or not len(solved):
         return ()
+    from scipy.optimize import linear_sum_assignment  # half a second, which no notebook need wait for
+
     scores = _overlaps(surveyed, solved)
     rows, columns = linear_sum_assignment(scores, maximize=True)
     return tuple(

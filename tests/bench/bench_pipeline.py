@@ -58,7 +58,7 @@ def main() -> None:
         widths = (-12, *(10 for _ in range(2 * len(VIEWS))))
         heads = ["pass", *(head for view in VIEWS for head in (view, "CPU"))]
         print(line_of(list(zip(heads, widths, strict=True))))
-        for own in PASSES:
+        for own in (own for own in PASSES if own.name in taken["street"]):  # others need lamps
             cells = [f"{1000 * value:.0f}" for view in VIEWS for value in taken[view][own.name]]
             print(line_of(list(zip([own.name, *cells], widths, strict=True))))
         cells = [

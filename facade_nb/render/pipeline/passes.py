@@ -18,6 +18,7 @@ __all__ = [
     "FACADE",
     "PAGE",
     "PASSES",
+    "PLAIN",
     "THROUGH",
     "Buffer",
     "Pass",
@@ -88,6 +89,11 @@ class Pass:
         Whether a triangle is drawn from behind, too: shadows of a mesh that is open are whole all the same.
     defines
         Given to the shader.
+    seen
+        For a pass that draws the screen: a buffer of depths. Only pixels in which that has something are drawn, all
+        others hold zeros: a software renderer, too, passes over those without running the shader.
+    sky
+        It draws the other pixels, those in which that buffer has nothing; what there is stays.
     sums
         Whether what it draws of the mesh is summed up with what there is, whatever lies in front.
     under
@@ -113,6 +119,8 @@ class Pass:
     turning: bool = False
     adds: bool = False
     both: bool = False
+    seen: str = ""
+    sky: bool = False
     sums: bool = False
     under: bool = False
     after: str = ""
@@ -137,6 +145,7 @@ BUFFERS: tuple[Buffer, ...] = (
     Buffer("specular", 4, "f2", "Its specular value, in rooms a lamp's colour; and how far it lies behind the wall."),
     Buffer("occlusion", 2, "f2", "How much around a point is open, of a few taps; and how deep it lies.", part=2),
     Buffer("softened", 2, "f2", "The same without the pattern of the taps.", part=2),
+    Buffer("overhang", 2, "f2", "How much of the sun is left by what stands out of the wall; and how deep.", part=2),
     Buffer("light", 4, "f2", "Light that comes from there, linear."),
     Buffer("air", 4, "f2", "The same after the air between, and the sky."),
     Buffer("toned", 4, "f1", "As a film has it; and how bright that is."),
@@ -160,20 +169,27 @@ PASSES: tuple[Pass, ...] = (
          "turning.vert", "mesh", "camera", turning=True, adds=True),
     Pass("grammar", "grammar.frag", _MESH, ("color", "normal", "specular"),
          "Evaluates the grammar once for each pixel that is seen.", defines=("MIPS", "EDGES", "DEEP"),
-         options=("relief",)),
+         options=("relief",), seen="depth"),
     Pass("occlusion", "occlusion.frag", ("specular", "facing"), ("occlusion",),
          "Looks how much its neighbours hide of a point's surroundings.", when="occlusion"),
     Pass("soften", "soften.frag", ("occlusion",), ("softened",), "Evens that out.", when="occlusion"),
-    Pass("light", "light.frag", ("color", "normal", "specular", "facing", "softened", "shadow_near", "shadow_far"),
-         ("light",), "Adds up sun, sky, ground and lamps.", options=("relief",)),
+    Pass("overhang", "overhang.frag", ("specular", "facing"), ("overhang",),
+         "Looks what stands out of a wall before the sun.", when="relief"),
+    Pass("light", "light.frag",
+         ("color", "normal", "specular", "facing", "softened", "overhang", "shadow_near", "shadow_far"), ("light",),
+         "Adds up sun, sky, ground and lamps.", options=("relief",), seen="depth"),
     Pass("pools", "pools.frag", ("color", "normal", "facing"), ("light",), "Adds pools of light around street lamps.",
          "pools.vert", "mesh", "camera", turning=True, adds=True, sums=True, when="lamps"),
-    Pass("air", "air.frag", ("light", "facing"), ("air",), "Lets haze take what is far; draws the sky."),
+    Pass("air", "air.frag", ("light", "facing"), ("air",), "Lets haze take what is far.", seen="depth"),
+    Pass("sky", "sky.frag", (), ("air",), "Draws sky and clouds behind.", seen="depth", sky=True),
     Pass("tone", "tone.frag", ("air",), ("toned",), "Exposes it."),
     Pass("edges", "smooth_edges.frag", ("toned", "facing", "normal"), ("picture",),
          "Smooths edges of the mesh and of splits."),
 )  # fmt: skip
 """The pipeline."""
+
+PLAIN: tuple[Pass, ...] = tuple(own for own in PASSES if own.when != "relief")
+"""The same for who never draws relief: a page."""
 
 
 def arranged(passes: Sequence[Pass] = PASSES, buffers: Sequence[Buffer] = BUFFERS) -> tuple[Pass, ...]:
@@ -190,6 +206,10 @@ def arranged(passes: Sequence[Pass] = PASSES, buffers: Sequence[Buffer] = BUFFER
         for name in (*own.reads, *own.writes):
             if name not in names:
                 raise ValueError(f"pass {own.name!r}: there is no buffer {name!r}{nearest(name, names)}")
+        if own.seen and own.seen not in written:
+            raise ValueError(
+                f"pass {own.name!r}: it asks {own.seen!r} what is seen, which no pass before it writes"
+            )
         for name in own.reads:
             if name in own.writes:
                 raise ValueError(f"pass {own.name!r}: it reads {name!r}, which it writes itself")
@@ -215,7 +235,7 @@ def shared(
     by_name = {own.name: own for own in buffers}
     last = dict.fromkeys((*whole, *(own.name for own in buffers if own.side)), len(passes))
     for number, own_pass in enumerate(passes):
-        for name in (*own_pass.reads, *own_pass.writes):
+        for name in (*own_pass.reads, *own_pass.writes, *filter(None, [own_pass.seen])):
             last[name] = max(number, last.get(name, 0))
     found: dict[str, str] = {}
     free_after: dict[str, int] = {}  # of an image, by the name of the first buffer in it
@@ -283,7 +303,13 @@ def seen_through(
         defines = (*own.defines, "BEHIND", *(f"{name} {moved[name]}" for name in sorted(names)))
         reads, writes = (tuple(moved.get(name, name) for name in held) for held in (own.reads, own.writes))
         return replace(
-            own, name=f"{own.name} behind {number}", defines=defines, reads=reads, writes=writes, **changes
+            own,
+            name=f"{own.name} behind {number}",
+            defines=defines,
+            reads=reads,
+            writes=writes,
+            seen=moved.get(own.seen, own.seen),
+            **changes,
         )
 
     more: list[Pass] = []
@@ -350,7 +376,7 @@ PAGE: tuple[Pass, ...] = (
         when="smooth",
     ),
     FACADE[2],
-    replace(_FACADE["air"], defines=("ALONE",), when="lit"),
+    replace(_FACADE["air"], defines=("ALONE",), seen="", when="lit"),
     replace(_FACADE["tone"], when="lit"),
 )
 """For a façade on a page, before the sky: one sample a pixel first (`sharp`), then more around splits (`smooth`)."""

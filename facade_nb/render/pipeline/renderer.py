@@ -219,8 +219,14 @@ class Renderer:
             if own.under:
                 context.enable(context.BLEND)
                 context.blend_func = context.ONE_MINUS_DST_ALPHA, context.ONE
+            elif own.seen and not own.sky:
+                target.clear()
+            if own.seen:  # the screen lies as far away as can be
+                context.enable(context.DEPTH_TEST)
+                context.depth_func = "<=" if own.sky else ">"
             mesh.render(context.TRIANGLES, vertices=3)
-            context.disable(context.BLEND)
+            context.depth_func = "<"
+            context.disable(context.BLEND | context.DEPTH_TEST)
 
     def _drew(self, own: Pass) -> bool:
         """Whether a pass that draws the mesh has drawn something: its depths tell."""
@@ -258,8 +264,11 @@ class Renderer:
             self._images[name] = keep(image)
         for own_pass in self.passes:
             colours = [self._images[n] for n in own_pass.writes if self.buffers[n].kind != "depth"]
-            depth = next((self._images[n] for n in own_pass.writes if self.buffers[n].kind == "depth"), None)
-            self._targets[own_pass.name] = keep(context.framebuffer(colours, depth))
+            depths = [n for n in own_pass.writes if self.buffers[n].kind == "depth"]
+            told = depths or [own_pass.seen] if own_pass.seen else depths
+            target = keep(context.framebuffer(colours, self._images[told[0]] if told else None))
+            target.depth_mask = bool(depths)  # what is only asked stays, also when colours are cleared
+            self._targets[own_pass.name] = target
 
     def _read(self, name: str) -> NDArray[Any]:
         own, image = self.buffers[name], self._images[name]

@@ -1,4 +1,4 @@
-"""The ground under real footprints: a paved strip around each building, and a plain."""
+"""The ground under real footprints: a paved strip around each building, paved places, and a plain."""
 
 from __future__ import annotations
 
@@ -23,13 +23,15 @@ TILE = 240.0
 _PAVEMENT, _GRASS = 1, 3
 
 
-def plain_of(offsets: Ints, corners: Floats) -> Ground:
+def plain_of(offsets: Ints, corners: Floats, paved: Floats) -> Ground:
     """Strips and plain.
 
     Parameters
     ----------
     offsets, corners
         The buildings' outer rings.
+    paved
+        Corners (p, 4, 2) of places that are paved, too.
     """
     rings = shapely.linearrings(corners, indices=ring_numbers(offsets))
     houses = np.asarray(shapely.polygons(rings), object)
@@ -41,6 +43,8 @@ def plain_of(offsets: Ints, corners: Floats) -> Ground:
     good &= (np.abs(reach) < 3 * APRON).all(axis=1)
     aprons = wide
     aprons[~good] = shapely.buffer(houses[~good], APRON, join_style="mitre", mitre_limit=2.0)
+    if len(paved):
+        aprons = np.concatenate([aprons, shapely.polygons(paved)])
     low = np.floor(corners.min(axis=0) / TILE) - 2
     high = np.ceil(corners.max(axis=0) / TILE) + 2
     columns, rows = (high - low).astype(int).tolist()
@@ -54,11 +58,11 @@ def plain_of(offsets: Ints, corners: Floats) -> Ground:
     joined = [
         shapely.union_all(part) for part in np.split(aprons[apron], first[1:])
     ] if len(built) else []  # fmt: skip
-    paved = shapely.intersection(tiles[built], joined)
+    strips = shapely.intersection(tiles[built], joined)
     green = shapely.difference(tiles[built], joined)
     empty = np.delete(tiles, built)
     pieces = Pieces()
-    _triangles(pieces, shapely.get_parts(paved), _PAVEMENT)
+    _triangles(pieces, shapely.get_parts(strips), _PAVEMENT)
     for parts in (shapely.get_parts(green), empty, _frame(x, y)):
         _triangles(pieces, parts, _GRASS)
     return pieces.ground()

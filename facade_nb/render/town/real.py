@@ -16,6 +16,7 @@ from .characters import eaves_of, storeys_of, table_of
 from .chimneys import chimneys_of
 from .finishing import Characters, Pairs, finish, pairs_of, walls_of
 from .fitting import fit_fronts, single_fronts
+from .forecourts import cars_before, forecourts_of, hedges_before, lamps_before, people_before
 from .geojson import Outlines, read_outlines
 from .greenery import trees_of
 from .neighbours import Cut, cut_walls, with_hidden
@@ -32,6 +33,9 @@ __all__ = ["real_plan"]
 
 _TREES = 3.0
 """Trees for each house, at the most."""
+
+_GARDENS = frozenset({"detached", "half-timbered"})
+"""Styles of houses that stand in gardens."""
 
 _WANTED: Mapping[int, Mapping[str, float]] = {
     Use.UNKNOWN: {"detached": 1},
@@ -75,11 +79,21 @@ def real_plan(
     out = characters.kind == OUTBUILDING
     given = np.where((given < 0) & out, np.where(_sizes(outlines) < 60, FLAT, GABLE), given)
     stages.at(0.4, "ground")
-    ground = plain_of(offsets, outlines.corners[index])
+    courts = forecourts_of(cut, owner, roles, gaps, np.asarray(outlines.polygons(), object), seed)
+    ground = plain_of(offsets, outlines.corners[index], courts.corners)
     stages.at(0.55, "roofs")
     plan = finish(walls, pairs, characters, styles, ground, seed, given, tops, outlines.left_out, stages)
     stages.at(0.68, "trees")
-    return replace(plan, things=trees_of(plan, seed, _TREES) + chimneys_of(plan, seed))
+    things = trees_of(plan, seed, _TREES) + chimneys_of(plan, seed) + lamps_before(plan, courts, seed)
+    stages.at(0.71, "street life")
+    cars = cars_before(plan, courts, seed)
+    gardens = np.isin(characters.style, [k for k, one in enumerate(styles) if one.name in _GARDENS])
+    return replace(
+        plan,
+        things=things + people_before(plan, courts, cars, things, seed),
+        cars=cars,
+        hedges=hedges_before(plan, courts, gardens & ~out, things, seed),
+    )
 
 
 def _sizes(outlines: Outlines) -> Floats:

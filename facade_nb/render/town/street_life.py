@@ -17,7 +17,17 @@ from .things import LAMP, PEOPLE, PERSON, Things
 if TYPE_CHECKING:
     from .plan import Plan
 
-__all__ = ["NO_CARS", "NO_HEDGES", "Cars", "Hedges", "cars_of", "hedges_of", "people_of"]
+__all__ = [
+    "NO_CARS",
+    "NO_HEDGES",
+    "Cars",
+    "Hedges",
+    "cars_like",
+    "cars_of",
+    "hedges_of",
+    "people_of",
+    "ways_of",
+]
 
 _SLOT, _CLEAR = 6.0, 9.5
 """From one parked car to the next, and from a crossing to the first, metres."""
@@ -139,6 +149,14 @@ def cars_of(cells: Cells, built: Ints, houses: int, seed: int) -> Cars:
     return Cars(millimetres(at), kerbs.unit[edge] * back[:, None], kind, millimetres(long), seeds)
 
 
+def cars_like(at: Floats, way: Floats, random: np.random.Generator) -> Cars:
+    """Cars at places, of all kinds, as they are parked in streets."""
+    kind, size = random.random((2, len(at)))
+    sort = np.searchsorted([0.58, 0.88], kind, side="right")
+    long = np.array([3.7, 4.3, 4.6])[sort] + np.round(0.3 * size, 2)
+    return Cars(at, way, sort, millimetres(long), random.integers(0, 1 << 20, (len(at), 2)))
+
+
 def people_of(plan: Plan, cells: Cells, built: Ints, things: Things, seed: int) -> Things:
     """People on pavements and squares, none in a house, a tree or a lamp."""
     kerbs = _Kerbs.of(cells, built)
@@ -219,7 +237,7 @@ def hedges_of(plan: Plan, cells: Cells, district: Ints, built: Ints, things: Thi
         good[tree.query(houses, predicate="dwithin", distance=0.7)[1]] = False
         stems = shapely.points(things.at[(things.foot == 0)])
         good[tree.query(stems, predicate="dwithin", distance=0.8)[1]] = False
-        good[tree.query(_ways(plan), predicate="dwithin", distance=0.9)[1]] = False
+        good[tree.query(ways_of(plan), predicate="dwithin", distance=0.9)[1]] = False
         # Two that meet at a corner: the first stays.
         one, other = tree.query(lines, predicate="dwithin", distance=0.6)
         good[np.maximum(one, other)[one != other]] = False
@@ -228,7 +246,7 @@ def hedges_of(plan: Plan, cells: Cells, district: Ints, built: Ints, things: Thi
     return Hedges(start[most], stop[most], millimetres(tall[most]), wide[most])
 
 
-def _ways(plan: Plan) -> np.ndarray:
+def ways_of(plan: Plan) -> np.ndarray:
     """Lines from doors straight out, as far as a front garden is deep."""
     edge = plan.entrance[plan.entrance >= 0]
     a, b = plan.corners[edge], plan.corners[plan.following[edge]]

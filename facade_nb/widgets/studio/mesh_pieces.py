@@ -10,7 +10,7 @@ import numpy as np
 
 from ...render import Grammar
 from ...render.pipeline.frame import Looks
-from ...render.pipeline.passes import BUFFERS, PASSES, SHADOW
+from ...render.pipeline.passes import BUFFERS, PLAIN, SHADOW
 from ...render.pipeline.solids import Solids
 from ...render.pipeline.sunlight import MAPS
 from ...render.pipeline.vertices import VERTEX
@@ -48,9 +48,9 @@ def works_piece(grammar: Grammar) -> bytes:
     told, content = tiles_piece(tiles_of(grammar), names, [0] * len(names), COARSE)
     return pack(
         {
-            "passes": passes_of(PASSES),
+            "passes": passes_of(PLAIN),
             "buffers": [asdict(own) for own in BUFFERS],
-            "shaders": shaders_of(PASSES, **needs),
+            "shaders": shaders_of(PLAIN, **needs),
             "hours": hours(),
             "sunlight": {**MAPS, "side": SHADOW},
             "looks": {"haze": _LOOKS.haze, "reach": _LOOKS.reach},

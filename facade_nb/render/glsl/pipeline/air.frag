@@ -1,4 +1,4 @@
-// The air between: what is far takes on the colour of the horizon; where there is nothing, the sky.
+// The air between: what is far takes on the colour of the horizon.
 #include "pixel.glsl"
 #include "view.glsl"
 
@@ -19,12 +19,7 @@ void main() {
   vec4 seen = drawn(light, share);
 #ifdef ALONE
   out_air = vec4(seen.rgb + (1.0 - clamp(seen.a, 0.0, 1.0)) * clear_sky(normalize(ray)), 1.0);
-  return;
-#endif
-  if (depth <= 0.0) {
-    out_air = vec4(sky_along(ray), 0.0);
-    return;
-  }
+#else
   float clear = haze > 0.0 ? exp(-pow(depth * length(ray) / haze, 1.4)) : 1.0;
   vec3 mist = mix(clear_sky(level(ray)), mist_along(ray), clear);  // furthest out it is the horizon itself
 #ifdef THROUGH
@@ -34,5 +29,6 @@ void main() {
 #else
   vec3 shown = seen.rgb + (1.0 - clamp(seen.a, 0.0, 1.0)) * mist;
   out_air = vec4(mix(mist, shown, clear), 1.0);
+#endif
 #endif
 }

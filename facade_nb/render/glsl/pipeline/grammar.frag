@@ -17,7 +17,7 @@ uniform vec3 sun;
 
 layout(location = 0) out highp vec4 out_color;     // alpha: 2 and how much of the sun the relief takes, where it takes any
 layout(location = 1) out highp vec4 out_normal;    // of length 1 out of doors, 0 in a room; how near a boundary is, in pixels
-layout(location = 2) out highp vec4 out_specular;  // and how far the pixel lies behind its wall; NOWHERE where there is nothing
+layout(location = 2) out highp vec4 out_specular;  // and how far the pixel lies behind its wall; NOWHERE where it is all open
 #ifdef PICK
 layout(location = 3) out highp ivec4 out_terminal;
 #endif

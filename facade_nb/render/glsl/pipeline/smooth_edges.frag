@@ -15,7 +15,7 @@ bool apart(ivec2 a, ivec2 b, vec2 share) {
   vec4 other = pixel(facing, share, b);
   if (dot(one.xyz, other.xyz) < 0.98 && one.w + other.w > 0.0) return true;
   if (abs(one.w - other.w) > 0.03 * min(one.w, other.w) + 0.02) return true;
-  return pixel(normal, share, a).w < 0.75;
+  return one.w > 0.0 && pixel(normal, share, a).w < 0.75;
 }
 
 float bright(ivec2 at, vec2 share) { return pixel(toned, share, at).a; }

@@ -201,6 +201,14 @@ export class Pipeline {
       gl.bindVertexArray(null);
       for (const state of [gl.CULL_FACE, gl.DEPTH_TEST, gl.BLEND]) gl.disable(state);
       this.kept.set(pass.name, this.keyOf(pass, values));
+    } else if (pass.seen) {
+      if (!pass.sky) this.clear(gl, pass);
+      gl.enable(gl.DEPTH_TEST);
+      gl.depthMask(false);
+      gl.depthFunc(pass.sky ? gl.LEQUAL : gl.GREATER); // the screen lies as far away as can be
+      gl.drawArrays(gl.TRIANGLES, 0, 3);
+      gl.depthMask(true);
+      gl.disable(gl.DEPTH_TEST);
     } else gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.disable(gl.SCISSOR_TEST);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
@@ -419,13 +427,13 @@ export class Pipeline {
   private frame(gl: WebGL2RenderingContext, pass: Pass, pixels: Pixels): WebGLFramebuffer {
     const fixed = pass.writes.every((name) => this.buffer(name).side);
     const key = fixed ? pass.name : `${pass.name} ${pixels.join("×")}`;
-    for (const name of pass.writes) this.image(gl, name, pixels);
+    for (const name of pass.seen ? [...pass.writes, pass.seen] : pass.writes) this.image(gl, name, pixels);
     let found = this.frames.get(key);
     if (found) return found;
     found = gl.createFramebuffer() as WebGLFramebuffer;
     gl.bindFramebuffer(gl.FRAMEBUFFER, found);
     const colours: number[] = [];
-    for (const name of pass.writes) {
+    for (const name of pass.seen ? [...pass.writes, pass.seen] : pass.writes) {
       const depth = this.buffer(name).kind === "depth";
       const place = depth ? gl.DEPTH_ATTACHMENT : gl.COLOR_ATTACHMENT0 + colours.length;
       gl.framebufferTexture2D(gl.FRAMEBUFFER, place, gl.TEXTURE_2D, this.image(gl, name, pixels).texture, 0);

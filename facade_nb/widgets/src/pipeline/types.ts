@@ -28,6 +28,10 @@ export interface Pass {
   adds?: boolean;
   /** Whether what it draws is summed up with what there is, whatever lies in front. */
   sums?: boolean;
+  /** Depths that say in which pixels there is something: only these are drawn, all others are cleared. */
+  seen?: string;
+  /** It draws the other pixels. */
+  sky?: boolean;
   /** Whether a triangle is drawn from behind, too. */
   both?: boolean;
   when: string;

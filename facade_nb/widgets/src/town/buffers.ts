@@ -219,7 +219,9 @@ export function pipelineView(session: Session, model: WidgetModel, signal: Abort
         "div",
         { class: "fnb-pipe-writes" },
         // what a pass adds to is shown where it is first written
-        ...pass.writes.map((name) => (pass.adds ? mini(name) : thumb(session.pipeline?.buffer(name) as Buffer))),
+        ...pass.writes.map((name) =>
+          pass.adds || pass.sky ? mini(name) : thumb(session.pipeline?.buffer(name) as Buffer),
+        ),
       ),
     );
   };
