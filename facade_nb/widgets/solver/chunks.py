@@ -25,12 +25,12 @@ from ...solver.events import (
     WordJudged,
 )
 from ...solver.trace.codec import to_plain
+from ..shared.packing import pack
 from .built import built
 from .captions import captions
 from .code import code
 from .networks import aligned, networks
 from .otherwise import CHANGES, run
-from .packing import pack
 from .timeline import timeline
 
 __all__ = ["CHUNKS", "chunk", "events"]

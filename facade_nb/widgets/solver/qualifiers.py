@@ -18,10 +18,10 @@ from ...render import elevation_svg
 from ...solver import Trace
 from ...solver.events import AxisSolved, LetterPlaced, PathChosen
 from ..shared.bundled import Bundled, Message, bundle
+from ..shared.packing import pack
 from ..studio.model import FacadeModel
 from ..studio.parts import picture
 from .built import PREFIX
-from .packing import pack
 from .timeline import hues
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from ...render.pipeline.vertices import VERTEX
 from ...render.texture.shaders import room, rooms_for
 from ...render.texture.uploads import grammar_upload, noise_upload
 from ...solver import Layout
-from ..solver.packing import pack
+from ..shared.packing import pack
 from ..texture.packet import attributes, passes_of, shaders_of
 from ..town.packet import hours
 from ..town.tiles import COARSE, question_of, tiles_of, tiles_piece

@@ -17,7 +17,7 @@ from ...render.texture.noise import noise_texture
 from ...render.texture.operators import Operator
 from ...render.texture.shaders import room, rooms_for, shader
 from ...render.texture.steps import Chosen, Divided, Entered, Layered, Painted, Passed, Stacked, Step
-from ..solver.packing import pack
+from ..shared.packing import pack
 from .places import Plane
 
 __all__ = [

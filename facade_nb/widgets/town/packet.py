@@ -19,7 +19,7 @@ from ...render.texture.daytime import Daytime
 from ...render.texture.shaders import room, rooms_for
 from ...render.texture.uploads import grammar_upload, noise_upload
 from ...render.town.plan import KINDS, ROOFS
-from ..solver.packing import pack
+from ..shared.packing import pack
 from ..texture.packet import HOURS, attributes, passes_of, shaders_of
 from .model import TownModel
 from .places import EYE, edges_of

@@ -12,8 +12,8 @@ from typing import Any
 from facade_nb import Design, NoLayout, gallery, solve
 from facade_nb.solver import Objective, Trace
 from facade_nb.solver.events import PathChosen
+from facade_nb.widgets.shared.packing import pack
 from facade_nb.widgets.solver.chunks import CHUNKS, chunk
-from facade_nb.widgets.solver.packing import pack
 
 __all__ = ["TRACES", "write"]
 

@@ -31,9 +31,9 @@ from facade_nb.solver.events import (
 )
 from facade_nb.widgets import FacadeModel, FacadeView, QualifiersView, TraceModel, TraceView, WordsView
 from facade_nb.widgets.shared.bundled import AS_RUN
+from facade_nb.widgets.shared.packing import pack
 from facade_nb.widgets.solver import captions, chunks, code, timeline
 from facade_nb.widgets.solver.channel import TraceChannel
-from facade_nb.widgets.solver.packing import pack
 from facade_nb.widgets.solver.sheet import spelled
 
 from .pieces import TRACES

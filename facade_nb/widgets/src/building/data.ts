@@ -1,9 +1,9 @@
 // What the 3D views of one design on a page share: its mesh and what draws it, unpacked, and the tiles as far as they have come.
 
 import { oneFor } from "../shared/one.ts";
+import { type Bytes, byteLength, inflated, unpack } from "../shared/packing.ts";
 import { Shared } from "../shared/shared.ts";
 import type { WidgetModel } from "../shared/types.ts";
-import { type Bytes, byteLength, inflated, unpack } from "../solver/packing.ts";
 import { type TileReply, Tiles } from "../town/tiles.ts";
 import type { Mesh, Packed, Works } from "./types.ts";
 

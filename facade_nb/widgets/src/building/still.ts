@@ -2,8 +2,8 @@
 
 import { h } from "../shared/dom.ts";
 import type { Kernel } from "../shared/kernel.ts";
+import { type Bytes, byteLength, bytesOf } from "../shared/packing.ts";
 import type { WidgetModel } from "../shared/types.ts";
-import { type Bytes, byteLength, bytesOf } from "../solver/packing.ts";
 
 const WIDE = 720; // pixels across of it
 const QUALITY = 0.82;

@@ -6,13 +6,13 @@ import { parseDrawing } from "../shared/drawing.ts";
 import { formatNumber, holdBack } from "../shared/fields.ts";
 import { type IconName, icon } from "../shared/icons.ts";
 import { Kernel } from "../shared/kernel.ts";
+import { type Bytes, byteLength, unpack } from "../shared/packing.ts";
 import { announce } from "../shared/presence.ts";
 import { stepByKeys } from "../shared/stepping.ts";
 import { themeOf, watchDress } from "../shared/theme.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { hueOf } from "./letters.ts";
 import { Links, linked, target } from "./links.ts";
-import { type Bytes, byteLength, unpack } from "./packing.ts";
 
 interface SymbolCase {
   name: string;

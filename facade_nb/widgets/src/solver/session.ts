@@ -2,11 +2,11 @@
 
 import { setTraits } from "../shared/dom.ts";
 import { oneFor } from "../shared/one.ts";
+import { type Bytes, byteLength, unpack } from "../shared/packing.ts";
 import { Shared } from "../shared/shared.ts";
 import { Alternatives } from "./alternatives.ts";
 import { Links } from "./links.ts";
 import { type Moment, visit, watchMoments } from "./moments.ts";
-import { type Bytes, byteLength, unpack } from "./packing.ts";
 import { Player } from "./player.ts";
 import { Timeline, type TimelineData } from "./timeline.ts";
 

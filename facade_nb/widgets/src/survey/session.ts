@@ -2,7 +2,7 @@
 
 import { Entering } from "../shared/entering.ts";
 import { oneFor } from "../shared/one.ts";
-import { type Bytes, byteLength, bytesOf } from "../solver/packing.ts";
+import { type Bytes, byteLength, bytesOf } from "../shared/packing.ts";
 import { moved } from "./snapping.ts";
 import type { Drawn, Kind, Opening, Point, Rect } from "./types.ts";
 

@@ -2,8 +2,8 @@
 
 import { Entering } from "../shared/entering.ts";
 import { oneFor } from "../shared/one.ts";
+import { type Bytes, byteLength, bytesOf, unpack } from "../shared/packing.ts";
 import type { Fault } from "../shared/types.ts";
-import { type Bytes, byteLength, bytesOf, unpack } from "../solver/packing.ts";
 import { release } from "./renderer.ts";
 import type { Common, Pair, Scene, Step, Tiles, Triple } from "./types.ts";
 

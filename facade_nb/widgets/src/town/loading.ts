@@ -1,7 +1,7 @@
 // What is large comes in blocks, as it is asked for: what lies near first. Each is kept here too, for the day when the
 // context is lost or the kernel is gone.
 
-import { type Bytes, inflated } from "../solver/packing.ts";
+import { type Bytes, inflated } from "../shared/packing.ts";
 import { COARSE, type TileInfo, type TileReply, Tiles } from "./tiles.ts";
 import type { BlobInfo, Chunks, Head, Place } from "./types.ts";
 

@@ -1,9 +1,9 @@
 // What the views of one set of variants on a page share: its rows, and the pictures that have come.
 
 import { oneFor } from "../shared/one.ts";
+import { type Bytes, byteLength, inflated } from "../shared/packing.ts";
 import { Shared } from "../shared/shared.ts";
 import type { Theme } from "../shared/theme.ts";
-import { type Bytes, byteLength, inflated } from "../solver/packing.ts";
 import type { Pictures, RunState, VariantRow } from "./types.ts";
 
 const TRAITS = ["rows", "columns", "state", "trouble"] as const;

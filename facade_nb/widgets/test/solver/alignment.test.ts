@@ -1,10 +1,10 @@
 import { afterEach, describe, expect, it } from "vitest";
+import { unpack } from "../../src/shared/packing.ts";
 import { choices, columnsOf, cutsOf, merged, moved, split } from "../../src/solver/align/matrix.ts";
 import { costOf, nextCases } from "../../src/solver/align/question.ts";
 import { latticeOf } from "../../src/solver/lattice.ts";
 import { target } from "../../src/solver/links.ts";
 import type { PathNote } from "../../src/solver/network/story.ts";
-import { unpack } from "../../src/solver/packing.ts";
 import { alignment } from "../../src/solver/views/alignment.ts";
 import { Group, walk, weigh } from "../../src/solver/weights.ts";
 import { pieceOf, type Shown, show } from "./fixtures.ts";

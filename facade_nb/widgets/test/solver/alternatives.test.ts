@@ -1,10 +1,10 @@
 // A candidate that is not the layout, chosen: what the trace has of it, in every view.
 
 import { afterEach, describe, expect, it } from "vitest";
+import { unpack } from "../../src/shared/packing.ts";
 import { Alternatives, bandsOf, type CandidateNote } from "../../src/solver/alternatives.ts";
 import { Links, target } from "../../src/solver/links.ts";
 import type { NetworkData } from "../../src/solver/network/story.ts";
-import { unpack } from "../../src/solver/packing.ts";
 import { Timeline, type TimelineData } from "../../src/solver/timeline.ts";
 import { VIEWS } from "../../src/solver/views/index.ts";
 import { DESIGNS, pieceOf, type Shown, show } from "./fixtures.ts";

@@ -2,10 +2,10 @@
 
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { h } from "../../src/shared/dom.ts";
+import { unpack } from "../../src/shared/packing.ts";
 import { Asking } from "../../src/solver/asking.ts";
 import { Links, linked, target } from "../../src/solver/links.ts";
 import { fragmentOf, momentIn } from "../../src/solver/moments.ts";
-import { unpack } from "../../src/solver/packing.ts";
 import { playbar, Scale } from "../../src/solver/playbar.ts";
 import { Player } from "../../src/solver/player.ts";
 import { Quiz } from "../../src/solver/quiz.ts";

@@ -2,10 +2,10 @@
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { unpack } from "../../src/shared/packing.ts";
 import { Alternatives } from "../../src/solver/alternatives.ts";
 import { Asking } from "../../src/solver/asking.ts";
 import { Links } from "../../src/solver/links.ts";
-import { unpack } from "../../src/solver/packing.ts";
 import { Player } from "../../src/solver/player.ts";
 import type { Session } from "../../src/solver/session.ts";
 import { Timeline, type TimelineData } from "../../src/solver/timeline.ts";

@@ -1,13 +1,13 @@
 // The numbers of a search: its course in time, g + h = f of nodes, and why edges are pruned.
 
 import { expect, test } from "vitest";
+import { unpack } from "../../src/shared/packing.ts";
 import { ledgerOfPath } from "../../src/solver/align/question.ts";
 import type { CandidateNote } from "../../src/solver/alternatives.ts";
 import { edgesAt, nodesAt, sum } from "../../src/solver/network/numbers.ts";
 import { edgeKey } from "../../src/solver/network/scene.ts";
 import { type NetworkData, Story, type Subject } from "../../src/solver/network/story.ts";
 import { courseOf, Strip } from "../../src/solver/network/strip.ts";
-import { unpack } from "../../src/solver/packing.ts";
 import { Player } from "../../src/solver/player.ts";
 import { Timeline, type TimelineData } from "../../src/solver/timeline.ts";
 import { Group, type Objective } from "../../src/solver/weights.ts";

@@ -1,11 +1,11 @@
 // What is drawn when: one frame for all views, those out of sight later, lists that are scrolled without being asked.
 
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { unpack } from "../../src/shared/packing.ts";
 import { Alternatives } from "../../src/solver/alternatives.ts";
 import { Asking } from "../../src/solver/asking.ts";
 import { panel } from "../../src/solver/frame.ts";
 import { Links } from "../../src/solver/links.ts";
-import { unpack } from "../../src/solver/packing.ts";
 import { Player } from "../../src/solver/player.ts";
 import { afterDrawing, cancelFrame, inFrame } from "../../src/solver/redraw.ts";
 import { rows } from "../../src/solver/rows.ts";

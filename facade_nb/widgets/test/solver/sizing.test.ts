@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it } from "vitest";
+import { unpack } from "../../src/shared/packing.ts";
 import { target } from "../../src/solver/links.ts";
 import type { PathNote } from "../../src/solver/network/story.ts";
-import { unpack } from "../../src/solver/packing.ts";
 import { entering } from "../../src/solver/sizing/question.ts";
 import { type SizingEvent, System, type SystemPosed, writtenOut } from "../../src/solver/sizing/system.ts";
 import type { Axis } from "../../src/solver/timeline.ts";

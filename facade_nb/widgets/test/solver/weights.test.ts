@@ -1,8 +1,8 @@
 // The browser's twin of the solver's weighing against the solver itself: tests/widgets/solver/pieces.py asks it.
 
 import { describe, expect, it } from "vitest";
+import { unpack } from "../../src/shared/packing.ts";
 import { latticeOf } from "../../src/solver/lattice.ts";
-import { unpack } from "../../src/solver/packing.ts";
 import type { TimelineData } from "../../src/solver/timeline.ts";
 import { type BandNote, Group, judge, type Objective } from "../../src/solver/weights.ts";
 import { pieceOf } from "./fixtures.ts";

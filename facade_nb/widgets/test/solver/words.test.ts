@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it } from "vitest";
+import { unpack } from "../../src/shared/packing.ts";
 import { type GroupNote, judge, type WordEvent } from "../../src/solver/bounds.ts";
 import { target } from "../../src/solver/links.ts";
-import { unpack } from "../../src/solver/packing.ts";
 import { words } from "../../src/solver/views/words.ts";
 import { pieceOf, type Shown, show } from "./fixtures.ts";
 

@@ -1,6 +1,6 @@
 import { deflateSync } from "node:zlib";
 import { describe, expect, it } from "vitest";
-import { bytesOf } from "../../src/solver/packing.ts";
+import { bytesOf } from "../../src/shared/packing.ts";
 import { brief, rangeOf } from "../../src/town/buffers.ts";
 import { moved, turned } from "../../src/town/flying.ts";
 import { Held } from "../../src/town/held.ts";

@@ -2,7 +2,7 @@
 
 Layout before deflating: a little-endian uint32 with the length of the JSON, the JSON in UTF-8, zeros up to a multiple
 of 8, then the arrays, each padded likewise. In the JSON an array stands as ``{"$": [type, offset, length]}``, its
-offset counted from the end of the padded JSON. ``src/solver/packing.ts`` reads it.
+offset counted from the end of the padded JSON. ``src/shared/packing.ts`` reads it.
 """
 
 from __future__ import annotations

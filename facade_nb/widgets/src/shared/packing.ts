@@ -1,4 +1,4 @@
-// Reading what facade_nb/widgets/solver/packing.py wrote: JSON with arrays of numbers beside it, deflated.
+// Reading what facade_nb/widgets/shared/packing.py wrote: JSON with arrays of numbers beside it, deflated.
 
 const ARRAYS = {
   u1: Uint8Array,
