@@ -325,7 +325,7 @@ def test_the_four_cases_of_figure_4(watch: Watch) -> None:
     lab = watch("view = QualifiersView(); view")
     page = lab.page
     told = page.locator(".fnb-case-told")
-    covers = ["P covers D.", "P covers B.", "P stands between A and D.", "P stands between A and D."]
+    covers = ["P covers D.", "P covers B.", "P stands between B and D.", "P stands between A and D."]
     expect(told).to_have_text(covers)
     # A post of (b) stands before the middle of its door, on the screen.
     case = page.locator(".fnb-case[data-case=b]")

@@ -403,7 +403,7 @@ class TestQualifiers:
         assert list(frame.told) == [
             "P covers D.",
             "P covers B.",
-            "P stands between A and D.",
+            "P stands between B and D.",
             "P stands between A and D.",
         ]
         assert list(frame.unoccludable) == ["", "D", "D", "D"]
