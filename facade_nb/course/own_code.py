@@ -1,4 +1,4 @@
-"""Exercises of tutorial 13: other errors, bounds, orders and rules in the solver."""
+"""Exercises of tutorial 13: other errors, bounds, orders, rules and modes in the solver."""
 
 from __future__ import annotations
 
@@ -87,6 +87,21 @@ def _order(order: Callable[..., Any]) -> str:
     return "" if k == 2 else f"The first candidate that aligns has k = {k}."
 
 
+def _middle(middle: Callable[..., Any]) -> str:
+    for letters, k, right in (
+        ("WP", 1, "WPW'"),
+        ("WP", 2, "WPWPW'P'W'"),
+        ("ABC", 2, "ABCABCB'A'C'B'A'"),
+        ("A", 1, "A"),
+    ):
+        said = middle(list(letters), k)
+        if not isinstance(said, (list, tuple)) or not all(isinstance(own, str) for own in said):
+            return f"Expected a list of letters, found {said!r}."
+        if "".join(said) != right:
+            return f"Of {k} × {letters} you make {''.join(said) or 'ε'}."
+    return ""
+
+
 def _bound(answer: object) -> str:
     right: Judge = number(1.48)
     return right(round(float(answer), 2)) if isinstance(answer, (int, float)) else right(answer)
@@ -156,5 +171,13 @@ EXERCISES: Mapping[str, Exercise] = {
             "abs(sum(word.size for word in choice.words.values()) - choice.canvas)",
         ),
         "k = 2, the same as the best by J: a good order makes a greedy search a good one.",
+    ),
+    "middle": Exercise(
+        function(_middle),
+        (
+            "First the row of all copies: letters * k. Then its mirror image, without the letter where they meet.",
+            "row = letters * k; its mirror image is mirrored(row), and the first letter of that is the pivot.",
+        ),
+        "The row, and its mirror image without the pivot: k copies of n letters make a word of 2 k n − 1.",
     ),
 }

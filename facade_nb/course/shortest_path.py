@@ -148,6 +148,14 @@ EXERCISES: Mapping[str, Exercise] = {
         ),
         "Eight pairs of words, and the solver says the same each time. That is a shortest path.",
     ),
+    "widths": Exercise(
+        numbers((1.25, 1.1), ("the first path", "the second path")),
+        (
+            "How wide is each at the end, and by how much does it miss 12 m?",
+            "The first is 6 + 5 = 11 m wide, and pays 0.25 for the metre that is missing; the second fits.",
+        ),
+        "1.25 and 1.1 m: whoever had dropped the dearer path at the node would have lost the best.",
+    ),
     "many": Exercise(
         number(21**5 - 1),
         (

@@ -198,6 +198,7 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
         ),
         ("13-change-the-solver", "order", lambda choice: 0, "has k = 1"),
         ("13-change-the-solver", "loose", 0.25, "has 4 columns"),
+        ("13-change-the-solver", "middle", lambda letters, k: letters * k, "Of 1 × WP you make WP."),
     ],
 )
 def test_what_is_said_of_a_wrong_answer(
