@@ -171,7 +171,7 @@ EXERCISES: Mapping[str, Exercise] = {
     "least": Exercise(
         number(1, "For that many windows a placeholder is no longer than 0, or there is a smaller number."),
         (
-            "A placeholder is longer than 0. Put k = 0 and k = 1 into both lines.",
+            "A placeholder is longer than 0. Put k = 0 and k = 1 into both formulas.",
             "k = 0 gives −0.1 m and −0.3 m.",
         ),
         "1: a house without windows has no room for its door.",
@@ -198,7 +198,7 @@ EXERCISES: Mapping[str, Exercise] = {
             "The number of walls must be even, whatever m is.",
             "One more A.",
         ),
-        "With an even number of walls there is a solution again: 2m + 2 = 2l.",
+        "With an even number of walls there is a solution again: m + 1 = l.",
     ),
     "strength": Exercise(
         among("preferred", ("binding", "exact", "preferred")),

@@ -107,7 +107,7 @@ EXERCISES: Mapping[str, Exercise] = {
             "Before the third C of CeCeCeC stand C, e, C and e.",
             "0.5 + 1.25 + 0.5 + 1.25.",
         ),
-        "3.50 m, in the middle of the second window, which takes 3.00 to 4.20 m.",
+        "3.50 m, before the second window, which takes 3.00 to 4.20 m.",
     ),
     "common": Exercise(
         function(_common),
@@ -171,7 +171,7 @@ EXERCISES: Mapping[str, Exercise] = {
             "Say of the windows that nothing may cover them, or of the posts that they need nothing behind them.",
             'porch(unoccludable="B").',
         ),
-        "All three windows are free. (There are two ways: the posts before the walls, or beside everything.)",
+        "All three windows are free. (There are two ways: posts before the walls, or opaque ones at both ends.)",
     ),
     "masked": Exercise(
         among("upstairs", ("nowhere", "on the ground floor", "upstairs")),
