@@ -10,7 +10,10 @@ from .exercises import Chapter
 __all__ = ["CHAPTERS", "chapter"]
 
 CHAPTERS: Mapping[str, str] = {
+    "01-a-stack-of-layers": "layers",
     "02-patterns-and-words": "patterns",
+    "03-what-is-known-beforehand": "beforehand",
+    "04-what-goes-wrong": "wrong",
     "05-columns-and-constraints": "columns",
     "06-a-shortest-path": "shortest_path",
     "07-iterative-deepening": "deepening",

@@ -15,10 +15,12 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
+from facade_nb import solve
 from facade_nb.course import Chapter, Exercise, chapter
 from facade_nb.course.chapters import CHAPTERS
 from facade_nb.course.deepening import CENTRED
 from facade_nb.course.exercises import Open, solution_of
+from facade_nb.course.flattened import colonnade, flattened, porch, telling
 from facade_nb.course.own_code import TRIPLET
 from facade_nb.solver.experiments import Case, Node, checking, experiment
 from facade_nb.solver.experiments.cases import small_cases
@@ -133,6 +135,18 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
 @pytest.mark.parametrize(
     ("name", "exercise", "answer", "told"),
     [
+        ("01-a-stack-of-layers", "behind", "a hole", "It is not 'a hole'."),
+        ("01-a-stack-of-layers", "windows", [3, 5, 7], "Look again at 4.3 m."),
+        (
+            "01-a-stack-of-layers",
+            "product",
+            lambda across, up: [f"{x} {y}" for x in across for y in up],
+            "For 'ABA' across",
+        ),
+        ("01-a-stack-of-layers", "drawn", ["C P", "e P"], "'e P' is not drawn by this layer."),
+        ("01-a-stack-of-layers", "lamp", ("xl; l := L", ["P", "Q"]), "are on: P, Q."),
+        ("01-a-stack-of-layers", "lamp", ("lx; l := L", ["Q"]), "from the left end."),
+        ("01-a-stack-of-layers", "storey", {"By": "PQ", "Ry": "PQQR"}, "There is a hole in it now."),
         ("02-patterns-and-words", "pairs", "A(BA)^k", "It makes ABA, which is not wanted."),
         ("02-patterns-and-words", "pairs", "A(BBA", "A(BBA"),
         ("02-patterns-and-words", "choice", "A B A", "It does not make ACA."),
@@ -147,6 +161,23 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
             "[0.6, 0.6] m of opaque letters",
         ),
         ("02-patterns-and-words", "fits", [[3], [3]], "Look again at the wall behind the posts."),
+        (
+            "03-what-is-known-beforehand",
+            "left over",
+            ["C C^m C", "A^k"],
+            "'A^k' is not what is left of the second.",
+        ),
+        ("03-what-is-known-beforehand", "equation", lambda m: m + 1, "For 0 you say 1."),
+        ("03-what-is-known-beforehand", "trim", lambda one, other: (one, other), "Of ['A^k', 'C', 'C^m'"),
+        ("03-what-is-known-beforehand", "middle", lambda k: 1.7 * k, "For 1 you say 1.7."),
+        ("03-what-is-known-beforehand", "possible", [True, True, True, False], "Look again at pair 2."),
+        ("03-what-is-known-beforehand", "mend", "A A A A^m A^m", "needs 2m + 3 = 2l"),
+        ("03-what-is-known-beforehand", "mend", "A^m A^m", "put walls A before it or after it."),
+        ("04-what-goes-wrong", "kinds", ["misalignment", "hole", "placement", "hole"], "Look again at 2."),
+        ("04-what-goes-wrong", "starts", lambda sizes: [0.0 for _ in sizes], "you say [0.0, 0.0, 0.0]"),
+        ("04-what-goes-wrong", "common", lambda a, b: min(a[1], b[1]) - max(a[0], b[0]), "Of (0.0, 0.5)"),
+        ("04-what-goes-wrong", "d", "between B and D", "Expected one of"),
+        ("04-what-goes-wrong", "free", porch(attached="B"), "before the window at 0.00 to 1.20 m."),
         ("05-columns-and-constraints", "C1", lambda column: True, "Of [['soft'], []] you say True."),
         (
             "05-columns-and-constraints",
@@ -235,6 +266,23 @@ def test_numbers_in_the_text_are_those_of_the_solver() -> None:
     assert "Three nodes, of 24!" in text("06-a-shortest-path")
     assert "four columns" in text("13-change-the-solver")
     assert experiment(TRIPLET).yours[0].answer.count("|") == 3
+
+
+def test_a_flattened_facade_has_what_the_text_says_and_a_mark_for_each_flaw() -> None:
+    wide, narrow = solve(colonnade()), solve(colonnade(7.0))
+    assert [own.kind for own in telling(wide)] == ["misalignment", "occlusion", "placement", "hole"]
+    assert [own.kind for own in telling(narrow)][3:] == ["sizing", "beyond"]
+    offsets = next(own.text for own in telling(wide) if own.kind == "placement")
+    assert "+0.75 m" in offsets and "the first one +0.40 m" in offsets
+    assert "begins 0.75 m to the right of its column" in text("04-what-goes-wrong")
+    drawn = flattened(wide).svg
+    assert (
+        drawn.endswith("</svg>")
+        and all(f">{n}</text>" in drawn for n in range(1, 5))
+        and ">5</text>" not in drawn
+    )
+    scale, left = 840 / 7.6, float(drawn.partition('data-origin="')[2].split()[0])
+    assert f"<rect x='{left + scale * 7.2:.1f}'" in drawn  # the hole begins where the wall ends
 
 
 def text(name: str) -> str:

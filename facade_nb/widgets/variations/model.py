@@ -19,6 +19,7 @@ from ...solver import Layout
 from ...variations.answers import STOPPED, Answer, answers
 from ...variations.sweep import table_of
 from ...variations.variants import RESULTS, Variants, edited
+from ..shared.turns import Turns
 from ..studio.model import FacadeModel
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["VariationsModel", "told"]
 
 
-class VariationsModel(HasTraits):
+class VariationsModel(Turns, HasTraits):
     """Variants, those that are solved with their layouts, and the façade that one of them is opened in.
 
     Parameters
