@@ -12,7 +12,7 @@ import nbformat
 from nbclient import NotebookClient
 
 ROOT = Path(__file__).resolve().parents[1]
-WIDGETS = ("studio", "solver", "texture", "town", "inference")
+WIDGETS = ("studio", "solver", "texture", "town", "inference", "variations")
 """Those in `notebooks` that have widgets; all in `tutorials` have."""
 STATIC = ("texture", "town", "inference")
 """Saved with static forms alone: the tiles, or three bundles, would make their state too large."""
