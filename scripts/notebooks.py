@@ -14,7 +14,14 @@ from nbclient import NotebookClient
 ROOT = Path(__file__).resolve().parents[1]
 WIDGETS = ("studio", "solver", "texture", "town", "inference", "variations")
 """Those in `notebooks` that have widgets; all in `tutorials` have."""
-STATIC = ("texture", "town", "inference")
+STATIC = (
+    "texture",
+    "town",
+    "inference",
+    "10-a-pixel-by-grammar",
+    "11-rooms-behind-windows",
+    "12-the-pipeline-and-a-town",
+)
 """Saved with static forms alone: the tiles, or three bundles, would make their state too large."""
 
 VIEW = "application/vnd.jupyter.widget-view+json"

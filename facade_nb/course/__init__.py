@@ -4,6 +4,7 @@ from .chapters import chapter
 from .exercises import Chapter, Exercise
 from .houses import house
 from .network import drawn
+from .pictures import Picture, painted, sheet
 from .words import listed
 
-__all__ = ["Chapter", "Exercise", "chapter", "drawn", "house", "listed"]
+__all__ = ["Chapter", "Exercise", "Picture", "chapter", "drawn", "house", "listed", "painted", "sheet"]

@@ -19,6 +19,9 @@ CHAPTERS: Mapping[str, str] = {
     "07-iterative-deepening": "deepening",
     "08-candidates-and-proof": "candidates",
     "09-sizes": "sizes",
+    "10-a-pixel-by-grammar": "pixel",
+    "11-rooms-behind-windows": "rooms",
+    "12-the-pipeline-and-a-town": "deferred",
     "13-change-the-solver": "own_code",
 }
 """The module of each, which is loaded when the chapter is opened."""

@@ -29,7 +29,7 @@ TUTORIALS = Path(__file__).resolve().parents[2] / "tutorials"
 CHECKED = re.compile(r'^check\("([^"]+)", (\w+)\)$', re.MULTILINE)
 
 
-MADE = ("chapter", "Case.of", "experiment")
+MADE = ("chapter", "Case.of", "experiment", "Grammar.parse", "TextureModel", "dict")
 
 
 def run(source: str, names: dict[str, Any]) -> str:
@@ -220,6 +220,48 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
         ("09-sizes", "grow", lambda counts, missing: [0.1, 0.1, 0.1], "your letters grow by 0.7 m together"),
         ("09-sizes", "sized", lambda p, B, d: p, "do not keep B x = d"),
         ("09-sizes", "limited", [0.92, 1.26, 0.67], "Look again at C."),
+        (
+            "10-a-pixel-by-grammar",
+            "repeat",
+            lambda size, v: [v] * int(size / v),
+            "[2.5, 2.5, 2.5, 2.5, 2.5]: expected 6",
+        ),
+        (
+            "10-a-pixel-by-grammar",
+            "split",
+            lambda size, parts: [size / len(parts)] * len(parts),
+            "[2.0, 2.0, 2.0]",
+        ),
+        ("10-a-pixel-by-grammar", "part", lambda sizes, at: 0, "Of [1, 2, 3], 1.5 you say 0."),
+        ("10-a-pixel-by-grammar", "composed", lambda layers: layers[0], "you say C = 0.2, A = 0.5."),
+        (
+            "10-a-pixel-by-grammar",
+            "turned",
+            "Hole -> SkipMask(Fit:mask-arch, 0, 1)",
+            "In the arch one sees Inside",
+        ),
+        ("10-a-pixel-by-grammar", "turned", "Hole -> SkipMusk(Fit:mask-arch, 1, 0)", "SkipMask"),
+        ("11-rooms-behind-windows", "hit", lambda point, ray, size, depth: "back", "along (1.0, 0.0, -1.0)"),
+        ("11-rooms-behind-windows", "parallax", lambda step, far, deep: step, "0 m deep, you say 1 m."),
+        (
+            "11-rooms-behind-windows",
+            "sofa",
+            "Furniture -> SplitY(Abs, 0.9, SofaTile, Rel, 1, Skip)",
+            "Your sofa is 4.00 m wide and 0.90 m high.",
+        ),
+        (
+            "12-the-pipeline-and-a-town",
+            "order",
+            ["grammar", "G-buffer", "occlusion", "light"],
+            "grammar reads place, which no pass before it has written.",
+        ),
+        (
+            "12-the-pipeline-and-a-town",
+            "order",
+            ["G-buffer", "grammar", "light", "occlusion"],
+            "light reads softened",
+        ),
+        ("12-the-pipeline-and-a-town", "hides", lambda above, far, reach: above / far, "you say 1."),
         ("13-change-the-solver", "windows", lambda column: 0, "A post still stands before a window"),
         (
             "13-change-the-solver",
