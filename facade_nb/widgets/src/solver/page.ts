@@ -67,7 +67,12 @@ export async function page(
       const added = !kept.has(name);
       kept = new Set(added ? [...kept, name] : [...kept].filter((other) => other !== name));
       if (added)
-        queueMicrotask(() => made.get(name)?.then(() => slots.get(name)?.scrollIntoView({ block: "nearest" })));
+        queueMicrotask(() =>
+          made.get(name)?.then(
+            () => slots.get(name)?.scrollIntoView({ block: "nearest" }),
+            () => {}, // what failed to load is told in its slot
+          ),
+        );
     });
     return { name, button };
   });
