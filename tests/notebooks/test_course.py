@@ -278,6 +278,16 @@ def test_numbers_in_the_text_are_those_of_the_solver() -> None:
     assert experiment(TRIPLET).yours[0].answer.count("|") == 3
 
 
+def test_the_town_costs_what_was_measured() -> None:
+    measured = (TUTORIALS.parent / "docs" / "measured.md").read_text("utf-8")
+    rows = re.findall(r"^\| ([\w-]+), OSMesa \| (\d+) \(.*?\| (\d+) \(.*?\| (\d+) \(", measured, re.MULTILINE)
+    assert len(rows) == 3
+    for view, simple, chance, full in rows:
+        row = f"| {view} | {simple} | {chance} | {full} | {int(full) / int(simple):.1f} |"
+        assert row in text("12-the-pipeline-and-a-town")
+    assert "street 407 (767)" in measured and "grammar 248" in measured
+
+
 def text(name: str) -> str:
     return (TUTORIALS / f"{name}.ipynb").read_text("utf-8")
 
