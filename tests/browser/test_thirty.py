@@ -42,10 +42,18 @@ BLANK = f"""() => [...document.querySelectorAll(".fnb-part-studio")]
 
 
 def page_counts(lab: Notebook, session: CDPSession) -> dict[str, int]:
-    """What the page holds, after what is not held any more was swept away."""
+    """What the page holds, after what is not held any more was swept away.
+
+    A view that has gone may still be waited for: it is looked again and again, until nothing more goes.
+    """
     lab.settle()
-    session.send("HeapProfiler.collectGarbage")
-    counts = session.send("Memory.getDOMCounters")
+    counts = {"nodes": 10**9}
+    while True:
+        session.send("HeapProfiler.collectGarbage")
+        before, counts = counts, session.send("Memory.getDOMCounters")
+        if counts["nodes"] > 0.999 * before["nodes"]:
+            break
+        lab.page.wait_for_timeout(2000)
     sheets = "() => document.adoptedStyleSheets.length + document.querySelectorAll('style').length"
     return {
         "nodes": counts["nodes"],

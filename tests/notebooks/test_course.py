@@ -327,6 +327,16 @@ def test_a_flattened_facade_has_what_the_text_says_and_a_mark_for_each_flaw() ->
     assert f"<rect x='{left + scale * 7.2:.1f}'" in drawn  # the hole begins where the wall ends
 
 
+def test_the_town_costs_what_was_measured() -> None:
+    measured = (TUTORIALS.parent / "docs" / "measured.md").read_text("utf-8")
+    rows = re.findall(r"^\| ([\w-]+), OSMesa \| (\d+) \(.*?\| (\d+) \(.*?\| (\d+) \(", measured, re.MULTILINE)
+    assert len(rows) == 3
+    for view, simple, chance, full in rows:
+        row = f"| {view} | {simple} | {chance} | {full} | {int(full) / int(simple):.1f} |"
+        assert row in text("12-the-pipeline-and-a-town")
+    assert "street 407 (767)" in measured and "grammar 248" in measured
+
+
 def text(name: str) -> str:
     return (TUTORIALS / f"{name}.ipynb").read_text("utf-8")
 
