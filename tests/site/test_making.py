@@ -52,10 +52,10 @@ def test_every_package_with_public_names_has_a_page() -> None:
 
 def test_a_page_that_no_section_names_is_in_the_contents_all_the_same(tmp_path: Path) -> None:
     pages = [*stage(ROOT, tmp_path), *write_reference(tmp_path)]
-    told = toctrees([*pages, "docs/buildings"])
+    told = toctrees([*pages, "docs/page-of-tomorrow"])
     listed = re.findall(r"^/(.+)$", told, re.MULTILINE)
-    assert sorted(listed) == sorted([*pages, "docs/buildings"])
-    assert told.index(":caption: More") < told.index("/docs/buildings")
+    assert sorted(listed) == sorted([*pages, "docs/page-of-tomorrow"])
+    assert told.index(":caption: More") < told.index("/docs/page-of-tomorrow")
     with pytest.raises(ValueError, match=r"expected a page docs/glossary in the section 'Start'; found none"):
         toctrees(page for page in pages if page != "docs/glossary")
 

@@ -17,6 +17,7 @@ SECTIONS: dict[str, tuple[str, ...]] = {
         "docs/design-schema",
         "docs/gallery",
         "docs/surveys",
+        "docs/buildings",
         "docs/variations",
     ),
     "Solver": (

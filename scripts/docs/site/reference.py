@@ -23,6 +23,7 @@ PACKAGES = (
     "facade_nb.solver.events",
     "facade_nb.gallery",
     "facade_nb.survey",
+    "facade_nb.building",
     "facade_nb.variations",
     "facade_nb.comparison",
     "facade_nb.render",
