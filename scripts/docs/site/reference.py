@@ -21,8 +21,10 @@ PACKAGES = (
     "facade_nb.solver",
     "facade_nb.solver.trace",
     "facade_nb.solver.events",
+    "facade_nb.solver.experiments",
     "facade_nb.gallery",
     "facade_nb.survey",
+    "facade_nb.survey.city",
     "facade_nb.building",
     "facade_nb.variations",
     "facade_nb.comparison",
@@ -32,6 +34,7 @@ PACKAGES = (
     "facade_nb.render.tiles",
     "facade_nb.render.pipeline",
     "facade_nb.render.town",
+    "facade_nb.course",
     "facade_nb.widgets",
 )
 """Those whose `__all__` is public."""
