@@ -29,7 +29,7 @@ def answer(of: Design, **options: Any) -> tuple[object, bool]:
         layout = solve(of, time_limit=None, **options)
     except NoLayout as error:
         return (error.axis, error.constraint, error.patterns, error.symbols), error.constraint != "memory"
-    if "trace" in options:
+    if options.get("trace"):
         assert layout.trace.events
         document = layout.trace.to_dict()
         assert document["format"] == "facade-nb/trace/1"
