@@ -24,7 +24,10 @@ def add_infer(commands: Any) -> None:
         description="Make a design from surveyed openings. Without --out it goes to standard output.",
     )
     parser.add_argument(
-        "survey", type=Source, metavar="SURVEY_FILE", help="surveyed façades, or a city model: CityGML, CityJSON"
+        "survey",
+        type=Source,
+        metavar="SURVEY_FILE",
+        help="surveyed façades, or a city model: CityGML, CityJSON",
     )
     parser.add_argument("--building", metavar="ID", help="which façade; default: the only one")
     parser.add_argument(
