@@ -64,7 +64,9 @@ class Chapter:
             return
         except ExperimentError as error:
             fault = str(error)
-        except Exception as error:
+        except (
+            Exception
+        ) as error:  # whatever the student's function raises is a wrong answer, told with its line
             at = f"line {line}: " if (line := _line(answer, error)) else ""
             fault = f"{at}{type(error).__name__}: {error}"
         if not fault:

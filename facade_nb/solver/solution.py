@@ -402,7 +402,7 @@ class _Run:
         )
 
     def _analyse(self, problem: AxisProblem) -> None:
-        """Pattern analysis (supplement 3.1): report its systems, and stop where they prove that nothing fits."""
+        """Pattern analysis (supplement 3.1): tell its systems to the trace; the search does not wait for what they prove."""
         if self.trace is None:
             return
         if problem.axis not in self.analysed:
