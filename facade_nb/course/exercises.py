@@ -64,9 +64,7 @@ class Chapter:
             return
         except ExperimentError as error:
             fault = str(error)
-        except (
-            Exception
-        ) as error:  # whatever the student's function raises is a wrong answer, told with its line
+        except Exception as error:  # a student's function may raise anything
             at = f"line {line}: " if (line := _line(answer, error)) else ""
             fault = f"{at}{type(error).__name__}: {error}"
         if not fault:

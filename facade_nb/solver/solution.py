@@ -402,7 +402,7 @@ class _Run:
         )
 
     def _analyse(self, problem: AxisProblem) -> None:
-        """Pattern analysis (supplement 3.1): tell its systems to the trace; the search does not wait for what they prove."""
+        """Pattern analysis (supplement 3.1): its systems, told to the trace; they do not end the search."""
         if self.trace is None:
             return
         if problem.axis not in self.analysed:

@@ -89,7 +89,7 @@ class Asked:
     def _ask(self, about: object) -> object:
         try:
             return self.function(about)
-        except Exception as error:  # whatever the learner's function raises is told with its name and line
+        except Exception as error:  # a learner's function may raise anything
             where = _place(self.function, error)
             has = ""
             if isinstance(error, AttributeError) and error.obj is about:
