@@ -188,5 +188,5 @@ class ModelWire(Bundled):
         super().__init__(**traits)
 
     def _receive(self, _: Widget, message: Message, buffers: list[Any]) -> None:
-        with self.model.turn:
+        with self.model.by_hand(message.get("after")):
             super()._receive(_, message, buffers)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Hashable, Sequence
 from typing import Generic, TypeVar
 
@@ -64,7 +65,7 @@ class History(Generic[T]):
         self._past, self._present, self._future = list(past)[-self._limit :], present, list(future)
         self._key = None
 
-    def record(self, state: T, *, key: Hashable | None, now: float) -> None:
+    def record(self, state: T, *, key: Hashable | None, now: float, after: float | None = None) -> None:
         """Make `state` the present one.
 
         Parameters
@@ -73,11 +74,15 @@ class History(Generic[T]):
             What was edited. Records with one key, none of them later than `pause` after the one before, are one step;
             with None a record is always a step of its own.
         now
-            Time of the edit in seconds, by a clock that only goes forward.
+            Time of the record in seconds, by a clock that only goes forward.
+        after
+            Seconds from the edit before to this one, where it is known better than from the times of the records:
+            what was typed in one go may arrive late, and piece by piece.
         """
         if state == self._present:
             return
-        goes_on = key is not None and key == self._key and now - self._when <= self._pause
+        paused = now - self._when if after is None else after
+        goes_on = key is not None and key == self._key and paused <= self._pause
         if not goes_on:
             self._past.append(self._present)
             del self._past[: -self._limit]
@@ -107,6 +112,10 @@ class Undoable(Turns, Generic[T]):
     def _restore(self, state: T) -> None:
         """Make a state of the history the model's."""
         raise NotImplementedError
+
+    def _note(self, state: T, key: Hashable | None) -> None:
+        """Make a state the present one of the history. See `History.record` for the key."""
+        self._history.record(state, key=key, now=time.monotonic(), after=self.after)
 
     @by_turns
     def undo(self) -> None:

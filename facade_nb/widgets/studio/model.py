@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import time
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
@@ -278,7 +277,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         self.busy = False
 
     def _take(self, snapshot: _Snapshot, *, key: object) -> None:
-        self._history.record(snapshot, key=key, now=time.monotonic())
+        self._note(snapshot, key)
         self._restore(snapshot)
 
     def _restore(self, snapshot: _Snapshot) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -137,7 +136,7 @@ class SurveyModel(Undoable[Drawn], HasTraits):
 
     def draw(self, drawn: Drawn, *, key: Hashable | None = None) -> None:
         """Have this drawn, as a step that can be undone; steps with one key in quick succession are one."""
-        self._history.record(drawn, key=key, now=time.monotonic())
+        self._note(drawn, key)
         self._restore(drawn)
 
     def scale(self, axis: str, length: float, known: float) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Hashable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -141,7 +140,7 @@ class TextureModel(Undoable[_Snapshot], HasTraits):
         return _Snapshot(self.text, self._shown, self.size, self.seed, self.hour, self.lit)
 
     def _record(self, _: Any) -> None:
-        self._history.record(self._snapshot(), key=self._key, now=time.monotonic())
+        self._note(self._snapshot(), self._key)
 
     def _restore(self, state: _Snapshot) -> None:
         with self.hold_trait_notifications():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -248,7 +247,7 @@ class TownModel(Undoable[_Snapshot], HasTraits):
         return _Snapshot(tuple(self._parts.values()), self.restyled, self.hour)
 
     def _record(self, _: Any) -> None:
-        self._history.record(self._snapshot(), key=self._key, now=time.monotonic())
+        self._note(self._snapshot(), self._key)
 
     def _restore(self, state: _Snapshot) -> None:
         with self.hold_trait_notifications():

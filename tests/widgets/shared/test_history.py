@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from facade_nb import gallery
+from facade_nb.widgets import FacadeModel, SurveyModel, TextureModel
+from facade_nb.widgets.shared import history as module
 from facade_nb.widgets.shared.history import History
+from facade_nb.widgets.texture.channel import TextureChannel
 
 
 def test_keystrokes_in_one_field_are_one_step_until_there_is_a_pause() -> None:
@@ -15,6 +21,45 @@ def test_keystrokes_in_one_field_are_one_step_until_there_is_a_pause() -> None:
         history.record(text, key="field", now=now)
     assert history.undo() == "abc"
     assert history.undo() == ""
+
+
+def test_what_comes_late_and_in_pieces_is_one_step_if_it_was_typed_in_one_go() -> None:
+    history = History("", pause=1.0)
+    for now, after, text in ((0.0, None, "a"), (7.0, 0.2, "ab"), (7.1, 3.0, "abc"), (20.0, 1.0, "abcd")):
+        history.record(text, key="field", now=now, after=after)
+    assert history.undo() == "ab"  # a pause of three seconds, though they arrived one after the other
+    assert history.undo() == ""
+
+
+def test_a_hand_has_its_own_clock_in_every_model() -> None:
+    """The front end says when something was entered; what has another model's hand, or none, has no such time."""
+    texture = TextureModel("A -> Mat(Color, 0, 1, 0, 0, 1)")
+    for model in (texture, SurveyModel(), FacadeModel(gallery.load("figure-7"))):
+        for after, expected in ((0.25, 0.25), (None, None), ("soon", None), (2, 2.0)):
+            with model.by_hand(after):
+                assert model.after == expected
+            assert model.after is None
+
+
+def test_a_text_is_one_step_however_late_its_letters_arrive(monkeypatch: pytest.MonkeyPatch) -> None:
+    times = iter(range(0, 1000, 9))
+    monkeypatch.setattr(module, "time", SimpleNamespace(monotonic=lambda: float(next(times))))
+    model = TextureModel(text := "A -> Mat(Color, 0, 1, 0, 0, 1)")
+    wire = TextureChannel.of(model)
+    for seq, (typed, after) in enumerate(((" ", 30.0), (" #", 0.1), (" # A", 0.4), (" # AB", 5.0)), start=1):
+        message = {
+            "op": "set",
+            "name": "text",
+            "value": text + typed,
+            "after": after,
+            "client": "c",
+            "seq": seq,
+        }
+        wire._receive(wire, message, [])
+    model.undo()
+    assert model.text == f"{text} # A"
+    model.undo()
+    assert model.text == text
 
 
 def test_other_fields_and_edits_without_a_field_are_steps_of_their_own() -> None:

@@ -10,7 +10,7 @@ from traitlets import TraitError
 
 from facade_nb.render import Grammar
 from facade_nb.widgets import TextureModel
-from facade_nb.widgets.texture import model as module
+from facade_nb.widgets.shared import history as module
 from facade_nb.widgets.texture.channel import TextureChannel
 
 RED = "S -> Mat(Color, 0, 1, 0, 0, 1)"

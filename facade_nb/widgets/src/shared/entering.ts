@@ -1,11 +1,12 @@
 // What was entered in the views of a channel but is not yet answered. One message is on its way at a time; of several
 // values for one name only the last is sent; undo and redo are kept in order with them.
 
+import { type Entry, Pauses } from "./pause.ts";
 import { Shared } from "./shared.ts";
 import type { WidgetModel } from "./types.ts";
 
 interface Queued<Name> {
-  message: { op: string; value?: unknown; [argument: string]: unknown };
+  message: Entry;
   /** What it sets; "": nothing, it asks for something. */
   name: Name | "";
 }
@@ -17,6 +18,7 @@ export abstract class Entering<Name extends string> extends Shared {
   private flying: Queued<Name> | null = null;
   /** The operation that was sent last. */
   private last = "";
+  private readonly pauses = new Pauses();
 
   protected constructor(channel: WidgetModel) {
     super(channel);
@@ -45,8 +47,9 @@ export abstract class Entering<Name extends string> extends Shared {
       // What was asked for in between is about the value before it.
       const since = this.queue.findLastIndex((queued) => queued.name === "");
       const waiting = this.queue.find((queued, i) => i > since && queued.name === name);
-      if (waiting) waiting.message = message;
-      else this.queue.push({ message, name });
+      const entry = this.pauses.enter(message, waiting?.message);
+      if (waiting) waiting.message = entry;
+      else this.queue.push({ message: entry, name });
       this.flush();
     }
     this.tell();

@@ -4,6 +4,7 @@
 // flooded, and a fast one sees every keystroke.
 
 import { Kernel } from "./kernel.ts";
+import { Pauses } from "./pause.ts";
 import { announce } from "./presence.ts";
 import type { Path, Reply, State, WidgetModel } from "./types.ts";
 
@@ -33,6 +34,7 @@ export class Store {
   /** What was asked to have another name: what waits for it meanwhile is about the new one. */
   private renames: { section: "patterns" | "symbols" | "counters" | "layers"; name: string; to: string }[] = [];
   private readonly waiters = new Set<() => void>();
+  private readonly pauses = new Pauses();
 
   readonly kernel: Kernel;
 
@@ -95,8 +97,9 @@ export class Store {
     // What was asked for in between, such as undo, is about the value before it.
     const since = this.queue.findLastIndex((queued) => queued.key === "");
     const waiting = this.queue.find((queued, i) => i > since && queued.key === key);
-    if (waiting) waiting.message = message;
-    else this.queue.push({ message, key });
+    const entry = this.pauses.enter(message, waiting?.message);
+    if (waiting) waiting.message = entry;
+    else this.queue.push({ message: entry, key });
     this.flush();
   }
 

@@ -1,4 +1,4 @@
-import { beforeEach, describe, expect, it } from "vitest";
+import { beforeEach, describe, expect, it, vi } from "vitest";
 import { codeField, numberField } from "../../src/shared/fields.ts";
 import { Store } from "../../src/shared/store.ts";
 import { FakeModel, fakeState } from "./fake.ts";
@@ -37,6 +37,28 @@ describe("the queue", () => {
     store.set(["canvas", "width"], "8");
     for (let i = 0; i < 3; i++) answer();
     expect(model.asked.map((m) => m.value ?? m.op)).toEqual(["A", "7", "undo", "8"]);
+  });
+
+  it("says how long the hand paused, whenever a message leaves", () => {
+    let now = 5000;
+    vi.spyOn(performance, "now").mockImplementation(() => now);
+    const typed = (at: number, text: string) => {
+      now = at;
+      store.set(BX, text);
+    };
+    typed(5000, "A");
+    typed(5250, "AB");
+    typed(5500, "ABA"); // in the place of the one before: it goes on from the first
+    now = 9000;
+    answer();
+    typed(9500, "ABAB");
+    answer();
+    expect(model.asked.map(({ value, after }) => [value, after])).toEqual([
+      ["A", undefined],
+      ["ABA", 0.25],
+      ["ABAB", 4],
+    ]);
+    vi.restoreAllMocks();
   });
 
   it("knows which fields Python has not answered", () => {
