@@ -22,9 +22,14 @@ _NEAR = 1e-6
 
 
 def merge(
-    design: Design, x: AxisLayout, y: AxisLayout, check: Callable[[], None] | None = None
+    design: Design,
+    x: AxisLayout,
+    y: AxisLayout,
+    check: Callable[[], None] | None = None,
+    *,
+    behind: bool = False,
 ) -> tuple[PlacedShape, ...]:
-    """Visible shapes, bottom layer first.
+    """Visible shapes, bottom layer first; with `behind`, those wholly behind others too.
 
     Letters that are transparent, masked out by the layer or hidden by their pattern make no shape; nor do
     shapes that are not `visible`, nor those wholly behind a visible shape both of whose symbols are opaque.
@@ -51,12 +56,14 @@ def merge(
                 check()
             if len(own) > MAX_SHAPES:
                 raise _too_many(layer, columns, floors)
-            behind = [(f.solid, across, up[j]) for f, across, up in before if up[j] is not None]
+            hiding = [
+                (f.solid, across, up[j]) for f, across, up in before if up[j] is not None and not behind
+            ]
             for i, h in enumerate(columns):
                 look = looks.of(sorts[i], rises[j])
                 if not look.visible:
                     continue
-                for solid, across, k in behind:
+                for solid, across, k in hiding:
                     if (across[i], k) in solid:
                         break
                 else:
