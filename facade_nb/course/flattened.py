@@ -88,18 +88,21 @@ def porch(opaque: str = "AB", unoccludable: str = "", attached: str = "") -> Des
 
 
 def telling(layout: Layout) -> tuple[Flaw, ...]:
-    """One flaw of each kind, of a layout without its alignment, from left to right."""
+    """One flaw of each kind that the chapter asks for, of a layout without its alignment, from left to right.
+
+    Where a word leaves some of the canvas empty, the hole is told.
+    """
     first: dict[str, Flaw] = {}
     for flaw in naive_layout(layout).flaws:
-        first.setdefault(flaw.kind, flaw)
+        if flaw.kind not in ("intrinsic", "short"):
+            first.setdefault(flaw.kind, flaw)
     return tuple(sorted(first.values(), key=lambda own: own.rect[0]))
 
 
 def flattened(layout: Layout) -> Drawn:
     """A picture of a layout's words side by side at preferred sizes; one flaw of each kind has a number."""
     naive = naive_layout(layout)
-    moved = tuple(replace(own, rect=rect) for own, rect in zip(layout.shapes, naive.shapes, strict=True))
-    svg = elevation_svg(replace(layout, shapes=moved, holes=()))
+    svg = elevation_svg(replace(layout, shapes=naive.stacked(layout), holes=()))
     scale = _told(svg, "scale")[0]
     left, foot = _told(svg, "origin")
     marks, flaws = [], telling(layout)

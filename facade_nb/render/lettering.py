@@ -1,4 +1,7 @@
-"""Capitals as strokes, for signs: each letter on a grid four wide and six high."""
+"""Capitals as strokes, for signs: each letter on a grid four wide and six high.
+
+A letter with accents is its plain letter, made lower or raised, and their strokes above and below it.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +9,11 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from math import hypot
 from types import MappingProxyType
+from unicodedata import combining, normalize
 
 from .parts import Prism
 
-__all__ = ["LETTERS", "lettered"]
+__all__ = ["LETTERS", "MARKS", "lettered", "undrawn"]
 
 LETTERS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -74,22 +78,44 @@ LETTERS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "23 20",
         ),
         "Z": ("06 46 00 40",),
-        "Ä": (
-            "00 24 40",
-            "11 31",
-            "16 15",
-            "36 35",
+        "Æ": (
+            "00 26 46",
+            "26 20 40",
+            "13 43",
         ),
-        "Ö": (
-            "10 30 41 43 34 14 03 01 10",
-            "16 15",
-            "36 35",
+        "Œ": (
+            "46 16 05 01 10 40",
+            "26 20",
+            "23 43",
         ),
-        "Ü": (
-            "04 01 10 30 41 44",
-            "16 15",
-            "36 35",
+        "Ø": (
+            "10 30 41 45 36 16 05 01 10",
+            "00 46",
         ),
+        "Ł": (
+            "16 10 40",
+            "02 24",
+        ),
+        "Đ": (
+            "10 16 26 45 41 20 10",
+            "03 23",
+        ),
+        "Ð": (
+            "10 16 26 45 41 20 10",
+            "03 23",
+        ),
+        "Ħ": (
+            "00 06",
+            "40 46",
+            "03 43",
+            "05 45",
+        ),
+        "Ŋ": ("00 06 40 46", "40 31"),
+        "Þ": (
+            "00 06",
+            "05 35 44 42 31 01",
+        ),
+        "ẞ": ("00 05 16 36 45 24 33 42 41 30 20",),
         "0": (
             "10 30 41 45 36 16 05 01 10",
             "13 33",
@@ -111,31 +137,195 @@ LETTERS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "9": ("10 30 41 45 36 16 05 04 13 43",),
         "&": ("40 05 16 25 24 02 01 10 20 42",),
         "-": ("13 33",),
+        "–": ("03 43",),
+        "—": ("03 43",),
+        "_": ("00 40",),
         ".": ("20 21",),
+        ",": ("21 10",),
+        ":": (
+            "21 22",
+            "24 25",
+        ),
+        ";": (
+            "21 10",
+            "24 25",
+        ),
+        "!": (
+            "26 22",
+            "20 21",
+        ),
+        "?": (
+            "05 16 36 45 44 23 22",
+            "20 21",
+        ),
+        "¡": (
+            "20 24",
+            "25 26",
+        ),
+        "¿": (
+            "41 30 10 01 02 23 24",
+            "25 26",
+        ),
+        "«": (
+            "24 13 22",
+            "44 33 42",
+        ),
+        "»": (
+            "04 13 02",
+            "24 33 22",
+        ),
         "'": ("25 26",),
+        "’": ("26 14",),
+        "‘": ("16 24",),
+        '"': (
+            "16 14",
+            "36 34",
+        ),
+        "“": (
+            "06 14",
+            "26 34",
+        ),
+        "”": (
+            "16 04",
+            "36 24",
+        ),
+        "„": (
+            "12 00",
+            "32 20",
+        ),
+        "·": ("23 24",),
+        "•": ("13 33 34 14 13",),
+        "/": ("00 46",),
+        "(": ("36 25 21 30",),
+        ")": ("16 25 21 10",),
+        "+": (
+            "03 43",
+            "21 25",
+        ),
+        "=": (
+            "02 42",
+            "04 44",
+        ),
+        "*": (
+            "22 26",
+            "03 45",
+            "05 43",
+        ),
+        "#": (
+            "10 16",
+            "30 36",
+            "02 42",
+            "04 44",
+        ),
+        "%": (
+            "00 46",
+            "05 06 16 15 05",
+            "30 31 41 40 30",
+        ),
+        "@": ("31 11 02 04 15 35 44 42 32 34 24 22 32",),
+        "€": (
+            "46 26 15 11 20 40",
+            "03 33",
+        ),
+        "$": (
+            "45 05 03 43 41 01",
+            "20 26",
+        ),
+        "£": (
+            "45 36 26 15 11 00 40",
+            "03 33",
+        ),
+        "×": (
+            "01 45",
+            "05 41",
+        ),
     }
 )
 """Strokes of each letter: the corners of each line, x from 0 to 4 and then y from 0 to 6."""
+
+MARKS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "\u0300": ("16 25",),
+        "\u0301": ("25 36",),
+        "\u0302": ("15 26 35",),
+        "\u0303": ("05 16 35 46",),
+        "\u0304": ("15 35",),
+        "\u0306": ("16 25 36",),
+        "\u0307": ("25 26",),
+        "\u0308": (
+            "16 15",
+            "36 35",
+        ),
+        "\u030a": ("15 25 26 16 15",),
+        "\u030b": (
+            "15 26",
+            "35 46",
+        ),
+        "\u030c": ("16 25 36",),
+        "\u0323": ("20 21",),
+        "\u0326": ("21 10",),
+        "\u0327": ("21 30 10",),
+        "\u0328": ("31 20 40",),
+    }
+)
+"""Strokes of each accent, on the same grid: those above a letter from 5 to 6, those below it from 0 to 1."""
+
+_ABOVE, _BELOW = 4.4, 1.4
+"""How high a plain letter is under an accent, and how far up it begins over one."""
+
+
+def undrawn(text: str) -> list[str]:
+    """The letters of a text that there are no strokes for, each once: they would be blanks."""
+    return list(dict.fromkeys(own for own in _capitals(text) if not own.isspace() and _strokes(own) is None))
+
+
+def _capitals(text: str) -> list[str]:
+    """A text in capitals, each with its accents."""
+    letters: list[str] = []
+    for own in normalize("NFC", text.replace("ß", "ẞ").upper()).strip():
+        if combining(own) and letters:
+            letters[-1] += own
+        else:
+            letters.append(own)
+    return letters
+
+
+Stroke = list[tuple[float, float]]
+
+
+def _strokes(letter: str) -> list[Stroke] | None:
+    """The strokes of one letter, with its accents; None where some are not known."""
+    if letter in LETTERS:
+        return [_points(line) for line in LETTERS[letter]]
+    plain, *marks = tuple(normalize("NFD", letter))
+    if plain not in LETTERS or not all(mark in MARKS for mark in marks) or not marks:
+        return None
+    lines = [_points(line) for mark in marks for line in MARKS[mark]]
+    low = _BELOW if any(y < 2 for line in lines for _, y in line) else 0.0
+    high = _ABOVE if any(y > 4 for line in lines for _, y in line) else 6.0
+    letters = [[(x, low + y * (high - low) / 6) for x, y in _points(line)] for line in LETTERS[plain]]
+    return letters + lines
+
+
+def _points(line: str) -> Stroke:
+    return [(int(a), int(b)) for a, b in map(tuple, line.split())]
 
 
 def lettered(
     text: str, x0: float, y0: float, x1: float, y1: float, z0: float, z1: float, slot: str
 ) -> Iterator[Prism]:
-    """A text in capitals, as large as fits in the middle of a rectangle; letters it lacks are blanks."""
-    words = text.upper().strip()
-    if not words:
+    """A text in capitals, as large as fits in the middle of a rectangle; what `undrawn` tells of it are blanks."""
+    drawn = [_strokes(letter) for letter in _capitals(text)]
+    if not drawn:
         return
-    columns = sum(6 if letter in LETTERS else 4 for letter in words) - 2
+    columns = sum(4 if lines is None else 6 for lines in drawn) - 2
     unit = min((x1 - x0) / (columns + 1), (y1 - y0) / 7)
     x, y = (x0 + x1 - columns * unit) / 2, (y0 + y1) / 2 - 3 * unit
-    for letter in words:
-        for line in LETTERS.get(letter, ()):
-            corners = [
-                (x + int(a) * unit, y + int(b) * unit) for a, b in (tuple(spot) for spot in line.split())
-            ]
-            for start, end in pairwise(corners):
+    for lines in drawn:
+        for line in lines or ():
+            for start, end in pairwise([(x + a * unit, y + b * unit) for a, b in line]):
                 yield _stroke(start, end, 0.9 * unit, z0, z1, slot)
-        x += (6 if letter in LETTERS else 4) * unit
+        x += (4 if lines is None else 6) * unit
 
 
 def _stroke(

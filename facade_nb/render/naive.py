@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Literal
 
 from ..design.model import AXES, Axis
-from ..solver.assembly.shapes import find_holes
+from ..solver.assembly.shapes import find_holes, merge
 from ..solver.model.layout import GroupLayout, Layout, PlacedLetter, PlacedShape, Rect
 
-__all__ = ["Flaw", "FlawKind", "Naive", "naive_layout"]
+__all__ = ["Behind", "Flaw", "FlawKind", "Naive", "naive_layout"]
 
 _NEAR = 0.01
 """Metres that nobody sees."""
 
-FlawKind = Literal["beyond", "hole", "misalignment", "occlusion", "placement", "sizing"]
+FlawKind = Literal["beyond", "hole", "intrinsic", "misalignment", "occlusion", "placement", "short", "sizing"]
 
 Span = tuple[float, float]
 
@@ -31,6 +31,25 @@ class Flaw:
 
 
 @dataclass(frozen=True, slots=True)
+class Behind:
+    """A shape that the layout leaves away, because it is wholly behind another; side by side it may be seen.
+
+    Attributes
+    ----------
+    before
+        How many of the layout's shapes lie below it.
+    shape
+        The shape where it stands in the layout.
+    rect
+        Where it would stand without the alignment.
+    """
+
+    before: int
+    shape: PlacedShape
+    rect: Rect
+
+
+@dataclass(frozen=True, slots=True)
 class Naive:
     """A layout as it would be without the alignment.
 
@@ -40,32 +59,73 @@ class Naive:
         Where each of the layout's shapes would stand, in the same order.
     flaws
         What is wrong with that.
+    behind
+        Shapes that the layout leaves away, bottom first; none where the layout was read from a document, for that
+        does not hold them.
     """
 
     shapes: tuple[Rect, ...]
     flaws: tuple[Flaw, ...]
+    behind: tuple[Behind, ...] = ()
+
+    def stacked(self, layout: Layout) -> tuple[PlacedShape, ...]:
+        """All shapes where they would stand, bottom first."""
+        moved = [replace(own, rect=rect) for own, rect in zip(layout.shapes, self.shapes, strict=True)]
+        for own in reversed(self.behind):
+            moved.insert(own.before, replace(own.shape, rect=own.rect))
+        return tuple(moved)
 
 
 def naive_layout(layout: Layout) -> Naive:
     """Lay the layout's words side by side at their preferred sizes, and say what is wrong with that.
 
     Each word begins at the left, or at the foot. A letter without a preferred size has the one that was solved. The
-    flaws are those of the paper's Figure 3: boundaries that do not meet, instances of a symbol that stand now so, now
-    so to what they meet in the layout (inconsistent placement), instances that the canvas's end cuts (inconsistent
-    sizing), symbols that must not be covered and are, places that no shape covers, and words that end beyond the
-    canvas. What is as wrong in the layout itself is no flaw here.
+    flaws are those of the paper's section 3.5, which its Figure 3 marks:
+
+    - ``misalignment``: what meets in the layout lies apart in two layers (extrinsic misalignment);
+    - ``intrinsic``: so do letters of two layers that have the same pattern;
+    - ``sizing``: an instance of a symbol is not as large as the others, as the canvas's end cuts it or it has no size
+      of its own;
+    - ``placement``: instances of a symbol stand now so, now so to what they meet, or to each other;
+    - ``occlusion``: a symbol that must not be covered is, or a window or a door as a whole;
+    - ``hole``: no shape covers a place;
+    - ``beyond``, ``short``: a word ends beyond the canvas, or leaves some of it empty.
+
+    What is as wrong in the layout itself is no flaw here.
     """
     lines = {axis: _Line(layout, axis) for axis in AXES}
     shapes = tuple(_naive_rect(shape, lines) for shape in layout.shapes)
+    behind = tuple(Behind(before, shape, _naive_rect(shape, lines)) for before, shape in _left_away(layout))
+    naive = Naive(shapes, (), behind)
     flaws = chain(
         _misaligned(layout, lines),
+        _apart(layout, lines),
         _uneven(layout, lines),
-        _cut(layout, lines),
+        _unspaced(layout, lines),
+        _sized(layout, lines),
         _occluded(layout, shapes),
-        _bare(layout, shapes),
+        _bare(layout, naive.stacked(layout)),
         _beyond(layout, lines),
+        _short(layout, lines),
     )
-    return Naive(shapes, tuple(flaws))
+    return replace(naive, flaws=tuple(flaws))
+
+
+def _left_away(layout: Layout) -> Iterator[tuple[int, PlacedShape]]:
+    """The shapes that are wholly behind others, each after so many of the layout's own."""
+    if layout.design is None:
+        return
+    own = {_cell(shape) for shape in layout.shapes}
+    before = 0
+    for shape in merge(layout.design, layout.x, layout.y, behind=True):
+        if _cell(shape) in own:
+            before += 1
+        else:
+            yield before, shape
+
+
+def _cell(shape: PlacedShape) -> tuple[str, str, str, tuple[int, int]]:
+    return shape.layer, shape.x, shape.y, shape.number
 
 
 class _Line:
@@ -165,20 +225,72 @@ def _uneven_to(layout: Layout, axis: Axis, line: _Line, layer: str, other: str) 
             yield Flaw("placement", _band(layout, axis, *span), text)
 
 
-def _cut(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
-    """Instances that the canvas's end would cut, of symbols that are whole elsewhere."""
-    for axis, end in (("x", layout.canvas.width), ("y", layout.canvas.height)):
-        own: Axis = "x" if axis == "x" else "y"
-        for layer, spans in lines[own].spans.items():
-            whole = {letter.symbol for letter, (_, stop) in spans if stop <= end + _NEAR}
-            for letter, (start, stop) in spans:
-                if letter.transparent or letter.symbol not in whole or not start + _NEAR < end < stop - _NEAR:
+def _apart(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
+    """Letters of layers with the same pattern that stand at one place in the layout, and would not."""
+    if layout.design is None:
+        return
+    pattern = {
+        (layer.name, axis): layer.along(axis).pattern for layer in layout.design.stack for axis in AXES
+    }
+    for axis in AXES:
+        first: dict[str, tuple[str, list[tuple[PlacedLetter, Span]]]] = {}
+        for layer, spans in lines[axis].spans.items():
+            other, there = first.setdefault(pattern[layer, axis], (layer, spans))
+            for (own, span), (letter, place) in zip(spans, there, strict=False):
+                same = own.symbol == letter.symbol and abs(own.start - letter.start) <= 1e-6
+                if same and not own.transparent and abs(span[0] - place[0]) > _NEAR:
+                    text = (
+                        f"{own.symbol} on {axis} begins at {span[0]:.2f} m in {layer!r} and at {place[0]:.2f} m in "
+                        f"{other!r}, though both have the pattern {pattern[layer, axis]!r}"
+                    )
+                    yield Flaw("intrinsic", _band(layout, axis, *sorted((span[0], place[0]))), text)
+
+
+def _unspaced(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
+    """Neighbours of one symbol that are as far from each other as the first two are in the layout, and would not be."""
+    for axis in AXES:
+        for layer, spans in lines[axis].spans.items():
+            last: dict[str, tuple[PlacedLetter, Span]] = {}
+            usual: dict[str, tuple[float, float]] = {}
+            for letter, span in spans:
+                if letter.transparent:
                     continue
-                text = (
-                    f"{letter.symbol} of {layer!r} on {axis} is {end - start:.2f} m at the canvas's end, "
-                    f"and {stop - start:.2f} m elsewhere"
-                )
-                yield Flaw("sizing", _band(layout, own, start, end), text)
+                if letter.symbol in last:
+                    before, place = last[letter.symbol]
+                    solved, naive = letter.start - before.end, span[0] - place[1]
+                    first = usual.setdefault(letter.symbol, (solved, naive))
+                    if abs(solved - first[0]) <= _NEAR < abs(naive - first[1]):
+                        text = (
+                            f"Neighbours {letter.symbol} of {layer!r} on {axis} are {naive:.2f} m apart, and the first "
+                            f"two {first[1]:.2f} m"
+                        )
+                        yield Flaw("placement", _band(layout, axis, place[1], span[0]), text)
+                last[letter.symbol] = letter, span
+
+
+def _sized(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
+    """Instances of a symbol, of all layers, that are not as large within the canvas as the largest one is."""
+    for axis, end in _ends(layout):
+        seen: dict[str, list[tuple[str, PlacedLetter, Span]]] = {}
+        for layer, spans in lines[axis].spans.items():
+            for letter, (start, stop) in spans:
+                if not letter.transparent and start + _NEAR < end:
+                    seen.setdefault(letter.symbol, []).append((layer, letter, (start, min(stop, end))))
+        for symbol, places in seen.items():
+            _, most, (low, high) = max(places, key=lambda one: one[2][1] - one[2][0])
+            for layer, letter, (start, stop) in places:
+                differs = high - low - (stop - start) > _NEAR
+                if differs and abs(letter.size - most.size) <= _NEAR:
+                    where = " at the canvas's end" if stop == end else ""
+                    text = (
+                        f"{symbol} of {layer!r} on {axis} is {stop - start:.2f} m{where}, "
+                        f"and {high - low:.2f} m elsewhere"
+                    )
+                    yield Flaw("sizing", _band(layout, axis, start, stop), text)
+
+
+def _ends(layout: Layout) -> tuple[tuple[Axis, float], tuple[Axis, float]]:
+    return ("x", layout.canvas.width), ("y", layout.canvas.height)
 
 
 def _stops(group: GroupLayout, line: _Line) -> Mapping[float, list[float]]:
@@ -193,20 +305,26 @@ def _stops(group: GroupLayout, line: _Line) -> Mapping[float, list[float]]:
 
 
 def _occluded(layout: Layout, shapes: Sequence[Rect]) -> Iterator[Flaw]:
-    """Shapes of symbols that must not be covered, and would be."""
+    """Shapes of symbols that must not be covered, and would be; windows and doors that would be as a whole."""
     design = layout.design
     if design is None:
         return
     told: set[Rect] = set()
     for i, below in enumerate(layout.shapes):
-        if not (design.symbol(below.x).unoccludable or design.symbol(below.y).unoccludable):
+        guarded = design.symbol(below.x).unoccludable or design.symbol(below.y).unoccludable
+        if not guarded and below.kind not in ("window", "door"):
             continue
         for j in range(i + 1, len(layout.shapes)):
             above = layout.shapes[j]
             if above.layer == below.layer:
                 continue
             common = _common(shapes[i], shapes[j])
-            if common is not None and common not in told and _common(below.rect, above.rect) is None:
+            whole = common is not None and all(
+                abs(a - b) <= _NEAR for a, b in zip(common, shapes[i], strict=True)
+            )
+            if common is None or common in told or not (guarded or whole):
+                continue
+            if _common(below.rect, above.rect) is None:
                 told.add(common)
                 yield Flaw(
                     "occlusion",
@@ -215,14 +333,14 @@ def _occluded(layout: Layout, shapes: Sequence[Rect]) -> Iterator[Flaw]:
                 )
 
 
-def _bare(layout: Layout, shapes: Sequence[Rect]) -> Iterator[Flaw]:
+def _bare(layout: Layout, shapes: Iterable[PlacedShape]) -> Iterator[Flaw]:
     """Places of the canvas without a shape, which have one in the layout."""
     canvas = layout.canvas
     placed = []
-    for shape, rect in zip(layout.shapes, shapes, strict=True):
-        inside = _common(rect, (0.0, 0.0, canvas.width, canvas.height))
+    for shape in shapes:
+        inside = _common(shape.rect, (0.0, 0.0, canvas.width, canvas.height))
         if inside is not None:
-            placed.append(PlacedShape(shape.layer, shape.x, shape.y, inside))
+            placed.append(replace(shape, rect=inside))
     own = set(layout.holes)
     for hole in find_holes(canvas, placed):
         if hole not in own and min(hole[2] - hole[0], hole[3] - hole[1]) > _NEAR:
@@ -231,12 +349,22 @@ def _bare(layout: Layout, shapes: Sequence[Rect]) -> Iterator[Flaw]:
 
 def _beyond(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
     """Words that end beyond the canvas."""
-    for axis, size in (("x", layout.canvas.width), ("y", layout.canvas.height)):
-        line = lines["x" if axis == "x" else "y"]
-        for layer, end in line.ends.items():
+    for axis, size in _ends(layout):
+        for layer, end in lines[axis].ends.items():
             if end > size + _NEAR:
-                rect = _band(layout, "x" if axis == "x" else "y", size, end)
-                yield Flaw("beyond", rect, f"The word of {layer!r} on {axis} ends {end - size:.2f} m too far")
+                text = f"The word of {layer!r} on {axis} ends {end - size:.2f} m too far"
+                yield Flaw("beyond", _band(layout, axis, size, end), text)
+
+
+def _short(layout: Layout, lines: Mapping[Axis, _Line]) -> Iterator[Flaw]:
+    """Words that end before the canvas does, but for what is empty in the layout too."""
+    for axis, size in _ends(layout):
+        for layer, end in lines[axis].ends.items():
+            spans = lines[axis].spans[layer]
+            reach = max((letter.end for letter, _ in spans), default=0.0)
+            if end < size - _NEAR and reach >= size - _NEAR:
+                text = f"The word of {layer!r} on {axis} leaves {size - end:.2f} m of the canvas empty"
+                yield Flaw("short", _band(layout, axis, end, size), text)
 
 
 def _band(layout: Layout, axis: Axis, low: float, high: float) -> Rect:

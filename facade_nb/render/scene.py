@@ -12,6 +12,7 @@ from ..design.errors import DesignError, Fault
 from ..solver.model.layout import Layout, PlacedShape, Rect
 from .cuts import Cut
 from .geometry import DEFAULT_GEOMETRY, Geometry, find_geometry
+from .lettering import undrawn
 from .materials import Material, find_material, rgb
 from .meshfile import file_geometry, is_file
 from .parts import Block, Part, Point, back, flip
@@ -214,7 +215,7 @@ def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
     -----
     DrawingWarning
         For each shape that cannot be drawn as the design says: a rule that the design's grammar does not have, a
-        mesh file that cannot be read. It is drawn plain.
+        mesh file that cannot be read. It is drawn plain. So it is for letters that a sign's lettering lacks.
     """
     solids = _cut(tuple(_solids(layout, roof_depth)))
     faults = drawing_faults(layout)
@@ -237,7 +238,25 @@ def drawing_faults(layout: Layout) -> tuple[Fault, ...]:
                 file_geometry(shape.geometry, f"{_place(shape)}: geometry")
             except DesignError as error:
                 found.update((str(fault), fault) for fault in error.faults)
+        else:
+            found.update((str(fault), fault) for fault in _blanks(shape))
     return tuple(found.values())
+
+
+def _blanks(shape: PlacedShape) -> Iterator[Fault]:
+    """The letters of its geometry's texts that are left blank."""
+    try:
+        geometry = find_geometry(shape.geometry)
+    except DesignError:  # who draws it tells that
+        return
+    for parameter in geometry.parameters:
+        lacking = undrawn(geometry.told.get(parameter.name, "")) if parameter.text else []
+        if lacking:
+            letters = ", ".join(repr(letter) for letter in lacking)
+            message = (
+                f"{parameter.name} of {geometry.name}: the lettering has no {letters}; a blank is left there"
+            )
+            yield Fault(f"{_place(shape)}: geometry", message)
 
 
 def _place(shape: PlacedShape) -> str:

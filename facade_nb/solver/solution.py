@@ -15,7 +15,7 @@ from ..design.limits import range_faults
 from ..design.model import AXES, Axis, Design
 from . import tuning
 from .alignment.core.binding import Session, session, start_afresh
-from .analysis.systems import analyse
+from .analysis.systems import analyse, refuted
 from .assembly.axes import axis_layout, axis_warnings, cut_warnings
 from .assembly.shapes import find_holes, hole_warnings, merge
 from .budget import Clock, Stopped
@@ -357,7 +357,7 @@ class _Run:
         )
         self.walks.append(walk)
         self.clock.progress.at("words", axis)
-        self._analyse(problem)
+        self._analyse(walk)
         with stage(self.trace, axis, "words"):
             walk.enumerate(self._across(axis))
         return walk
@@ -401,14 +401,17 @@ class _Run:
             {name: value for one in own for name, value in one.candidate.counters.items()},
         )
 
-    def _analyse(self, problem: AxisProblem) -> None:
-        """Pattern analysis (supplement 3.1): its systems, told to the trace; they do not end the search."""
-        if self.trace is None:
+    def _analyse(self, walk: AxisSearch) -> None:
+        """Pattern analysis (supplement 3.1), told to the trace; a contradiction that is a proof ends the search."""
+        problem = walk.problem
+        if problem.axis in self.analysed:
             return
-        if problem.axis not in self.analysed:
-            self.analysed.add(problem.axis)
+        self.analysed.add(problem.axis)
+        if self.trace is not None:
             with stage(self.trace, problem.axis, "analysis"):
                 self.trace.analysed(problem.axis, analyse(problem, self.clock.check))
+        if refuted(problem, self.clock.check) is not None:
+            raise self._failure(walk, Best())
 
     def _tied(self, axes: Sequence[Axis] = AXES) -> dict[Axis, tuple[AxisSearch, Best]]:
         """Both axes together, where a counter ties them: least J of both, over the values of the shared counters."""

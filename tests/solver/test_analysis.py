@@ -14,7 +14,8 @@ import pytest
 from facade_nb import NoLayout, gallery, solve
 from facade_nb.design.model import AXES
 from facade_nb.solver import tuning
-from facade_nb.solver.analysis.systems import analyse
+from facade_nb.solver.analysis.systems import analyse, refuted
+from facade_nb.solver.events.base import StageBegun
 from facade_nb.solver.model.problem import axis_problem
 from tests.oracle.analysing import analysed, between, stacked, texts
 
@@ -273,6 +274,34 @@ def test_a_binding_contradiction_has_no_layout() -> None:
     assert analyse(axis_problem(one, "x")).conflict("binding") is not None
     with pytest.raises(NoLayout):
         solve(one)
+
+
+@pytest.mark.parametrize(
+    ("patterns", "canvas"),
+    [
+        ({"P": "A A^m A^m", "Q": "A^l A^l"}, 6.0),
+        ({"P": "A A^m A^m", "Q": "A^l A^l"}, 60.0),
+        ({"P": "(AB)^m (AB)^m", "Q": "AB (AB)^l (AB)^l", "R": "(AB)^k"}, 24.0),
+    ],
+)
+def test_a_proof_ends_the_search_before_any_word_is_made(patterns: dict[str, str], canvas: float) -> None:
+    """Each pattern is in a group of its own: only sizes tie them, and of words there would be no end."""
+    one = stacked(patterns, {"A": 0.2, "B": 0.1}, canvas=canvas)
+    conflict = refuted(axis_problem(one, "x"))
+    assert conflict is not None
+    assert conflict == analyse(axis_problem(one, "x")).conflict("binding")
+    for search in ("best", "ida"):
+        with pytest.raises(NoLayout, match="can never be of one length") as caught:
+            solve(one, trace=True, search=search, time_limit=None)
+        assert caught.value.constraint == "analysis"
+        stages = [event.stage for event in caught.value.trace.events if isinstance(event, StageBegun)]
+        assert stages == ["analysis"]
+
+
+def test_what_is_no_proof_is_searched() -> None:
+    one = stacked({"P": "A A^m A^m", "Q": "A^l A^l"}, {"A": 2}, groups={"P": "one", "Q": "one"}, canvas=6)
+    assert refuted(axis_problem(one, "x")) is None
+    assert solve(one).complete
 
 
 def test_an_exact_contradiction_can_have_a_layout_with_gaps() -> None:

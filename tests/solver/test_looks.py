@@ -66,9 +66,7 @@ class TestInstances:
     def test_an_instance_can_be_hidden_and_makes_a_hole_that_is_told(self) -> None:
         layout = solve(wall({"B[1] Q": {"visible": False}}))
         assert layout.holes == ((1.0, 1.0, 2.0, 2.0),)
-        assert "B Q of layer 'wall' stands there and pushed the others aside, but it is not visible" in str(
-            layout.warnings
-        )
+        assert "B Q of layer 'wall' stands there, but it is not visible" in str(layout.warnings)
 
     def test_a_trace_tells_which_instance_is_hidden(self) -> None:
         layout = solve(wall({"B[1] Q": {"visible": False}}), trace=True)

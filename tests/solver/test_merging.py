@@ -247,6 +247,29 @@ class TestHoles:
             "pushed the others aside, but its y mask hides P.",
         )
 
+    def test_a_layer_of_another_group_has_pushed_nothing(self) -> None:
+        """A veil lies over wall and columns, in a group of its own: who pushed is told; alone, it pushed nobody."""
+        parts = {"patterns": {"w": "ABA B", "c": {"text": "e d e; d := C"}, "v": "BBBA"}}
+        veil = layer("veil", "v", "p", x_mask=[])
+        for line in ("x", "y"):
+            veil[line]["group"] = "veil"
+        layers = [layer("wall", "w", "p"), layer("columns", "c", "p", y_mask=["Q"]), veil]
+        wide = {"canvas": {"width": 7.0, "height": 2.0}}
+        one = stack(*layers, symbols={"C": {"size": 1.0}}, **parts)
+        (told,) = solve(Design.from_dict(one.to_dict() | wide)).warnings
+        assert (
+            "C P of layer 'columns' stands there and pushed the others aside, but its y mask hides P" in told
+        )
+        bare = stack(
+            layers[0],
+            veil,
+            symbols={"C": {"size": 1.0}},
+            patterns={**parts["patterns"], "w": {"text": "e d e; d := B"}},
+        )
+        warnings = solve(Design.from_dict(bare.to_dict() | wide)).warnings
+        assert any("of layer 'veil' stands there, but its x mask hides" in warning for warning in warnings)
+        assert "pushed" not in " ".join(warnings)
+
     def test_hidden_by_the_pattern(self) -> None:
         layout = solve(stack(layer("wall", "a", "p"), patterns={"a": {"text": "ABA", "hidden": ["B"]}}))
         assert layout.holes == ((1.0, 0.0, 3.0, 2.0),)

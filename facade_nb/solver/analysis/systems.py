@@ -46,7 +46,7 @@ from .terms import (
     trim,
 )
 
-__all__ = ["Analysis", "Conflict", "Equation", "LinearSystem", "Row", "Strength", "analyse"]
+__all__ = ["Analysis", "Conflict", "Equation", "LinearSystem", "Row", "Strength", "analyse", "refuted"]
 
 
 def analyse(problem: AxisProblem, check: Callable[[], None] | None = None) -> Analysis:
@@ -55,6 +55,14 @@ def analyse(problem: AxisProblem, check: Callable[[], None] | None = None) -> An
     `check` is called now and then; it may raise `budget.Stopped`.
     """
     return _Analyser(problem, check).result()
+
+
+def refuted(problem: AxisProblem, check: Callable[[], None] | None = None) -> Conflict | None:
+    """The contradiction that proves that an axis has no layout, or None: the `binding` one of `analyse`, much sooner.
+
+    Only patterns that are sure to fill the canvas are compared, and few are.
+    """
+    return _Analyser(problem, check).proof()
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +99,21 @@ class _Analyser:
             if self.check is not None:
                 self.check()
             self._compare((p, q), self.flat[p], self.flat[q], spans[p] and spans[q])
+        return self._solved()
+
+    def proof(self) -> Conflict | None:
+        """What contradicts itself among the equations that hold in every layout."""
+        sure = [n for n, pattern in self.problem.patterns if n in self.flat and self._spans(n, pattern)]
+        self._extents(binding=True)
+        for p, q in combinations(sure, 2):
+            if self.check is not None:
+                self.check()
+            self._compare((p, q), self.flat[p], self.flat[q], True)
+        self.equations = [own for own in self.equations if own.strength == "binding"]
+        return self._solved().conflict("binding") if self.equations else None
+
+    def _solved(self) -> Analysis:
+        """Both systems of the equations that there are."""
         variables = {**self.measures, **self.times.variables}
         met = {
             name for flat in self.flat.values() for v in flat.variants for run in v for name in run.exponent
@@ -188,7 +211,7 @@ class _Analyser:
 
     # Equations
 
-    def _extents(self) -> None:
+    def _extents(self, binding: bool = False) -> None:
         """A symbol that is substituted in one pattern and left standing in another has the extent of its content.
 
         Only where both are sure to be there: a word may have no instance of it, or an empty content.
@@ -199,11 +222,13 @@ class _Analyser:
             ]
             fills = [n for n, own in self.contents if own == symbol and stands and self._filled(n, symbol)]
             for name in fills:
+                if binding and not self._solid(name):
+                    continue
                 instance = _Flat([[Run(((symbol, False),), {"": 1})]], True, True)
                 self._compare(
                     (name, stands[0]), instance, self.contents[name, symbol], self._solid(name), symbol
                 )
-            for pair in combinations(fills, 2):
+            for pair in combinations([n for n in fills if not binding or self._solid(n)], 2):
                 p, q = (self.contents[name, symbol] for name in pair)
                 self._compare(pair, p, q, all(map(self._solid, pair)), symbol)
 

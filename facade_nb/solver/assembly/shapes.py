@@ -22,9 +22,14 @@ _NEAR = 1e-6
 
 
 def merge(
-    design: Design, x: AxisLayout, y: AxisLayout, check: Callable[[], None] | None = None
+    design: Design,
+    x: AxisLayout,
+    y: AxisLayout,
+    check: Callable[[], None] | None = None,
+    *,
+    behind: bool = False,
 ) -> tuple[PlacedShape, ...]:
-    """Visible shapes, bottom layer first.
+    """Visible shapes, bottom layer first; with `behind`, those wholly behind others too.
 
     Letters that are transparent, masked out by the layer or hidden by their pattern make no shape; nor do
     shapes that are not `visible`, nor those wholly behind a visible shape both of whose symbols are opaque.
@@ -51,12 +56,14 @@ def merge(
                 check()
             if len(own) > MAX_SHAPES:
                 raise _too_many(layer, columns, floors)
-            behind = [(f.solid, across, up[j]) for f, across, up in before if up[j] is not None]
+            hiding = [
+                (f.solid, across, up[j]) for f, across, up in before if up[j] is not None and not behind
+            ]
             for i, h in enumerate(columns):
                 look = looks.of(sorts[i], rises[j])
                 if not look.visible:
                     continue
-                for solid, across, k in behind:
+                for solid, across, k in hiding:
                     if (across[i], k) in solid:
                         break
                 else:
@@ -198,14 +205,14 @@ def hole_warnings(
     holes: Sequence[Rect],
     check: Callable[[], None] | None = None,
 ) -> list[str]:
-    """A sentence for each letter that pushed the others aside and is itself not to be seen in the hole."""
+    """A sentence for each letter that is itself not to be seen in a hole; one that pushed others aside comes first."""
     told: dict[str, None] = {}
     axes: Mapping[Axis, AxisLayout] = {"x": x, "y": y}
     for hole in holes:
         if check is not None:
             check()
         where = f"{hole[0]:.2f} to {hole[2]:.2f} m across, {hole[1]:.2f} to {hole[3]:.2f} m up"
-        culprit = next(_pushers(design, axes, hole), None)
+        culprit = next(_hidden(design, axes, hole), None)
         if culprit is None:
             told[f"Nothing covers the canvas at {where}."] = None
         else:
@@ -213,22 +220,65 @@ def hole_warnings(
     return list(told)
 
 
-def _pushers(design: Design, axes: Mapping[Axis, AxisLayout], hole: Rect) -> Iterator[str]:
-    """The solid letters that stand in a hole, from the top, each with what hides it there."""
+def _hidden(design: Design, axes: Mapping[Axis, AxisLayout], hole: Rect) -> Iterator[str]:
+    """The solid letters that stand in a hole, each with what hides it there.
+
+    Those that pushed letters of their group aside come first, from the top; then the others, from the bottom.
+    """
+    idle: list[str] = []
     for layer in design.stack:
         looks = Looks(design, layer)
         across = _standing(axes["x"], layer, hole[0], hole[2])
         up = _standing(axes["y"], layer, hole[1], hole[3])
+        own: list[str] = []
         for (h, column), (v, floor) in product(across, up):
-            stands = f"{h.symbol} {v.symbol} of layer {layer.name!r} stands there and pushed the others aside, but "
-            for axis, letter in zip(AXES, (h, v), strict=True):
-                own = layer.along(axis)
-                if own.mask is not None and letter.symbol not in own.mask:
-                    yield f"{stands}its {axis} mask hides {letter.symbol}"
-                elif letter.symbol in design.patterns[own.pattern].hidden:
-                    yield f"{stands}pattern {own.pattern!r} hides {letter.symbol}"
-            if not looks.of(looks.sort(column), looks.sort(floor)).visible:
-                yield f"{stands}it is not visible"
+            pushed = _pushes(design, axes["x"], layer, h, hole[0], hole[2]) or _pushes(
+                design, axes["y"], layer, v, hole[1], hole[3]
+            )
+            stands = f"{h.symbol} {v.symbol} of layer {layer.name!r} stands there"
+            for reason in _reasons(
+                design, layer, h, v, looks.of(looks.sort(column), looks.sort(floor)).visible
+            ):
+                if pushed:
+                    yield f"{stands} and pushed the others aside, but {reason}"
+                else:
+                    own.append(f"{stands}, but {reason}")
+        idle[:0] = own
+    yield from idle
+
+
+def _reasons(
+    design: Design, layer: Layer, h: PlacedLetter, v: PlacedLetter, visible: bool | None
+) -> Iterator[str]:
+    """What hides a shape."""
+    for axis, letter in zip(AXES, (h, v), strict=True):
+        own = layer.along(axis)
+        if own.mask is not None and letter.symbol not in own.mask:
+            yield f"its {axis} mask hides {letter.symbol}"
+        elif letter.symbol in design.patterns[own.pattern].hidden:
+            yield f"pattern {own.pattern!r} hides {letter.symbol}"
+    if not visible:
+        yield "it is not visible"
+
+
+def _pushes(
+    design: Design, solved: AxisLayout, layer: Layer, letter: PlacedLetter, low: float, high: float
+) -> bool:
+    """Whether another row of the group is empty where an opaque letter stands, within an interval.
+
+    Only rows of one group are aligned, so a letter moves nothing of another group.
+    """
+    low, high = max(low, letter.start), min(high, letter.end)
+    if not design.symbol(letter.symbol).opaque:
+        return False
+    for group in solved.groups.values():
+        if any(row.layer == layer.name for row in group.rows):
+            for row in group.rows:
+                if row.layer != layer.name:
+                    filled = sum(max(0.0, min(a.end, high) - max(a.start, low)) for a in row.letters)
+                    if filled < high - low - _NEAR:
+                        return True
+    return False
 
 
 def _standing(

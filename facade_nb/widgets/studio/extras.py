@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import traceback
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ipywidgets import Widget
@@ -129,8 +129,10 @@ class Extras(ModelWire):
         self.stage = self._stage()
         if self._changed("marks", layout, self._wanted("marks")):
             self.marks = _marks(layout) if layout is not None and self._wanted("marks") else {}
-        if self._changed("naive", layout, self._wanted("naive")):
-            self.naive = _naive(layout) if layout is not None and self._wanted("naive") else {}
+        if self._changed("naive", layout, theme, self._wanted("naive")):
+            shown = layout is not None and self._wanted("naive")
+            prefix = f"n{self.model_id}"
+            self.naive = _naive(layout, theme, prefix) if shown and layout is not None else {}
         if self._changed("exploded", layout, theme, self._wanted("exploded")):
             shown = layout is not None and self._wanted("exploded")
             self.exploded = (
@@ -228,10 +230,17 @@ def _marks(layout: Layout) -> Json:
     }
 
 
-def _naive(layout: Layout) -> Json:
+def _naive(layout: Layout, theme: str, prefix: str) -> Json:
     found = naive_layout(layout)
+    hidden = replace(layout, shapes=tuple(own.shape for own in found.behind), holes=())
     return {
         "shapes": [[_rounded(side) for side in rect] for rect in found.shapes],
+        "behind": [
+            {"before": own.before, "rect": [_rounded(side) for side in own.rect]} for own in found.behind
+        ],
+        "drawing": elevation_svg(hidden, theme=theme, background=False, prefix=prefix)
+        if found.behind
+        else "",
         "flaws": [
             {"kind": flaw.kind, "rect": [_rounded(side) for side in flaw.rect], "text": flaw.text}
             for flaw in found.flaws

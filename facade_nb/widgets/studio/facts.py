@@ -20,9 +20,9 @@ _ENDLESS = re.compile(
     r"Counter '(.+)' in pattern '.+' repeats nothing that has a size; it was tried up to (\d+) only"
 )
 _MASK = re.compile(
-    r"of layer '(.+)' stands there and pushed the others aside, but its ([xy]) mask hides (.+)\.$"
+    r"of layer '(.+)' stands there(?: and pushed the others aside)?, but its ([xy]) mask hides (.+)\.$"
 )
-_HIDDEN = re.compile(r"stands there and pushed the others aside, but pattern '(.+)' hides (.+)\.$")
+_HIDDEN = re.compile(r"stands there(?: and pushed the others aside)?, but pattern '(.+)' hides (.+)\.$")
 _LONGER = 6
 
 

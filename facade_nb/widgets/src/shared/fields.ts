@@ -137,6 +137,7 @@ export function nameField(options: {
     update() {
       if (focused(input) !== input && !input.readOnly) input.value = options.value();
       input.size = Math.max(2, options.value().length);
+      mark(input, "title", options.value().length > 10 ? options.value() : null); // it may be cut
     },
   };
 }

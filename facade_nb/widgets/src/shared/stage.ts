@@ -37,7 +37,7 @@ export interface MarkedGroup {
 export type Marks = Partial<Record<Axis, MarkedGroup[]>>;
 
 export interface Flaw {
-  kind: "beyond" | "hole" | "misalignment" | "occlusion" | "placement" | "sizing";
+  kind: "beyond" | "hole" | "intrinsic" | "misalignment" | "occlusion" | "placement" | "short" | "sizing";
   rect: Rect;
   text: string;
 }
@@ -98,7 +98,8 @@ export interface StageState {
     keeping?: Keeping;
   };
   marks: Marks;
-  naive: { shapes?: Rect[]; flaws?: Flaw[] };
+  /** Where shapes stand side by side, what is wrong there, and the shapes that the aligned layout has behind others. */
+  naive: { shapes?: Rect[]; flaws?: Flaw[]; behind?: { before: number; rect: Rect }[]; drawing?: string };
   exploded: string;
   survey: { building?: string; openings?: Rect[]; score?: number; source?: string };
   snapshots: SnapshotState[];

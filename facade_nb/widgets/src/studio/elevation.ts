@@ -94,7 +94,10 @@ export const elevation: MakePart = (context) => {
 
   const extra = () => {
     const named = on.has("groups") || on.has("grid");
-    return { side: on.has("dimensions") ? CHAINS : 0, foot: naive.on ? SLIDER : named ? LEGEND : 0 };
+    return {
+      side: on.has("dimensions") ? CHAINS : 0,
+      foot: naive.on ? Math.max(SLIDER, naive.el.offsetHeight + 16) : named ? LEGEND : 0,
+    };
   };
   const camera = (): Camera | null => {
     const room = { width: stage.clientWidth, height: stage.clientHeight };

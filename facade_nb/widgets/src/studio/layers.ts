@@ -116,6 +116,7 @@ function layerRow(context: Context, list: HTMLElement, first: LayerState): Row<L
       faults.update();
       unshaped.hidden = !layer.unshaped;
       setText(brief, `${layer.x.pattern} × ${layer.y.pattern}`);
+      mark(brief, "title", `${layer.x.pattern} × ${layer.y.pattern}`);
       const at = position();
       up.disabled = at === 0;
       down.disabled = at === store.get("design").layers.length - 1;

@@ -1,17 +1,36 @@
 // The paper's Figure 3: words side by side at their preferred sizes, with what is wrong there, and a slider to the layout.
 
-import { h, mark, setText, svg } from "../shared/dom.ts";
-import { boxOf, type Drawing } from "../shared/drawing.ts";
+import { h, mark, svg } from "../shared/dom.ts";
+import { boxOf, type Drawing, parseDrawing } from "../shared/drawing.ts";
 import type { Flaw, Rect, StageState } from "../shared/stage.ts";
 import { rectOf, type Sheet } from "./marks.ts";
 
-const KINDS: Record<Flaw["kind"], [one: string, many: string]> = {
-  misalignment: ["boundary apart", "boundaries apart"],
-  placement: ["placed unevenly", "placed unevenly"],
-  sizing: ["cut by the canvas", "cut by the canvas"],
-  occlusion: ["place covered", "places covered"],
-  hole: ["hole", "holes"],
-  beyond: ["word too long", "words too long"],
+/** Of one, of many, and what that means; in the order of the legend. */
+const KINDS: Record<Flaw["kind"], [one: string, many: string, meaning: string]> = {
+  misalignment: [
+    "boundary of layers apart",
+    "boundaries of layers apart",
+    "Extrinsic misalignment: what meets in the aligned layout begins at different places in two layers",
+  ],
+  intrinsic: [
+    "letter apart from its pattern",
+    "letters apart from their pattern",
+    "Intrinsic misalignment: two layers have the same pattern, and their letters begin at different places",
+  ],
+  sizing: [
+    "unequal size",
+    "unequal sizes",
+    "Inconsistent sizing: the same symbol is wide here and narrow there, or the canvas's end cuts it",
+  ],
+  placement: [
+    "uneven distance",
+    "uneven distances",
+    "Inconsistent placement: symbols that should all stand alike do not",
+  ],
+  occlusion: ["place covered", "places covered", "Occlusion: what must not be covered is"],
+  hole: ["hole", "holes", "Holes: nothing covers this place"],
+  beyond: ["word too long for the canvas", "words too long for the canvas", "Letters stand beyond the canvas"],
+  short: ["word too short for the canvas", "words too short for the canvas", "The canvas is not filled"],
 };
 /** Flaws that are drawn at most. */
 const MOST = 300;
@@ -52,7 +71,11 @@ export function naiveView(changed: () => void): NaiveView {
     value: 0,
     "aria-label": "From words laid side by side to the aligned layout",
   });
-  const said = h("span", { class: "fnb-naive-said" });
+  const said = h("div", {
+    class: "fnb-naive-said",
+    role: "group",
+    "aria-label": "What is wrong; press to hide a kind",
+  });
   const el = h(
     "div",
     { class: "fnb-naive", role: "group", "aria-label": "Naive and aligned", hidden: true },
@@ -64,6 +87,10 @@ export function naiveView(changed: () => void): NaiveView {
   const flaws = svg("g", { class: "fnb-flaws" });
   let on = false;
   let shown: { sheet: Sheet; naive: StageState["naive"] } | null = null;
+  let legend = "";
+  let height = 0;
+  const hidden = new Set<Flaw["kind"]>();
+  const behind = behindOf();
 
   const draw = () => {
     const t = Number(slider.value) / 100;
@@ -72,6 +99,7 @@ export function naiveView(changed: () => void): NaiveView {
     const { sheet, naive } = shown;
     const own = sheet.drawing.svg;
     const moves = on && t < 1 && naive.shapes !== undefined;
+    behind.draw(sheet.drawing, moves ? naive : {}, t);
     mark(own, "data-naive", moves);
     // What is picked is outlined where it is aligned.
     if (flaws.ownerSVGElement) mark(flaws.ownerSVGElement, "data-naive", moves);
@@ -95,14 +123,48 @@ export function naiveView(changed: () => void): NaiveView {
     const all = naive.flaws ?? [];
     if (t === 0)
       flaws.replaceChildren(
-        ...all.slice(0, MOST).map((flaw) => {
-          const rect = rectOf(sheet, flaw.rect);
-          rect.setAttribute("class", `fnb-flaw fnb-flaw-${flaw.kind}`);
-          rect.append(svg("title", {}, flaw.text));
-          return rect;
-        }),
+        ...all
+          .filter((flaw) => !hidden.has(flaw.kind))
+          .slice(0, MOST)
+          .map((flaw) => {
+            const rect = rectOf(sheet, flaw.rect);
+            rect.setAttribute("class", `fnb-flaw fnb-flaw-${flaw.kind}`);
+            rect.append(svg("title", {}, flaw.text));
+            return rect;
+          }),
       );
-    setText(said, naive.shapes ? summary(all, t) : "…");
+    const text = naive.shapes ? summary(all, t) : "…";
+    if (text === legend) return;
+    legend = text;
+    if (t === 1 || all.length === 0 || !naive.shapes) said.replaceChildren(text);
+    else said.replaceChildren(...[...counted(all)].map(([kind, words]) => keyFor(kind, words)));
+    if (el.offsetHeight !== height) {
+      height = el.offsetHeight; // the drawing keeps clear of it
+      changed();
+    }
+  };
+  /** One kind in the legend: how it is drawn, and how many there are; pressed, it is drawn. */
+  const keyFor = (kind: Flaw["kind"], words: string) => {
+    const swatch = svg("svg", { width: 16, height: 12, "aria-hidden": "true" });
+    swatch.append(svg("rect", { x: 1, y: 1, width: 14, height: 10, class: `fnb-flaw fnb-flaw-${kind}` }));
+    const key = h(
+      "button",
+      {
+        type: "button",
+        class: "fnb-flaw-key",
+        title: KINDS[kind][2],
+        "aria-pressed": String(!hidden.has(kind)),
+        "data-local": true,
+      },
+      swatch as unknown as HTMLElement,
+      words,
+    );
+    key.addEventListener("click", () => {
+      if (!hidden.delete(kind)) hidden.add(kind);
+      mark(key, "aria-pressed", String(!hidden.has(kind)));
+      draw();
+    });
+    return key;
   };
   slider.addEventListener("input", draw);
   return {
@@ -112,6 +174,8 @@ export function naiveView(changed: () => void): NaiveView {
       on = to;
       el.hidden = !to;
       if (to) slider.value = "0";
+      legend = "";
+      height = 0;
       draw();
       changed();
     },
@@ -129,7 +193,57 @@ export function naiveView(changed: () => void): NaiveView {
 export function summary(flaws: Flaw[], t: number): string {
   if (t === 1) return "Aligned: as it is solved";
   if (flaws.length === 0) return "Nothing is wrong side by side";
-  const counts = new Map<Flaw["kind"], number>();
-  for (const { kind } of flaws) counts.set(kind, (counts.get(kind) ?? 0) + 1);
-  return [...counts].map(([kind, count]) => `${count} ${KINDS[kind][count === 1 ? 0 : 1]}`).join(", ");
+  return [...counted(flaws).values()].join(", ");
+}
+
+/** How many there are of each kind that occurs, in words. */
+function counted(flaws: Flaw[]): Map<Flaw["kind"], string> {
+  const words = new Map<Flaw["kind"], string>();
+  for (const kind of Object.keys(KINDS) as Flaw["kind"][]) {
+    const count = flaws.filter((flaw) => flaw.kind === kind).length;
+    if (count > 0) words.set(kind, `${count} ${KINDS[kind][count === 1 ? 0 : 1]}`);
+  }
+  return words;
+}
+
+/** The shapes that the aligned layout has wholly behind others: they are drawn while it is not yet aligned. */
+function behindOf() {
+  let source = "";
+  let parsed: Drawing | null = null;
+  const groups: Element[] = [];
+  return {
+    draw(drawing: Drawing, naive: StageState["naive"], t: number): void {
+      for (const group of groups.splice(0)) group.remove();
+      const places = naive.behind ?? [];
+      if (!places.length || !naive.drawing) return;
+      if (source !== naive.drawing || !parsed) {
+        source = naive.drawing;
+        parsed = parseDrawing(source);
+      }
+      const own = [...drawing.svg.querySelectorAll("[data-shape]")];
+      const defs = parsed.svg.querySelector("defs")?.cloneNode(true) as Element | undefined;
+      if (defs) groups.push(defs);
+      if (defs) drawing.svg.prepend(defs);
+      for (const shape of parsed.svg.querySelectorAll<SVGGElement>("[data-shape]")) {
+        const place = places[Number(shape.dataset.shape)];
+        if (!place) continue;
+        const group = shape.cloneNode(true) as SVGGElement;
+        group.removeAttribute("data-shape"); // it is none of the layout's own
+        group.setAttribute("class", "fnb-behind");
+        const { origin, scale } = parsed;
+        const box = boxOf(shape);
+        const aligned: Rect = [
+          (box.x - origin.x) / scale,
+          (origin.y - box.y - box.height) / scale,
+          (box.x + box.width - origin.x) / scale,
+          (origin.y - box.y) / scale,
+        ];
+        group.setAttribute("transform", transformTo(drawing, shape, between(place.rect, aligned, t)));
+        const next = own.find((other) => Number((other as SVGElement).dataset.shape) === place.before);
+        if (next) next.before(group);
+        else own.at(-1)?.after(group);
+        groups.push(group);
+      }
+    },
+  };
 }
