@@ -22,7 +22,7 @@ from typing import Any
 from . import Design, DesignError, Layout, NoLayout, __version__, solve
 from .cli_building import read_building, solve_building
 from .cli_ending import ended, say
-from .cli_files import STANDARD_OUTPUT, Output, Source, check, write
+from .cli_files import STANDARD_OUTPUT, Output, Source, check, obj_outputs, write
 from .cli_infer import add_infer
 from .cli_render import add_render, joined
 from .cli_town import add_town
@@ -112,7 +112,7 @@ def _seconds(text: str) -> float:
 def _solve(options: argparse.Namespace) -> int:
     building = read_building(Path(options.design))
     if building is not None:
-        return solve_building(building, options, list(_beside(options)))
+        return solve_building(building, options)
     design = Design.from_json(Path(options.design))
     try:
         layout = solve(design, trace=options.trace is not None, time_limit=options.time_limit)
@@ -162,9 +162,7 @@ def _drawings(options: argparse.Namespace, layout: Layout) -> list[tuple[Output,
         warnings.simplefilter("ignore", render.DrawingWarning)  # said in words of our own, once
         found = [(path, draw(layout)) for path, draw in zip(named, kinds, strict=True) if path is not None]
         if options.obj is not None:
-            (_, beside) = next(iter(_beside(options)), ("", None))
-            text, materials = render.to_obj(layout, Path(beside).name if beside else "")
-            found += [(options.obj, text)] + ([(beside, materials)] if beside else [])
+            found += obj_outputs(options, partial(render.obj_files, layout))
     return found
 
 

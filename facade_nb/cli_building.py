@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .cli_ending import say
-from .cli_files import Output, write
+from .cli_files import Output, obj_outputs, write
 from .design.errors import DesignError, Fault
 from .design.inputs import read_json_text, read_text
 
@@ -39,16 +38,8 @@ def read_building(path: Path) -> Building | None:
     return Building.from_dict(document)
 
 
-def solve_building(
-    building: Building, options: argparse.Namespace, beside: Sequence[tuple[str, Output]]
-) -> int:
-    """Solve it and write what is asked for; returns the exit status.
-
-    Parameters
-    ----------
-    beside
-        The files that are written beside others: the MTL of an OBJ.
-    """
+def solve_building(building: Building, options: argparse.Namespace) -> int:
+    """Solve it and write what is asked for; returns the exit status."""
     if options.trace is not None:
         raise DesignError(
             Fault("--trace", "expected a design; a building is solved wall by wall, without a trace")
@@ -71,9 +62,7 @@ def solve_building(
         say(error)
         return 1
     if options.obj is not None:
-        own = beside[0][1] if beside else None
-        mesh, materials = layout.to_obj(Path(own).name if own else "")
-        files += [(options.obj, mesh)] + ([(own, materials)] if own else [])
+        files += obj_outputs(options, layout.obj_files)
     write(files)
     for warning in layout.warnings:
         say(f"Note: {warning}")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import sys
 from argparse import Namespace
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import combinations
 from pathlib import Path
@@ -19,7 +19,7 @@ from .design.errors import DesignError, Fault
 from .design.files import write_together
 from .design.targets import Target, locate, one_file, try_out
 
-__all__ = ["STANDARD_OUTPUT", "Folder", "Output", "Source", "check", "write"]
+__all__ = ["STANDARD_OUTPUT", "Folder", "Output", "Source", "check", "obj_outputs", "write"]
 
 
 class Source(str):
@@ -101,6 +101,31 @@ def check(options: Namespace) -> None:
     files += [(name, Path(value)) for name, value in outputs if not value.is_standard]
     for name, folder in folders:
         _check_folder(name, folder, files + [(b, Path(other) / "a") for b, other in folders if b < name])
+
+
+def obj_outputs(
+    options: Namespace, made: Callable[[Path | None], Mapping[Path, str | bytes]]
+) -> list[tuple[Output, str | bytes]]:
+    """The OBJ that is asked for, with all that is written beside it.
+
+    How many pictures it has is known only now, so they are compared with the other files of the command here.
+
+    Parameters
+    ----------
+    made
+        The contents by path, the OBJ first; None stands for standard output.
+
+    Raises
+    ------
+    DesignError
+        Where one of them is a file that the command reads, or another that it writes.
+    """
+    asked: Output = options.obj
+    files = made(None if asked.is_standard else Path(asked))
+    first, *rest = [(Output(path), content) for path, content in files.items()]
+    beside = [("--obj (what is written beside it)", path) for path, _ in rest]
+    check(Namespace(**{**vars(options), "beside": lambda _: beside}))
+    return [(asked, first[1]), *rest]
 
 
 def _option(name: str) -> str:

@@ -22,7 +22,7 @@ from ..render.scene import Solid, build_scene
 from .layout import BuildingLayout, SolvedFace
 from .roofline import is_dormer
 
-__all__ = ["Body", "Frame", "bodies_of", "deepest", "rules_of"]
+__all__ = ["Body", "Frame", "bodies_of", "deepest", "drawn_by", "rules_of"]
 
 _END = 1e-4
 """Metres: so near its end a thing ends with the wall."""
@@ -71,12 +71,15 @@ class Body:
         Of the shape in the face's `shown` layout; −1: of none.
     materials
         Of the mesh's slots.
+    library
+        The texture grammar of the design of the face, whose rules may be materials.
     """
 
     solid: Solid | None
     index: int
     mesh: Mesh
     materials: Mapping[str, str]
+    library: str = ""
 
 
 def rules_of(layout: BuildingLayout) -> str:
@@ -104,22 +107,23 @@ def bodies_of(layout: BuildingLayout, own: SolvedFace, back: float) -> list[Body
         How far walls go back: what is less deep is filled up behind.
     """
     scene = build_scene(own.shown)
-    drawn = rules_of(layout)
-    made = [
-        Body(solid, solid.index, solid.mesh(), _drawable(solid.materials, scene.library, drawn))
-        for solid in scene.solids
-    ]
+    made = [Body(solid, solid.index, solid.mesh(), solid.materials) for solid in scene.solids]
     made += _filling(layout, scene.solids, back)
     made += _dormers(layout, scene.solids)
-    return [replace(body, mesh=_mitred(body.mesh, own)) for body in made if len(body.mesh.faces)]
+    return [
+        replace(body, mesh=_mitred(body.mesh, own), library=scene.library)
+        for body in made
+        if len(body.mesh.faces)
+    ]
 
 
-def _drawable(materials: Mapping[str, str], library: str, drawn: str) -> Mapping[str, str]:
-    """The same materials; rules of another grammar than the one that is drawn are of their mean colour."""
-    if library == drawn:
-        return materials
+def drawn_by(body: Body, drawn: str) -> Mapping[str, str]:
+    """The materials of a body; rules of another grammar than the one that is drawn are of their mean colour."""
+    if body.library == drawn:
+        return body.materials
     return {
-        slot: material_of(library, name).fill if is_rule(name) else name for slot, name in materials.items()
+        slot: material_of(body.library, name).fill if is_rule(name) else name
+        for slot, name in body.materials.items()
     }
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..design.model import Canvas
+from ..design.model import Canvas, Design
+from ..render.ruled import is_rule, library_of, material_of
 from ..solver.model.layout import AxisLayout, GroupLayout, Layout, PlacedShape, Rect
+from .bodies import rules_of
 from .layout import BuildingLayout
 
 __all__ = ["GAP", "developed"]
@@ -23,9 +25,12 @@ def developed(layout: BuildingLayout) -> Layout:
     shapes: list[PlacedShape] = []
     holes: list[Rect] = []
     stops: list[float] = []
-    at = 0.0
+    at, drawn = 0.0, rules_of(layout)
     for own in layout.faces:
+        library = library_of(own.shown)
         for shape in own.shown.shapes:
+            if library != drawn and is_rule(shape.material):  # one grammar is drawn
+                shape = replace(shape, material=material_of(library, shape.material).fill)
             left, bottom, right, top = shape.rect
             rect = (left + at, bottom, right + at, top)
             shapes.append(replace(shape, rect=rect, layer=f"{own.face.name}/{shape.layer}"))
@@ -49,6 +54,7 @@ def developed(layout: BuildingLayout) -> Layout:
         holes=tuple(holes),
         warnings=layout.warnings,
         complete=layout.complete,
+        design=Design(grammar=drawn) if drawn else None,
     )
 
 

@@ -166,13 +166,15 @@ class BuildingLayout:
 
         return to_obj(self, materials)
 
-    def write_obj(self, path: str | Path) -> Path:
-        """Write it as OBJ, with its MTL beside it, both or neither; return the path of the OBJ."""
-        from ..render.exchange.obj import materials_beside
+    def obj_files(self, path: str | Path | None) -> dict[Path, str | bytes]:
+        """What is written as OBJ, by the paths of the files (see `facade_nb.render.obj_files`)."""
+        from .mesh import obj_files
 
-        beside = materials_beside(path)
-        text, materials = self.to_obj(beside.name if beside else "")
-        write_together([(path, text)] + ([(beside, materials)] if beside else []))
+        return obj_files(self, path)
+
+    def write_obj(self, path: str | Path) -> Path:
+        """Write it as OBJ, its MTL and pictures of rules beside it, all or none; return the path of the OBJ."""
+        write_together(list(self.obj_files(path).items()))
         return Path(path)
 
     def to_cityjson(self) -> str:

@@ -11,7 +11,7 @@ from ..render.meshing import Mesh
 from ..render.pipeline.solids import Solids, combined, solids_scene
 from ..render.scene import Triangles, triangles_of
 from ..solver.model.layout import Rect
-from .bodies import Frame, bodies_of, deepest, rules_of
+from .bodies import Frame, bodies_of, deepest, drawn_by, rules_of
 from .layout import BuildingLayout
 from .roofline import wall_material
 from .roofs import outline, roofing
@@ -102,7 +102,9 @@ def solids_of_building(layout: BuildingLayout, *, ground: bool = True) -> Solids
     first = 0
     for own in layout.faces:
         bodies = bodies_of(layout, own, back)
-        triangles = triangles_of([(body.index, body.mesh, body.materials) for body in bodies], library)
+        triangles = triangles_of(
+            [(body.index, body.mesh, drawn_by(body, library)) for body in bodies], library
+        )
         parts.append((triangles, [shape.rect for shape in own.shown.shapes], Frame.of(own), first))
         first += len(own.shown.shapes)
     rest = [(-1, mesh, {"body": material}) for _, mesh, material in over_all(layout, back)]

@@ -6,6 +6,7 @@ or pandas until one of the files is.
 
 from .elevation import elevation_svg
 from .exchange import (
+    obj_files,
     schedule,
     to_cityjson,
     to_dxf,
@@ -44,6 +45,7 @@ __all__ = [
     "exploded_svg",
     "grammar_of",
     "naive_layout",
+    "obj_files",
     "overlay_svg",
     "render_png",
     "schedule",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-from math import log2
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,19 +10,16 @@ import numpy as np
 
 from ..design.files import write_atomically
 from ..solver.model.layout import Layout
+from .baked import baked, drawable, face_places, face_size
 from .materials import find_material, rgb
 from .meshing import corner_normals, corner_places
-from .ruled import is_rule, rule_fault, rule_pixels
 from .scene import Scene, Solid, build_scene
 
 if TYPE_CHECKING:
     import trimesh
     from trimesh.visual.material import PBRMaterial
 
-__all__ = ["EMPTY", "finish", "node_name", "paint", "to_glb", "to_trimesh", "write_glb"]
-
-_SHARP = 128.0
-"""Pixels a metre of the picture of a rule."""
+__all__ = ["EMPTY", "finish", "node_name", "paint", "pictured", "to_glb", "to_trimesh", "write_glb"]
 
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963  # what a view of the buffer is for, in glTF's numbers
 
@@ -54,18 +50,19 @@ def to_trimesh(scene: Scene) -> trimesh.Scene:
             if not count:  # too small to be told from nothing
                 continue
             name = solid.materials[slot]
-            drawn = is_rule(name) and rule_fault(scene.library, name, "") is None
-            size = _size(solid) if drawn else (1.0, 1.0)
+            drawn = drawable(scene.library, name)
+            size = face_size(solid.rect) if drawn else (1.0, 1.0)
             key = (solid.parts, solid.cuts, slot, name, size)
             if key not in made:
                 if (name, size) not in paints:
-                    paints[name, size] = _ruled(scene, name, size) if drawn else paint(name)
+                    paints[name, size] = pictured(scene.library, name, size) if drawn else paint(name)
                 body = trimesh.Trimesh(
                     vertices=local.vertices[local.faces[chosen]].reshape(-1, 3),
                     faces=np.arange(3 * count).reshape(-1, 3),
                     vertex_normals=normals[chosen].reshape(-1, 3),
                     visual=trimesh.visual.TextureVisuals(
-                        uv=places[chosen].reshape(-1, 2) / size, material=paints[name, size]
+                        uv=(face_places(local, size) if drawn else places)[chosen].reshape(-1, 2),
+                        material=paints[name, size],
                     ),
                     process=False,
                 )
@@ -169,22 +166,14 @@ def _view(tree: dict[str, Any], accessor: int) -> dict[str, Any]:
     return tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
 
 
-def _size(solid: Solid) -> tuple[float, float]:
-    left, bottom, right, top = solid.rect
-    return round(right - left, 4), round(top - bottom, 4)
-
-
-def _ruled(scene: Scene, name: str, size: tuple[float, float]) -> PBRMaterial:
-    """The picture of a rule in a rectangle of that size, which its texture coordinates fill from 0 to 1."""
+def pictured(library: str, name: str, size: tuple[float, float]) -> PBRMaterial:
+    """The picture of a rule over a face of that size, which its texture coordinates fill from 0 to 1."""
     from PIL import Image
     from trimesh.visual.material import PBRMaterial
 
-    picture = Image.fromarray(rule_pixels(scene.library, name, size, _SHARP))
-    # Sides of powers of two: some programs draw no others small.
-    picture = picture.resize([2 ** max(2, round(log2(side))) for side in picture.size])
     return PBRMaterial(
         name=name,
-        baseColorTexture=picture,
+        baseColorTexture=Image.fromarray(baked(library, name, size)),
         baseColorFactor=[1.0] * 4,
         roughnessFactor=0.9,
         metallicFactor=0.0,

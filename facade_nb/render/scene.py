@@ -15,7 +15,7 @@ from .geometry import DEFAULT_GEOMETRY, Geometry, find_geometry
 from .lettering import undrawn
 from .materials import Material, find_material, rgb
 from .meshfile import file_geometry, is_file
-from .parts import Block, Part, Point, back, flip
+from .parts import Block, Part, Point, back, flip, front
 from .ruled import is_rule, library_of, material_of, rule_fault
 
 if TYPE_CHECKING:
@@ -197,7 +197,8 @@ def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
     """Give every shape of a layout its body.
 
     A window of a higher layer opens the wall of a lower one, as it does when shapes are painted in order: a
-    wall is cut away where a later shape does not stand in front of it, by the outline of that shape.
+    wall is cut away where a later shape does not stand in front of it, by the outline of that shape. A roof is cut
+    where a later shape stands in it, as far back as that goes: by a dormer, a roof window, a gable wall.
 
     Parameters
     ----------
@@ -325,15 +326,12 @@ def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
     cutters = [solid for solid in solids if solid.geometry.full or solid.geometry.cuts]
     done: list[Solid] = []
     for solid in solids:
-        if not solid.geometry.wall:
-            done.append(solid)
-            continue
         left, bottom, right, top = solid.rect
         found = [
             other
             for other in cutters
             if other.index > solid.index
-            and other.face <= solid.face + _EPS
+            and _stands_in(other, solid)
             and other.shape.layer != solid.shape.layer
             and other.rect[0] < right - _EPS
             and other.rect[2] > left + _EPS
@@ -342,6 +340,9 @@ def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
         ]
         if not found:
             done.append(solid)
+            continue
+        if solid.geometry.roof:
+            done.append(replace(solid, cuts=tuple(cut for other in found for cut in _room_of(other, solid))))
             continue
         holes = [other.rect for other in found if other.geometry.full]
         cuts = [cut for other in found if not other.geometry.full for cut in _cuts_of(other, solid)]
@@ -354,6 +355,35 @@ def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
             solid = replace(solid, parts=blocks)
         done.append(replace(solid, cuts=tuple(cuts)))
     return tuple(done)
+
+
+def _stands_in(solid: Solid, behind: Solid) -> bool:
+    """Whether a shape opens another, if they overlap: a wall that it does not stand before, a roof that it reaches."""
+    if behind.geometry.roof:
+        near = max((front(part) for part in behind.parts), default=0.0)
+        return not solid.geometry.roof and _deepest(solid) < behind.face + near - _EPS
+    return behind.geometry.wall and solid.face <= behind.face + _EPS
+
+
+def _deepest(solid: Solid) -> float:
+    """How far a shape goes back, z in metres."""
+    return solid.face + min((back(part) for part in solid.parts), default=0.0)
+
+
+def _room_of(solid: Solid, roof: Solid) -> Iterator[Cut]:
+    """What a shape opens in a roof: as far back as it is itself, and all that would stand before it.
+
+    A dormer opens what is between its cheeks and below its own roof, which goes on into the slope.
+    """
+    deep = round(_deepest(solid) - roof.face, 6)
+    if solid.geometry.full:
+        yield replace(_hole(solid.rect, roof), back=deep)
+        return
+    house = tuple(part for part in solid.parts if part.slot in ("body", "cheek"))
+    parts = house if solid.geometry.name == "dormer" and house else solid.parts
+    dx, dy = solid.rect[0] - roof.rect[0], solid.rect[1] - roof.rect[1]
+    for outline in _outlines(parts):
+        yield Cut(tuple((round(x + dx, 6), round(y + dy, 6)) for x, y in outline), deep)
 
 
 def _hole(rect: Rect, wall: Solid) -> Cut:

@@ -6,11 +6,12 @@ that they need (ezdxf, reportlab, shapely, pandas) are loaded when a file is mad
 
 from .cityjson import to_cityjson, write_cityjson
 from .dxf import to_dxf, write_dxf
-from .obj import to_obj, write_obj
+from .obj import obj_files, to_obj, write_obj
 from .pdf import to_pdf, write_pdf
 from .schedule import schedule, to_schedule, write_schedule
 
 __all__ = [
+    "obj_files",
     "schedule",
     "to_cityjson",
     "to_dxf",

@@ -17,12 +17,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...solver.model.layout import Rect
+from ..baked import drawable
 from ..materials import DEFAULT_MATERIAL
 from ..meshing import Mesh, mesh_parts
 from ..parts import Part
 from ..scene import Scene, Solid
 
-__all__ = ["WEIGHTS", "Line", "Linework", "Surface", "linework"]
+__all__ = ["WEIGHTS", "Drawn", "Line", "Linework", "Surface", "linework"]
 
 WEIGHTS = {"outline": 0.5, "edge": 0.25, "fine": 0.13}
 """Widths of the pens, millimetres: the façade's outline; where the surface breaks in depth; between materials."""
@@ -54,11 +56,21 @@ class Surface:
 
 
 @dataclass(frozen=True, slots=True)
+class Drawn:
+    """What is seen of a rule of the design's grammar: its shape's rectangle, in which it is drawn, and the polygon."""
+
+    material: str
+    rect: Rect
+    polygon: Any
+
+
+@dataclass(frozen=True, slots=True)
 class Linework:
-    """The drawing: lines of each weight (the names of `WEIGHTS`), and the surfaces between them."""
+    """The drawing: lines of each weight (the names of `WEIGHTS`), the surfaces between them, and rules over these."""
 
     lines: dict[str, tuple[Line, ...]]
     surfaces: tuple[Surface, ...]
+    drawn: tuple[Drawn, ...] = ()
 
     @property
     def bounds(self) -> tuple[float, float, float, float] | None:
@@ -86,7 +98,7 @@ def linework(scene: Scene) -> Linework:
     import shapely
 
     made: dict[tuple[Part, ...], list[_Facet]] = {}
-    polygons, nears, keys, planes = [], [], [], []
+    polygons, nears, keys, planes, rects = [], [], [], [], []
     layers: dict[str, int] = {}
     for solid in scene.solids:
         if solid.parts not in made:
@@ -98,20 +110,29 @@ def linework(scene: Scene) -> Linework:
             polygons.append(shapely.transform(facet.polygon, partial(np.add, (left, bottom))))
             nears.append((layers.setdefault(solid.shape.layer, len(layers)), facet.near + face))
             planes.append(plane)
+            rects.append(solid.rect)
             keys.append((*_key(solid, facet, number), *np.round(plane, 4).tolist()))
     if not polygons:
         return Linework(dict.fromkeys(WEIGHTS, ()), ())
     found = _seen(_met(np.array(polygons)), np.array(nears))
     regions: dict[tuple[object, ...], list[Any]] = defaultdict(list)
+    ruled: dict[tuple[str, Rect], list[Any]] = defaultdict(list)
     level: dict[tuple[object, ...], tuple[float, float, float]] = {}
-    for key, plane, polygon in zip(keys, planes, found, strict=True):
+    for key, plane, polygon, rect in zip(keys, planes, found, rects, strict=True):
         if not polygon.is_empty:
             regions[key].append(polygon)
             level[key] = plane
+            if drawable(scene.library, str(key[0])):
+                ruled[str(key[0]), rect].append(polygon)
     merged = {key: shapely.union_all(parts, grid_size=_GRID) for key, parts in regions.items()}
     surfaces = [(key, part) for key, whole in merged.items() for part in _polygons(whole)]
     lines = _weighed([part for _, part in surfaces], np.array([level[key] for key, _ in surfaces]))
-    return Linework(lines, tuple(Surface(str(key[0]), part) for key, part in surfaces))
+    drawn = [
+        Drawn(material, rect, part)
+        for (material, rect), own in ruled.items()
+        for part in _polygons(shapely.union_all(own, grid_size=_GRID))
+    ]
+    return Linework(lines, tuple(Surface(str(key[0]), part) for key, part in surfaces), tuple(drawn))
 
 
 def _facets(mesh: Mesh) -> Iterator[_Facet]:

@@ -1,23 +1,30 @@
-"""PDF: one sheet of vectors with the elevation to scale, its dimensions, a title block and the schedule."""
+"""PDF: one sheet with the elevation to scale, its dimensions, a title block and the schedule, in vectors.
+
+What a rule of the design's grammar draws is a picture within them.
+"""
 
 from __future__ import annotations
 
+from functools import lru_cache
 from io import BytesIO
-from itertools import pairwise
+from itertools import pairwise, product
+from math import ceil, floor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...design.files import write_atomically
 from ...solver.model.layout import Layout
+from ..baked import SHARP, face_size
 from ..materials import mix
-from ..ruled import library_of, material_of
+from ..ruled import library_of, material_of, rule_pixels
 from ..scene import build_scene
 from .chains import FIRST, PITCH, TEXT, Units, chains, check_units, label, levels, offset
-from .linework import WEIGHTS, Linework, linework
+from .linework import WEIGHTS, Drawn, Linework, linework
 from .schedule import Item, items
 from .sheet import MARGIN, PAPER, ROW, TITLE, Sheet, Table, lay_out
 
 if TYPE_CHECKING:
+    from reportlab.lib.utils import ImageReader
     from reportlab.pdfgen.canvas import Canvas
 
 __all__ = ["to_pdf", "write_pdf"]
@@ -28,6 +35,12 @@ _SMALL = 1.7
 
 _CAP = 0.72
 """Height of a capital as a share of a font's size, which is what `TEXT` and `_SMALL` mean: about so in Helvetica."""
+
+_PALE = 0.4
+"""How much white is in the picture of a rule."""
+
+_HAIR = 1e-4
+"""What is seen of a picture beyond its rectangle by less than this share of it is not drawn."""
 
 _ELSEWHERE = "STSong-Light"
 """The font for letters that Helvetica lacks: Greek, Cyrillic, Chinese, Japanese. Readers bring it; no file holds it."""
@@ -111,14 +124,13 @@ class _Pen:
     def elevation(self, layout: Layout, lines: Linework) -> None:
         canvas = self.canvas
         for surface in lines.surfaces:
-            path = canvas.beginPath()
-            rings = [surface.polygon.exterior, *surface.polygon.interiors]
-            for ring in rings:
-                self._trace(path, ring.coords)
+            path = self._path(surface.polygon)
             material = material_of(library_of(layout), surface.material)
             share = 0.55 if material.pattern == "glass" else 0.75
             canvas.setFillColor(mix(material.fill, "#ffffff", share))
             canvas.drawPath(path, stroke=0, fill=1, fillMode=0)
+        for drawn in lines.drawn:
+            self._picture(library_of(layout), drawn)
         canvas.setLineJoin(0)
         canvas.setLineCap(2)
         for weight in reversed(WEIGHTS):
@@ -141,6 +153,24 @@ class _Pen:
         canvas.setLineWidth(0.7)
         (x, y), (right, _) = self.at(0, 0), self.at(width, 0)
         canvas.line(x - 3, y, right + 3, y)
+
+    def _picture(self, library: str, drawn: Drawn) -> None:
+        """A rule in the rectangle of its shape, and again beside it where more is seen; only what is seen of it."""
+        canvas = self.canvas
+        canvas.saveState()
+        canvas.clipPath(self._path(drawn.polygon), stroke=0, fill=0, fillMode=0)
+        left, bottom, right, top = drawn.rect
+        wide, tall = right - left, top - bottom
+        image = _image(library, drawn.material, face_size(drawn.rect))
+        x0, y0, x1, y1 = drawn.polygon.bounds
+        columns = range(floor((x0 - left) / wide + _HAIR), ceil((x1 - left) / wide - _HAIR))
+        rows = range(floor((y0 - bottom) / tall + _HAIR), ceil((y1 - bottom) / tall - _HAIR))
+        for column, row in product(columns, rows):
+            (x, y), (right, top) = (
+                self.at(left + (column + k) * wide, bottom + (row + k) * tall) for k in (0, 1)
+            )
+            canvas.drawImage(image, x, y, right - x, top - y)
+        canvas.restoreState()
 
     def marks(self, layout: Layout, rows: tuple[Item, ...]) -> None:
         """The marks of the schedule in windows and doors that have room for them, none over another."""
@@ -264,6 +294,13 @@ class _Pen:
     def _stroke(self, across: bool, a: float, p: float, b: float, q: float) -> None:
         self.canvas.line(*((a, p, b, q) if across else (p, a, q, b)))
 
+    def _path(self, polygon: Any) -> Any:
+        """A shapely polygon, its holes with it."""
+        path = self.canvas.beginPath()
+        for ring in (polygon.exterior, *polygon.interiors):
+            self._trace(path, ring.coords)
+        return path
+
     def _trace(self, path: Any, points: Any) -> None:
         first, *rest = [self.at(x, y) for x, y in points]
         closed = len(rest) > 1 and rest[-1] == first
@@ -297,6 +334,18 @@ class _Pen:
         while text and _measured(f"{text}…", height) > wide:
             text = text[:-1]
         return f"{text}…"
+
+
+@lru_cache(maxsize=64)
+def _image(library: str, material: str, size: tuple[float, float]) -> ImageReader:
+    """The picture of a rule, as pale as it can be and still be known, so that lines and marks are read over it."""
+    import numpy as np
+    from PIL import Image
+    from reportlab.lib.utils import ImageReader
+
+    pixels = rule_pixels(library, material, size, SHARP)
+    pale = (255 - (255 - pixels.astype(np.float64)) * (1 - _PALE)).round().astype(np.uint8)
+    return ImageReader(Image.fromarray(pale))
 
 
 def _font(text: str, *, bold: bool = False) -> str:

@@ -16,11 +16,11 @@ from ...render import (
     elevation_svg,
     exploded_svg,
     grammar_of,
+    obj_files,
     render_png,
     to_cityjson,
     to_dxf,
     to_glb,
-    to_obj,
     to_pdf,
     to_schedule,
 )
@@ -47,13 +47,11 @@ def _layout_json(layout: Layout) -> str:
 
 
 def _zipped_obj(layout: Layout) -> bytes:
-    """The OBJ and its materials, which are of no use apart."""
-    name = file_name(layout.name)
-    texts = to_obj(layout, f"{name}.mtl")
+    """The OBJ with its materials and their pictures, which are of no use apart."""
     data = BytesIO()
     with ZipFile(data, "w", ZIP_DEFLATED) as archive:
-        for suffix, text in zip((".obj", ".mtl"), texts, strict=True):
-            archive.writestr(ZipInfo(f"{name}{suffix}"), text, ZIP_DEFLATED)
+        for path, content in obj_files(layout, f"{file_name(layout.name)}.obj").items():
+            archive.writestr(ZipInfo(path.name), content, ZIP_DEFLATED)
     return data.getvalue()
 
 

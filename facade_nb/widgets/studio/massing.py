@@ -1,19 +1,20 @@
-"""The 3D view of a model: one pythreejs mesh, updated in place."""
+"""The 3D view of a model: one pythreejs mesh, updated in place, and below it what rules of a grammar draw."""
 
 from __future__ import annotations
 
 import asyncio
 from math import ceil, log2
-from typing import Any
 
 import numpy as np
 import pythreejs as three
 from numpy.typing import NDArray
 
 from ...design import DesignError
-from ...render import build_scene
+from ...render import Scene, build_scene
+from ...render.baked import drawable
 from ...render.materials import rgb
 from ...solver import Layout
+from .massing_rules import Ruled, close_geometry
 from .model import FacadeModel, Selection
 
 __all__ = ["Massing", "layout_mesh"]
@@ -33,8 +34,9 @@ _ASPECT = 1.3
 class Massing:
     """A renderer with one mesh of the whole façade, orbit controls and a picker.
 
-    All triangles are in one mesh with colours at the corners, so the browser is sent three arrays when something
-    changes, whatever the number of shapes. The arrays have room to spare: a buffer on the GPU cannot grow.
+    All triangles of plain materials are in one mesh with colours at the corners, so the browser is sent three arrays
+    when something changes, whatever the number of shapes. The arrays have room to spare: a buffer on the GPU cannot
+    grow.
 
     Parameters
     ----------
@@ -55,6 +57,7 @@ class Massing:
             self._geometry,
             _paint(),
         )
+        self._ruled = Ruled(self.mesh)
         centre, eye = self._stand(self._canvas)
         self._camera = three.PerspectiveCamera(position=eye, fov=_FIELD, near=0.1, far=2000)
         self._orbit = three.OrbitControls(controlling=self._camera, target=centre)
@@ -79,7 +82,7 @@ class Massing:
             height=300,
         )
         self.update()
-        self._picker.observe(self._on_pick, "faceIndex")
+        self._picker.observe(self._on_pick, ("faceIndex", "object"))
         model.observe(self._on_version, "version")
 
     def show(self, active: bool) -> None:
@@ -109,8 +112,9 @@ class Massing:
             self._later.cancel()
         for widget in (self.renderer, self._orbit, self._picker, *self._scene.children, self._scene):
             widget.close()
-        _close_geometry(self._geometry)
+        close_geometry(self._geometry)
         self.mesh.material.close()
+        self._ruled.close()
 
     def _on_version(self, _: object) -> None:
         if self._later is not None:
@@ -120,27 +124,25 @@ class Massing:
         except RuntimeError:  # no event loop: nobody to call back later
             self.update()
 
-    def _on_pick(self, change: dict[str, Any]) -> None:
-        face = change["new"]
-        hit = face is not None and self._picker.object is not None and face < len(self._shapes)
-        self.model.select(int(self._shapes[face]) if hit else None)
+    def _on_pick(self, _: object) -> None:
+        face, mesh = self._picker.faceIndex, self._picker.object
+        shapes = self._ruled.shapes(mesh)
+        shapes = self._shapes if shapes is None else shapes
+        hit = face is not None and mesh is not None and face < len(shapes)
+        self.model.select(int(shapes[face]) if hit else None)
 
     def _rebuild(self, layout: Layout) -> None:
         scene = build_scene(layout)
-        triangles = scene.triangles()
-        count = len(triangles.shapes)
-        self._shapes = triangles.shapes
-        # The elevation's colours: what is seen flat is found again in 3D.
-        fills = [rgb(triangles.material(name).fill) for name in triangles.material_names]
-        palette = np.array(fills, np.float32).reshape(-1, 3) / 255
-        self._colours = np.repeat(palette[triangles.materials], 3, axis=0)
+        positions, normals, self._colours, self._shapes = _plain(scene)
+        count = len(self._shapes)
         if 3 * count > len(self._geometry.attributes["position"].array):
             outgrown, self._geometry = self._geometry, _geometry(count)
             self.mesh.geometry = self._geometry
-            _close_geometry(outgrown)
+            close_geometry(outgrown)
         attributes = self._geometry.attributes
-        _fill(attributes["position"], triangles.positions.reshape(-1, 3))
-        _fill(attributes["normal"], triangles.normals.reshape(-1, 3))
+        _fill(attributes["position"], positions)
+        _fill(attributes["normal"], normals)
+        self._ruled.update(scene)
         self._follow(np.array([layout.canvas.width, layout.canvas.height]))
 
     def _tint(self, selection: Selection) -> None:
@@ -149,6 +151,7 @@ class Massing:
             picked = np.repeat(self._shapes == selection.shape, 3)[:, None]
             colours = np.where(picked, 0.45 * colours + 0.55 * _HIGHLIGHT, colours)
         _fill(self._geometry.attributes["color"], colours)
+        self._ruled.tint(selection.shape, _HIGHLIGHT)
 
     def _stand(self, canvas: NDArray[np.float64]) -> tuple[list[float], list[float]]:
         """Where to look at, and from where to see the whole façade."""
@@ -173,9 +176,9 @@ class Massing:
         self._camera.position = [float(v) for v in target + offset]
 
 
-def _geometry(triangles: int) -> three.BufferGeometry:
-    """A geometry with room for at least that many triangles."""
-    corners = 3 * 2 ** ceil(log2(max(256, triangles)))
+def _geometry(triangles: int, *, exact: bool = False) -> three.BufferGeometry:
+    """A geometry with room for at least that many triangles, or for just as many (one at least)."""
+    corners = 3 * (max(1, triangles) if exact else 2 ** ceil(log2(max(256, triangles))))
     empty = np.zeros((corners, 3), np.float32)
     return three.BufferGeometry(
         attributes={
@@ -192,24 +195,35 @@ def _fill(attribute: three.BufferAttribute, values: NDArray[np.float32]) -> None
     attribute.array = padded
 
 
-def _close_geometry(geometry: three.BufferGeometry) -> None:
-    for attribute in geometry.attributes.values():
-        attribute.close()
-    geometry.close()
+def _plain(
+    scene: Scene,
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32], NDArray[np.int64]]:
+    """The triangles that no rule draws: positions, normals, colours (3 t, 3), and (t,) the index of their shape."""
+    triangles = scene.triangles()
+    names = triangles.material_names
+    # The elevation's colours: what is seen flat is found again in 3D.
+    fills = [rgb(triangles.material(name).fill) for name in names]
+    palette = np.array(fills, np.float32).reshape(-1, 3) / 255
+    ruled = np.array([drawable(scene.library, name) for name in names], bool)
+    kept = ~ruled[triangles.materials] if len(names) else np.zeros(0, bool)
+    return (
+        triangles.positions[kept].reshape(-1, 3),
+        triangles.normals[kept].reshape(-1, 3),
+        np.repeat(palette[triangles.materials[kept]], 3, axis=0),
+        triangles.shapes[kept],
+    )
 
 
 def layout_mesh(layout: Layout) -> three.Mesh:
-    """A layout as one mesh, with the elevation's colours at its corners."""
-    triangles = build_scene(layout).triangles()
-    fills = [rgb(triangles.material(name).fill) for name in triangles.material_names]
-    palette = np.array(fills, np.float32).reshape(-1, 3) / 255
-    content = {
-        "position": triangles.positions.reshape(-1, 3),
-        "normal": triangles.normals.reshape(-1, 3),
-        "color": np.repeat(palette[triangles.materials], 3, axis=0),
-    }
-    attributes = {name: three.BufferAttribute(own, normalized=False) for name, own in content.items()}
-    return three.Mesh(three.BufferGeometry(attributes=attributes), _paint())
+    """A layout as one mesh, with the elevation's colours at its corners; below it a mesh for each picture of a rule."""
+    scene = build_scene(layout)
+    positions, normals, colours, shapes = _plain(scene)
+    geometry = _geometry(len(shapes), exact=True)
+    for name, values in (("position", positions), ("normal", normals), ("color", colours)):
+        _fill(geometry.attributes[name], values)
+    mesh = three.Mesh(geometry, _paint())
+    Ruled(mesh).update(scene)
+    return mesh
 
 
 def _paint() -> three.MeshStandardMaterial:
