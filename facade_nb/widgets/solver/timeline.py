@@ -163,6 +163,7 @@ def timeline(trace: Trace) -> dict[str, Any]:
         "marks": [{"at": at, "kind": type(e).__name__, "text": caption(e)} for at, e in _marked(events)],
         "patterns": [_pattern(design, name) for name in design.patterns],
         "symbols": hues(design),
+        "sizes": {name: own.size for name, own in design.symbols.items()},
         "chosen": {axis: _chosen(events, axis) for axis in AXES},
         "objective": dict(asked.objective),
         "search": asked.search,

@@ -10,6 +10,7 @@ import "../styles/candidates.css";
 import "../styles/network.css";
 import "../styles/page.css";
 import "../styles/player.css";
+import "../styles/quiz.css";
 import "../styles/qualifiers.css";
 import "../styles/runs.css";
 import "../styles/sizing.css";

@@ -15,6 +15,12 @@ export class Asking {
     return Math.min(Number.POSITIVE_INFINITY, ...this.asked.values());
   }
 
+  /** The same of what all others than one ask. */
+  fromOf(who: object | undefined): number {
+    const others = [...this.asked].flatMap(([own, from]) => (own === who ? [] : [from]));
+    return Math.min(Number.POSITIVE_INFINITY, ...others);
+  }
+
   /** Say what someone asks: the first event that tells the answer, or null where nothing is asked any more. */
   set(who: object, from: number | null): void {
     const before = this.asked.get(who) ?? null;

@@ -1,6 +1,6 @@
 // “What does this pair's equation say?”: the equation among others that are nearly it, each with the slip that leads to it.
 
-import type { Truth } from "./quiz.ts";
+import type { Truth } from "../shared/quiz.ts";
 
 const MOST = 4;
 const NUMBER = /^(\d+(?:\.\d+)?)?(.*)$/u;

@@ -1,11 +1,11 @@
 // The frame of every view: its head, the player above it, the question under it, errors; and the moment to show.
 
-import { h, mark, setText } from "../shared/dom.ts";
-import { icon } from "../shared/icons.ts";
+import { h } from "../shared/dom.ts";
+import type { Quiz } from "../shared/quiz.ts";
+import { type QuizBar, quizBar } from "../shared/quizbar.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import { Asking } from "./asking.ts";
 import { playbar } from "./playbar.ts";
-import type { Quiz } from "./quiz.ts";
 import { cancelFrame, inFrame } from "./redraw.ts";
 import type { Loaded, Session } from "./session.ts";
 import type { Hosted, View, ViewKind } from "./view.ts";
@@ -41,8 +41,11 @@ export async function panel(
     else if (view) links.apply(view.el);
   };
   let ask = () => {};
+  // While another view asks, this one shows no moment that would tell the answer.
+  const moment = () =>
+    view?.quiz?.on ? player.position : Math.max(0, Math.min(player.position, asking.fromOf(view?.quiz) - 1));
   const refresh = () => {
-    view?.show(player.position);
+    view?.show(moment());
     light();
     ask(); // what is asked may be about the moment
   };
@@ -63,14 +66,14 @@ export async function panel(
   );
   if (view.quiz) {
     const { quiz } = view;
-    const { toggle, bar, show } = question(quiz, session, model, refresh, signal);
+    const bar = question(quiz, session, model, refresh, signal);
     ask = () => {
-      show();
+      bar.show();
       asking.set(quiz, quiz.hides && quiz.truths.size && !signal.aborted ? quiz.from : null);
     };
     signal.addEventListener("abort", () => asking.set(quiz, null));
-    controls.append(toggle);
-    el.append(bar);
+    controls.append(bar.toggle);
+    el.append(bar.el);
   }
   el.append(body);
 
@@ -137,57 +140,16 @@ export async function alone(
   return el;
 }
 
-function question(quiz: Quiz, session: Session, model: WidgetModel, refresh: () => void, signal: AbortSignal) {
-  const press = (label: string, act: () => void) => {
-    const button = h("button", { type: "button", class: "fnb-fix" }, label);
-    button.addEventListener("click", act);
-    return button;
-  };
-  const toggle = h(
-    "button",
-    { type: "button", class: "fnb-button fnb-wide fnb-predict", title: "Hide the answer, and ask" },
-    icon("ask"),
-    h("span", {}, "Predict"),
-  );
-  toggle.addEventListener("click", () => quiz.ask(!quiz.on));
-  const which = h("select", { class: "fnb-quiz-which", "aria-label": "Question" });
-  which.addEventListener("change", () => quiz.pose(which.value));
-  const prompt = h("span", { class: "fnb-quiz-prompt" });
-  const outcome = h("strong", { class: "fnb-quiz-outcome", role: "status" });
-  const check = press("Check", () => {
-    model.set("answer", quiz.check());
+/** The bar of a view's question; what came of it is the widget's `answer`. */
+function question(quiz: Quiz, session: Session, model: WidgetModel, refresh: () => void, signal: AbortSignal): QuizBar {
+  const bar = quizBar(quiz, (answer) => {
+    model.set("answer", answer);
     session.kernel.save(model);
   });
-  const again = press("Again", () => quiz.again());
-  const bar = h("div", { class: "fnb-quiz" }, which, prompt, outcome, check, again);
-  let [offered, about] = ["", ""];
-  const show = () => {
-    mark(toggle, "aria-pressed", String(quiz.on));
-    bar.hidden = !quiz.on;
-    if (!quiz.on) return;
-    const now = [quiz.asked, quiz.prompt, ...quiz.truths.keys()].join("|");
-    const other = about !== "" && now !== about;
-    about = now;
-    if (other && quiz.begun) {
-      quiz.clear(); // another moment, another question: what was chosen is not about it
-      return;
-    }
-    const { names } = quiz;
-    which.hidden = names.length < 2;
-    if (names.join("|") !== offered) {
-      offered = names.join("|");
-      which.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
-    }
-    which.value = quiz.asked;
-    setText(prompt, quiz.prompt);
-    setText(outcome, quiz.done ? quiz.outcome() : "");
-    check.hidden = quiz.done || !quiz.truths.size;
-    again.hidden = !quiz.done;
-  };
   if (model.get<boolean>("predict")) quiz.ask(true);
   quiz.watch(refresh, signal);
-  show();
-  return { toggle, bar, show };
+  bar.show();
+  return bar;
 }
 
 /** What is shown where a view cannot be. */

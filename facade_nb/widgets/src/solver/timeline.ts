@@ -36,6 +36,8 @@ export interface TimelineData {
   patterns: PatternInfo[];
   /** A number for each symbol, by which every view colours it. */
   symbols: Record<string, number>;
+  /** Preferred sizes of symbols, metres; null: it has none. A page that was saved earlier may not have them. */
+  sizes?: Record<string, number | null>;
   /** The candidate that became the layout: where that is told, its number, the word of each pattern. */
   chosen: Record<Axis, { at: number; number: number; words: Record<string, string> } | null>;
   objective: Record<string, unknown>;

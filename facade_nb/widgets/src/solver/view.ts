@@ -1,8 +1,8 @@
 // What a view of a solve is, for its frame and for the registry.
 
+import type { Quiz } from "../shared/quiz.ts";
 import type { WidgetModel } from "../shared/types.ts";
 import type { Asking } from "./asking.ts";
-import type { Quiz } from "./quiz.ts";
 import type { Loaded, Session } from "./session.ts";
 
 /** A trace, as the views of one widget have it. */

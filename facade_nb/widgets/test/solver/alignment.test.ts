@@ -286,6 +286,7 @@ describe("an alignment is predicted", () => {
     const broken = truths.filter(([, truth]) => truth.right).map(([key]) => key);
     expect(broken.length).toBeGreaterThan(0);
     choose("C3: ");
+    quiz.help();
     const answer = quiz.check();
     again();
     expect(answer.missed.concat(answer.right).sort()).toEqual([...broken].sort());

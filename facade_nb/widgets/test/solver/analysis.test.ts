@@ -92,14 +92,18 @@ describe("pattern analysis", () => {
     tick("(5) contradicts those before");
     one.go(one.player.position);
     tick("|f| is fixed");
+    quiz.help();
     const { right, wrong, missed } = quiz.check();
     one.go(one.player.position);
     expect(right).toEqual([target.equation("x", 3), target.variable("x", "unsized |f|")]);
     expect(wrong).toEqual([target.equation("x", 4)]);
     expect(missed).toEqual([target.equation("x", 7)]);
     const said = texts(".fnb-analysis-choice[data-verdict]").join("|");
-    expect(said).toContain("(5) contradicts those beforeIt holds together with those before it.");
-    expect(said).toContain("|f| is fixed|f| = 3.6");
+    expect(said).toContain("(5) contradicts those before✕ It holds together with those before it.");
+    expect(said).toContain("|f| is fixed✓ |f| = 3.6");
+    // What contradicts was right to be chosen: nothing about it is red.
+    expect(one.view.el.querySelector("[data-conflict], [data-against], .fnb-pair-conflict")).toBeNull();
+    expect(texts(".fnb-known")[0]).toContain("A is 0.8 m, B is 1.2 m");
     quiz.ask(false);
     one.go(one.player.position);
     expect(texts(".fnb-pair")).toEqual([]); // the moment is what it was
@@ -121,6 +125,7 @@ describe("pattern analysis", () => {
       .find((own) => own.textContent === "m − 2 = l")
       ?.querySelector("input")
       ?.dispatchEvent(new Event("change"));
+    quiz.help();
     expect(quiz.check()).toEqual({ right: [], wrong: ["m − 2 = l"], missed: [] });
     one.go(one.player.position);
     expect(quiz.outcome()).toBe("No. 2 has the wrong sign: look on which line more is left.");

@@ -112,10 +112,17 @@ describe("the candidates", () => {
     quiz?.ask(true);
     one.go(one.player.position);
     expect(column(one, "fate").join("")).toBe("");
+    const names = [...one.view.el.querySelectorAll(".fnb-sort")].map((own) => own.textContent);
+    expect(names).toContain("J − Ω"); // what is to be added to Ω
+    expect(names).not.toContain("J");
+    type(one, "best");
+    expect(list(one)).toEqual([]); // nothing is found by what is asked for
+    type(one, "");
     expect(column(one, "k")).toEqual(["1", "2", "3", "4", "5"]);
     expect(one.view.el.querySelector("[data-fate], [title*='layout.']")).toBeNull();
     const radios = [...one.view.el.querySelectorAll("input[type=radio]")];
     radios[3]?.dispatchEvent(new Event("change"));
+    quiz?.help();
     expect(quiz?.check()).toEqual({ right: [], wrong: ["1"], missed: [] });
     one.go(one.player.position);
     const wrong = list(one).find((row) => row.dataset.verdict === "wrong");

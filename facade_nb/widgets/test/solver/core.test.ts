@@ -3,12 +3,12 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { h } from "../../src/shared/dom.ts";
 import { unpack } from "../../src/shared/packing.ts";
+import { Quiz } from "../../src/shared/quiz.ts";
 import { Asking } from "../../src/solver/asking.ts";
 import { Links, linked, target } from "../../src/solver/links.ts";
 import { fragmentOf, momentIn } from "../../src/solver/moments.ts";
 import { playbar, Scale } from "../../src/solver/playbar.ts";
 import { Player } from "../../src/solver/player.ts";
-import { Quiz } from "../../src/solver/quiz.ts";
 import { Session } from "../../src/solver/session.ts";
 import { Timeline, type TimelineData } from "../../src/solver/timeline.ts";
 import { FakeModel } from "../shared/fake.ts";
@@ -229,6 +229,7 @@ describe("a quiz", () => {
       {
         name: "letters",
         prompt: "?",
+        hint: "look",
         single,
         truths: () =>
           new Map([
@@ -237,7 +238,7 @@ describe("a quiz", () => {
             ["c", { right: true, why: "too" }],
           ]),
       },
-      { name: "none", prompt: "None?", truths: () => new Map() },
+      { name: "none", prompt: "None?", hint: "", truths: () => new Map() },
     ]);
 
   it("checks what was chosen, and explains it", () => {
@@ -247,6 +248,7 @@ describe("a quiz", () => {
     one.choose("a");
     one.choose("b");
     one.choose("b");
+    one.help();
     expect(one.check()).toEqual({ right: ["a"], wrong: [], missed: ["c"] });
     expect(one.hides).toBe(false);
     expect(one.verdict("c")).toEqual({ state: "missed", why: "too" });
@@ -258,9 +260,32 @@ describe("a quiz", () => {
     expect(one.verdict("c").state).toBe("open");
   });
 
+  it("hints before it tells: by a button, or after the first answer that is wrong", () => {
+    const one = quiz(true);
+    one.ask(true);
+    one.choose("b");
+    one.check();
+    expect([one.hinted, one.missed, one.done, one.verdict("b").state]).toEqual([true, true, false, "open"]);
+    one.choose("a");
+    expect(one.missed).toBe(false);
+    one.check();
+    expect([one.done, one.outcome()]).toEqual([true, "Right. it is"]);
+    one.again();
+    expect([one.hinted, one.missed]).toEqual([false, false]);
+    one.help();
+    one.choose("b");
+    one.check(); // with the hint known it is told
+    expect([one.done, one.outcome()]).toEqual([true, "No. it is not"]);
+    one.again();
+    one.choose("a");
+    one.check(); // what is right needs no hint
+    expect(one.done).toBe(true);
+  });
+
   it("of one thing takes the last choice", () => {
     const one = quiz(true);
     one.ask(true);
+    one.help();
     one.choose("a");
     one.choose("b");
     expect(one.check()).toEqual({ right: [], wrong: ["b"], missed: [] });

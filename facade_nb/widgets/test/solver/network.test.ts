@@ -166,6 +166,7 @@ describe("the network while it is searched", () => {
     expect(radios.length).toBeGreaterThan(1);
     expect(one.view.el.textContent).not.toMatch(/the least of all|J ≥/);
     radios[0]?.dispatchEvent(new Event("change"));
+    quiz.help();
     const first = quiz.check();
     one.go(one.player.position);
     expect(first.right.length + first.wrong.length).toBe(1);

@@ -234,6 +234,7 @@ describe("sizes are predicted", () => {
     while (!quiz.prompt.includes("letter e ")) quiz.again();
     one.go(one.player.position);
     quiz.choose("1-2-1.t − 1-2-1.s = |e|");
+    quiz.help();
     quiz.check();
     expect(quiz.outcome()).toBe("No. e is cut: only its pieces together are as long as e.");
   });

@@ -1,9 +1,9 @@
 // What can be asked of an alignment: where its next column ends, and what a boundary that was moved breaks.
 
 import { formatNumber } from "../../shared/fields.ts";
+import type { Truth } from "../../shared/quiz.ts";
 import { nameOf } from "../letters.ts";
 import type { PathNote } from "../network/story.ts";
-import type { Truth } from "../quiz.ts";
 import {
   type Column,
   EPS,
@@ -111,6 +111,8 @@ export interface Offer extends Truth {
   column: Column;
   /** Per band: whether it ends within its last letter. */
   cut: boolean[];
+  /** J of what is laid with it, metres. */
+  cost: number;
 }
 
 /** The first columns are known: which is next? */
@@ -135,7 +137,7 @@ export function nextCases(path: PathNote, group: Group): Next[] {
     if (wrong.length < 2) continue;
     const own = path.columns[j];
     const why = `The solver's: ω = ${formatNumber(own?.omega)} m, ${formatNumber(own?.width)} m wide; no alignment that goes on otherwise is better.`;
-    const all = [offerOf(step.options, true, why), ...wrong.map(({ offer }) => offer)];
+    const all = [offerOf(step.options, before, true, why), ...wrong.map(({ offer }) => offer)];
     const named = all.map((offer) => [keyOf(path, offer), offer] as const).sort(([a], [b]) => a.localeCompare(b, "en"));
     const reasons = new Set(wrong.map(({ kind }) => kind)).size;
     found.push({ next: { path, column: j, cuts: upTo(path, j), offers: new Map(named) }, reasons });
@@ -167,17 +169,17 @@ export function ledgerOfPath(path: PathNote, group: Group): Ledger {
 /** Columns that may not stand here, or with which every alignment costs more: nearest to the right one first. */
 function others(group: Group, step: Step, path: PathNote, before: number, whole: number) {
   const found: { offer: Offer; kind: string; far: number }[] = [];
-  const seen = new Set([keyOf(path, offerOf(step.options, true, ""))]);
+  const seen = new Set([keyOf(path, offerOf(step.options, before, true, ""))]);
   for (const [b, now] of step.options.entries())
     for (const [option, refused] of group.elements(b, step.state[b] ?? 0)) {
       const column = step.options.map((own, o) => (o === b ? option : own));
       const broken = refused ?? refusal(group, step.owed, column);
       const cost = before + weigh(group, column).cost;
-      if (!broken && cost <= whole + 1e-6) continue; // it may be as good
+      if (!broken && cost <= whole + 0.002) continue; // it may be as good, or looks so
       const why = broken
         ? rowsNamed(broken.text(), path.layers)
         : `ω = ${formatNumber(weigh(group, column).omega)} m: so far J is ${formatNumber(cost)} m already, and the solver's whole alignment costs ${formatNumber(whole)} m.`;
-      const offer = offerOf(column, false, why);
+      const offer = offerOf(column, cost, false, why);
       const key = keyOf(path, offer);
       if (seen.has(key) || broken?.constraint === "empty") continue;
       seen.add(key);
@@ -189,7 +191,8 @@ function others(group: Group, step: Step, path: PathNote, before: number, whole:
   return [...first, ...found.filter((own) => !first.includes(own))].slice(0, WRONG);
 }
 
-const offerOf = (options: readonly Option[], right: boolean, why: string): Offer => ({
+const offerOf = (options: readonly Option[], cost: number, right: boolean, why: string): Offer => ({
+  cost,
   right,
   why,
   column: options.map(({ letters }) => letters),

@@ -50,6 +50,11 @@ function pathsOf(story: Story, subject: Subject): { costs: Map<number, number>; 
   return { costs, steps };
 }
 
+/** What is laid with an edge that was weighed, metres. */
+export function laidBy(story: Story, subject: Subject, step: number): number {
+  return pathsOf(story, subject).costs.get(story.data.steps.path[step] ?? -1) ?? story.data.steps.cost[step] ?? 0;
+}
+
 /** Whether an edge was dropped, or has been overtaken by a moment, for another path to the same node. */
 export function gone(story: Story, subject: Subject, step: number, position: number): boolean {
   const fate = story.reasonOf(step);

@@ -1,5 +1,6 @@
 // Draws the Network view's scene on a canvas: everything that is in sight, in as much detail as there is room for.
 
+import type { Verdict } from "../../shared/quiz.ts";
 import type { LetterNote } from "../letters.ts";
 import type { Camera, Point } from "./plane.ts";
 import type { Arc, ArcKind, Scene } from "./scene.ts";
@@ -20,6 +21,8 @@ export interface Look {
   arc: string;
   path: string;
   error: string;
+  good: string;
+  bad: string;
   lit: string;
   region: string;
   mono: string;
@@ -37,6 +40,8 @@ export interface Marks {
   letters: ReadonlySet<string>;
   /** Choices of the question, by key: what stands beside them. */
   choices: ReadonlyMap<string, string>;
+  /** How a choice stands, by its key. */
+  verdict(key: string): Verdict;
 }
 
 export function pointOf(scene: Pick<Scene, "pair">, places: readonly number[]): Point {
@@ -95,6 +100,8 @@ const KINDS: Record<ArcKind, { alpha: number; faint: number; width: number; dash
   path: { alpha: 1, faint: 1, width: 3.2, dash: [] },
 };
 
+const choiceKey = (arc: Arc): string => `${arc.key}>${arc.to.join()}`;
+
 class Painter {
   private readonly cell: number;
 
@@ -113,7 +120,7 @@ class Painter {
   run(): void {
     this.region();
     this.grid();
-    for (const kind of ["forbidden", "refused", "permitted", "weighed", "choice", "path"] as const) this.arcs(kind);
+    for (const kind of ["forbidden", "refused", "permitted", "weighed", "path", "choice"] as const) this.arcs(kind);
     this.highlights();
     this.walks();
     this.nodes();
@@ -180,8 +187,12 @@ class Painter {
     c.strokeStyle = kind === "path" ? look.path : kind === "refused" || kind === "forbidden" ? look.error : look.arc;
     c.lineWidth = this.cell < DOTS && kind !== "path" ? 0.7 : style.width;
     c.setLineDash(this.cell < DOTS ? [] : style.dash);
-    if (kind === "path" || kind === "choice") {
+    if (kind === "path") {
       this.strokes((arc) => arc.kind === kind, kind, style.alpha);
+      return;
+    }
+    if (kind === "choice") {
+      this.choices(style.alpha);
       return;
     }
     // Of the node that is looked at, or pointed at, all edges are plain to see; the others are faint.
@@ -189,6 +200,21 @@ class Painter {
     const ours = (arc: Arc) => near !== null && this.shown(arc.from) === near;
     this.strokes((arc) => arc.kind === kind && !ours(arc), kind, near === null ? style.alpha : style.faint);
     this.strokes((arc) => arc.kind === kind && ours(arc), kind, Math.min(1, 1.7 * style.alpha));
+  }
+
+  /** The edges that can be chosen, above the path, which is red: what was right is not. */
+  private choices(alpha: number): void {
+    for (const state of ["open", "passed", "wrong", "missed", "right"] as const) {
+      this.c.strokeStyle = this.verdictColour(state);
+      this.c.lineWidth = state === "right" || state === "missed" ? 4.2 : 2.2;
+      this.c.setLineDash(state === "missed" ? [6, 4] : []);
+      this.strokes((arc) => arc.kind === "choice" && this.marks.verdict(choiceKey(arc)) === state, "choice", alpha);
+    }
+  }
+
+  private verdictColour(state: Verdict): string {
+    const { look } = this;
+    return { open: look.arc, passed: look.muted, wrong: look.bad, missed: look.good, right: look.good }[state];
   }
 
   /** The node whose edges are looked at: the one under the pointer, else the one that is picked or expanded. */
@@ -493,7 +519,7 @@ class Painter {
     c.textAlign = "center";
     c.textBaseline = "middle";
     for (const arc of scene.arcs) {
-      const beside = arc.kind === "choice" ? marks.choices.get(`${arc.key}>${arc.to.join()}`) : undefined;
+      const beside = arc.kind === "choice" ? marks.choices.get(choiceKey(arc)) : undefined;
       const shown =
         arc.kind === "path" || beside !== undefined || (few && arc.kind !== "forbidden" && (near === null || own(arc)));
       if (!shown || (arc.omega === null && beside === undefined)) continue;
@@ -513,9 +539,10 @@ class Painter {
       c.roundRect(x - wide / 2, y - 8, wide, 16, 8);
       c.fill();
       c.lineWidth = 1;
-      c.strokeStyle = arc.kind === "path" ? look.path : look.arc;
+      const colour = arc.kind === "path" ? look.path : look.arc;
+      c.strokeStyle = beside === undefined ? colour : this.verdictColour(marks.verdict(choiceKey(arc)));
       c.stroke();
-      c.fillStyle = arc.kind === "path" ? look.path : look.arc;
+      c.fillStyle = c.strokeStyle;
       c.fillText(text, x, y + 0.5);
     }
   }

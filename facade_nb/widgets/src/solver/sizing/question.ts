@@ -1,11 +1,49 @@
 // What can be asked of the sizing: which symbols grow, which equation a letter has, which constraint becomes active next.
 
 import { formatNumber } from "../../shared/fields.ts";
-import type { Truth } from "../quiz.ts";
+import type { Truth } from "../../shared/quiz.ts";
 import { type ActiveSetStep, type Constraint, isForce, type Moment, type Place, type System } from "./system.ts";
 
 const WRONG = 4;
 const FEW = 3; // constraints that become active in one step, at most, for the step to be asked for
+
+/** Where a letter of a symbol stands once sizes are known, piece by piece. */
+export type Ends = Map<string, [start: number, end: number][]>;
+
+/** A letter of every symbol with a preferred size, as it stands in the end. */
+export function endsOf(system: System, solved: Moment): Ends {
+  const found: Ends = new Map();
+  for (const row of system.constraints) {
+    if (row.kind !== "=" || row.number < system.count || !row.symbol || found.has(row.symbol)) continue;
+    const pieces = row.places.map((place): [number, number] => {
+      const [s, t] = system.boundsOf(place);
+      return [solved.values[s] ?? 0, solved.values[t] ?? 0];
+    });
+    if (pieces.length) found.set(row.symbol, pieces);
+  }
+  return found;
+}
+
+/** Whether words at preferred sizes say it all: every one is shorter than its canvas and all grow, or longer and all shrink. */
+export function isPlain(system: System, truths: ReadonlyMap<string, Truth>): boolean {
+  const { meaning, target } = system.posed;
+  const likes = new Map(
+    meaning.flatMap((own, v) => (own.kind === "size" ? [[own.symbol, target[v] ?? 0] as const] : [])),
+  );
+  const rights = new Set([...truths.values()].map(({ right }) => right));
+  if (rights.size !== 1) return false;
+  const grow = rights.has(true);
+  return system.paths.every(({ bands, columns, canvas }) => {
+    const widths = columns.map(({ letters }) =>
+      letters.map((element, b) =>
+        element.reduce((sum, n) => sum + (likes.get(bands[b]?.letters[n]?.symbol ?? "") ?? 0), 0),
+      ),
+    );
+    const least = widths.reduce((sum, own) => sum + Math.min(...own.filter((size) => size > 0)), 0);
+    const most = widths.reduce((sum, own) => sum + Math.max(...own), 0);
+    return grow ? most < canvas : least > canvas;
+  });
+}
 
 /** Which symbols end larger than they like? */
 export function grown(system: System, solved: Moment): Map<string, Truth> {
@@ -15,6 +53,7 @@ export function grown(system: System, solved: Moment): Map<string, Truth> {
     if (own.kind !== "size" || !((weight[v] ?? 0) > 0)) continue;
     const [likes, is] = [target[v] ?? 0, solved.values[v] ?? 0];
     const off = is - likes;
+    if (isForce(off) && Math.abs(off) < 0.0005) continue; // no figure shows it
     const said = isForce(off) ? `${formatNumber(Math.abs(off), 4)} m ${off > 0 ? "more" : "less"}` : "as it likes";
     found.set(own.symbol, {
       right: isForce(off) && off > 0,
@@ -94,6 +133,8 @@ export interface Entering {
   before: ActiveSetStep;
   step: ActiveSetStep;
   truths: Map<string, Truth>;
+  /** By how much each of them is broken (below 0), or holds, at the sizes before, metres. */
+  slacks: Map<string, number>;
 }
 
 /** The next such step behind a position, or the last one; null where all become active at once. */
@@ -104,6 +145,7 @@ export function entering(system: System, position: number): Entering | null {
     if (!before || before.round !== step.round || !few) return [];
     const moment = system.at(before.at);
     const truths = new Map<string, Truth>();
+    const slacks = new Map<string, number>();
     const inequalities = system.constraints.filter((own) => own.kind === "≤" && !moment.active.has(own.number));
     const slack = (own: Constraint) => slackOf(own, moment.values);
     const right = inequalities.filter((own) => step.entered.includes(own.number));
@@ -111,10 +153,11 @@ export function entering(system: System, position: number): Entering | null {
     // One that is broken as far may as well be taken up.
     const worst = Math.max(...right.map(slack));
     const wrong = inequalities
-      .filter((own) => !right.includes(own) && slack(own) > worst + 1e-6)
+      .filter((own) => !right.includes(own) && slack(own) > worst + 2e-4)
       .sort((a, b) => slack(a) - slack(b));
     for (const own of [...right, ...wrong.slice(0, WRONG)].sort((a, b) => a.number - b.number)) {
       const is = right.includes(own);
+      slacks.set(own.text, slack(own));
       const by = formatNumber(Math.abs(slack(own)), 4);
       const holds =
         slack(own) >= 0 ? `It holds here, with ${by} m to spare.` : `It is broken by ${by} m, but less than others.`;
@@ -123,7 +166,7 @@ export function entering(system: System, position: number): Entering | null {
         why: is ? `It is broken by ${by} m at these sizes: from now on it holds exactly.` : holds,
       });
     }
-    return [{ before, step, truths }];
+    return [{ before, step, truths, slacks }];
   });
   return found.find(({ step }) => step.at > position) ?? found.at(-1) ?? null;
 }

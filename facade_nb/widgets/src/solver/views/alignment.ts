@@ -3,6 +3,7 @@
 
 import { focused, h, mark } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
+import { offers, type Question, Quiz } from "../../shared/quiz.ts";
 import { ledgerTable } from "../align/ledger.ts";
 import { asSolved, atPreferred, type Cuts, columnsOf, cutsOf, type Drawn, sizeIn } from "../align/matrix.ts";
 import {
@@ -22,7 +23,6 @@ import { AxisChoice } from "../axes.ts";
 import { lettersLegend } from "../letters.ts";
 import type { PathNote } from "../network/story.ts";
 import { Placing, type PlacingData } from "../placing.ts";
-import { offers, type Question, Quiz } from "../quiz.ts";
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
 import { Group, judge, ledgerOf, type Objective, rowsNamed, type Verdict } from "../weights.ts";
@@ -144,6 +144,9 @@ class AlignmentView implements View {
       found.push({
         name: NEXT,
         prompt: `${this.named(column.path)}Where does column ${column.column + 1} end?`,
+        hint:
+          "take what breaks nothing: no ω above μ, something opaque in every column (C1), no part of an element " +
+          "transparent (C2). And J with it must not be more than J of the whole.",
         truths: () => column.offers,
         single: true,
         from,
@@ -154,13 +157,16 @@ class AlignmentView implements View {
       const way = boundary.right ? "right" : "left";
       found.push({
         name: MOVED,
+        hint:
+          "compare the two columns beside the boundary with the others. Add up the sizes of each element: their " +
+          "difference is ω, the larger one is the column's share of W.",
         prompt: `${this.named(path)}In the row “${row}” boundary ${boundary.boundary} was moved to the ${way}. What does that break? Tick all.`,
         truths: () => movedTruths(boundary),
         from,
       });
     }
     const nothing = "This alignment has nothing to ask: there is only one way to cut it.";
-    return found.length ? found : [{ prompt: nothing, truths: () => new Map() }];
+    return found.length ? found : [{ prompt: nothing, hint: "", truths: () => new Map() }];
   }
 
   /** What can be asked of the axis that is shown. */
@@ -207,14 +213,16 @@ class AlignmentView implements View {
             h("code", {}, offer ? elementText(column.path, b, offer) : ""),
           ),
         );
-        return h("span", { class: "fnb-align-offered" }, ...elements);
+        const cost = h("span", { class: "fnb-offer-known" }, `J with it ${formatNumber(offer?.cost)} m`);
+        return h("span", { class: "fnb-align-offered" }, ...elements, cost);
       });
-      this.el.replaceChildren(this.posed(column.path, cuts, { asked, marked }, list));
+      const so = this.laid(column);
+      this.el.replaceChildren(this.posed(column.path, cuts, { asked, marked }, list, so));
     } else if (quiz.asked === MOVED && boundary) {
       const marked = { boundary: boundary.boundary, band: boundary.band };
       const asked = quiz.hides ? { open: Number.POSITIVE_INFINITY } : null;
       const list = offers(quiz, (kind) => CONSTRAINTS[kind] ?? kind);
-      this.el.replaceChildren(this.posed(boundary.path, boundary.cuts, { asked, marked }, list));
+      this.el.replaceChildren(this.posed(boundary.path, boundary.cuts, { asked, marked }, list, ""));
     } else {
       this.note.textContent = quiz.prompt;
       this.el.replaceChildren(this.note);
@@ -227,6 +235,7 @@ class AlignmentView implements View {
     cuts: Cuts,
     how: Pick<MatrixOptions, "asked" | "marked">,
     list: HTMLElement,
+    laid: string,
   ): HTMLElement {
     const drawn = atPreferred(path, cuts, this.data.placements);
     const verdicts = how.asked ? [] : (judge(this.group(path), columnsOf(cuts), sizeIn(drawn)) ?? []);
@@ -241,8 +250,9 @@ class AlignmentView implements View {
     );
     return h(
       "section",
-      { class: "fnb-align-group", "data-group": path.group },
+      { class: "fnb-align-group", "data-group": path.group, "data-asked": true },
       head,
+      h("p", { class: "fnb-known" }, lettersText(path), ` ${limitsText(path)} `, laid),
       columnsTable({
         path,
         axis: path.axis,
@@ -256,7 +266,15 @@ class AlignmentView implements View {
       }),
       how.asked ? null : this.sums(path, drawn, verdicts, tried),
       list,
+      legendOf([path]),
     );
+  }
+
+  /** What the alignment costs, and what of it is laid: by that a column that is too dear is known. */
+  private laid({ path, column }: Next): string {
+    const { columns, cost } = ledgerOfPath(path, this.group(path));
+    const sofar = columns.slice(0, column).reduce((sum, own) => sum + own.cost, 0);
+    return `J of the whole is ${formatNumber(cost)} m; J so far, ${formatNumber(sofar)} m.`;
   }
 
   /** Whether every letter of a group has been placed at a position. */
@@ -392,6 +410,24 @@ class AlignmentView implements View {
     return made;
   }
 }
+
+/** Sizes and kinds of the letters of an alignment: `A 0.9 m opaque, e free transparent`. */
+function lettersText({ bands }: PathNote): string {
+  const letters = new Map(bands.flatMap((band) => band.letters.map((letter) => [letter.symbol, letter] as const)));
+  const named = [...letters.values()].map((own) => {
+    const size = own.size === null ? "without a size" : `${formatNumber(own.size)} m`;
+    const kinds = [
+      own.transparent ? "transparent" : own.opaque ? "" : "not opaque",
+      own.unoccludable ? "unoccludable" : "",
+      own.attached ? "attached" : "",
+    ];
+    return [own.symbol, size, ...kinds].filter(Boolean).join(" ");
+  });
+  return `${named.join(", ")}.`;
+}
+
+const limitsText = ({ canvas, tolerance }: PathNote): string =>
+  `Canvas ${formatNumber(canvas)} m, μ = ${formatNumber(tolerance)} m.`;
 
 function whatIsShown({ aligned, groups }: Alternative): string {
   if (aligned) return "These are its columns, at preferred sizes: sizes are told of the layout only.";

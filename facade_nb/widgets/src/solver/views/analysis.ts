@@ -2,10 +2,11 @@
 // equation that contradicts the others in red (supplement 3.1).
 
 import { h, mark, setText } from "../../shared/dom.ts";
+import { formatNumber } from "../../shared/fields.ts";
+import { offers, Quiz, sign, type Truth } from "../../shared/quiz.ts";
 import { AxisChoice } from "../axes.ts";
 import { offers as near } from "../equations.ts";
 import { linked, target } from "../links.ts";
-import { offers, Quiz, type Truth } from "../quiz.ts";
 import { equation, type Term, term, variables } from "../terms.ts";
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -90,24 +91,30 @@ class AnalysisView implements View {
   private readonly note = h("p", { class: "fnb-empty" });
   private readonly pairs = h("div", { class: "fnb-pairs", role: "list" });
   private readonly systems = h("div", { class: "fnb-systems" });
+  /** While the view asks: the sizes that equations are made of. */
+  private readonly known = h("p", { class: "fnb-known", hidden: true });
   private by = "";
 
   constructor(private readonly context: ViewContext) {
     this.told = (context.pieces.analysis as { events: Told[] }).events;
     this.choice = new AxisChoice(context.timeline, context.refresh, context.alternatives);
     this.controls = [this.choice.el];
-    this.el.append(this.note, this.pairs, this.systems);
+    this.el.append(this.known, this.note, this.pairs, this.systems);
     const from = () => context.timeline.begins("analysis", this.choice.at(context.player.position));
     this.quiz = new Quiz(() => [
       {
         name: "all pairs",
         prompt: "Which pairs contradict those before them? Which counters and sizes do the others fix? Tick them.",
+        hint:
+          "put what one equation says into the next. A pair contradicts where no numbers are left that keep both; " +
+          "a counter or size is fixed where one number is left for it.",
         truths: () => this.truths(),
         from: from(),
       },
       ...this.equations().map((one) => ({
         name: pairName(one),
         prompt: `What does the equation of ${pairName(one)} say?`,
+        hint: "the grey ends are the same in both lines. Add up what is left of each, letter by letter, at the sizes above.",
         truths: () => this.spelled(one),
         single: true,
         from: from(),
@@ -143,6 +150,8 @@ class AnalysisView implements View {
       ),
     );
     const reduced = seen.filter((event): event is Reduced => event.event === "SystemReduced");
+    this.known.hidden = !this.quiz.on;
+    setText(this.known, this.quiz.on ? sizesText(this.context.timeline.data.sizes, compared) : "");
     this.systems.replaceChildren(...reduced.map((one) => this.system(one, conflicts, now && one.at === position)));
     const all = this.told.some((event) => event.axis === axis);
     const empty = !compared.length && !others.length;
@@ -154,8 +163,9 @@ class AnalysisView implements View {
   /** Two lines, the common ends greyed, and what follows. */
   private pair(one: Compared, conflicts: Inconsistent[], now: boolean): HTMLElement {
     const { axis, number, patterns } = one;
-    const conflict = conflicts.find((own) => own.equation === number);
-    const against = conflicts.some((own) => own.against.includes(number));
+    // What the reader was asked for is told beside the answers, and paints nothing red.
+    const conflict = this.quiz.on ? undefined : conflicts.find((own) => own.equation === number);
+    const against = !this.quiz.on && conflicts.some((own) => own.against.includes(number));
     const asked = this.quiz.on && pairName(one) === this.quiz.asked;
     const hides = asked && this.quiz.hides;
     const content = one.symbol !== "";
@@ -313,7 +323,7 @@ class AnalysisView implements View {
       { class: "fnb-analysis-choice", "data-verdict": state },
       box,
       h("b", {}, label),
-      h("span", {}, why),
+      h("span", {}, sign(this.quiz, state), why),
     );
   }
 
@@ -367,6 +377,18 @@ class AnalysisView implements View {
     }
     return found;
   }
+}
+
+/** The sizes of the letters that are left over: `A 0.9 m, B 1.2 m, e free`. */
+function sizesText(sizes: Readonly<Record<string, number | null>> | undefined, compared: readonly Compared[]): string {
+  if (!sizes) return ""; // a page that was saved before they were told
+  const letters = compared.flatMap(({ left, right }) => [...left, ...right].flatMap((own) => own.letters));
+  const symbols = [...new Set(letters.map((letter) => letter.replace(/'$/, "")))];
+  const named = symbols.map((symbol) => {
+    const size = sizes[symbol] ?? null;
+    return `${symbol} ${size === null ? "has no size of its own" : `is ${formatNumber(size)} m`}`;
+  });
+  return named.length ? `${named.join(", ")}.` : "";
 }
 
 /** The variables that a system is asked for: that of the sizes has the counters, too, but they are the other's. */

@@ -3,12 +3,12 @@
 
 import { focused, h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
+import { Quiz, sign, type Truth } from "../../shared/quiz.ts";
 import { type CandidateNote as Candidate, proven } from "../alternatives.ts";
 import { AxisChoice } from "../axes.ts";
 import { filter } from "../filter.ts";
 import { parsed, spelled } from "../letters.ts";
 import { linked, target } from "../links.ts";
-import { Quiz, type Truth } from "../quiz.ts";
 import { type Rows, rows } from "../rows.ts";
 import type { Axis } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -41,6 +41,10 @@ interface Column {
   value(own: Candidate): number | string | null;
   /** Whether it would give the answer away. */
   tells?: boolean;
+  /** What is told of it while the view asks; without it the same as always, or, if it tells, nothing. */
+  asked?(own: Candidate): number | null;
+  /** What it is called while the view asks. */
+  askedLabel?: string;
   digits?: number;
 }
 
@@ -52,6 +56,9 @@ const METRICS: Column[] = [
     width: "44px",
     value: (own) => own.cost,
     tells: true,
+    // J is Ω and this: the reader adds them up
+    asked: (own) => (own.cost === null || own.omega === null ? null : own.cost - own.omega),
+    askedLabel: "J − Ω",
   },
   {
     name: "omega",
@@ -59,7 +66,6 @@ const METRICS: Column[] = [
     title: "Alignment error Ω = Σ ωⱼ, metres",
     width: "44px",
     value: (own) => own.omega,
-    tells: true,
   },
   {
     name: "columns",
@@ -85,6 +91,7 @@ const METRICS: Column[] = [
     width: "44px",
     value: (own) => proven(own),
     tells: true,
+    asked: (own) => (own.cost === null ? proven(own) : null),
   },
   {
     name: "tolerance",
@@ -170,13 +177,16 @@ class CandidatesView implements View {
       return truths.size > 1
         ? [
             {
-              prompt: "Which candidate becomes the layout? If none does, choose none.",
+              prompt: "Which candidate becomes the layout?",
+              hint:
+                "J is what counts: add Ω and J − Ω of each that was aligned. Of the others J ≥ is proven; they are out " +
+                "where that is no less than the least J. A click on a column's name sorts by it.",
               truths: () => truths,
               single: true,
               from: context.timeline.begins("words", this.choice.at(context.player.position)), // words that are taken
             },
           ]
-        : [{ prompt: "There are no two candidates to choose from.", truths: () => new Map() }];
+        : [{ prompt: "There are no two candidates to choose from.", hint: "", truths: () => new Map() }];
     });
     const observer = new ResizeObserver(() => {
       this.width = this.el.clientWidth;
@@ -206,7 +216,7 @@ class CandidatesView implements View {
     this.now = now;
     mark(this.el, "data-stacked", this.stacked);
     const holds = filter(this.typed.value);
-    const shown = seen.filter((each) => holds(filterable(each)));
+    const shown = seen.filter((each) => holds(filterable(each, this.quiz.hides)));
     this.sort(shown);
     this.drawHead(own);
     this.list.set(
@@ -275,9 +285,10 @@ class CandidatesView implements View {
   private sort(shown: Candidate[]): void {
     const { name, down } = this.sorted;
     const column = this.columns.find((each) => each.name === name);
-    const value = column ? column.value : (each: Candidate) => each.words[name] ?? null;
+    const asked = this.quiz.hides && column?.tells ? column.asked : undefined;
+    const value = asked ?? (column ? column.value : (each: Candidate) => each.words[name] ?? null);
     // In the order in which they are told the best often comes first.
-    const hidden = this.quiz.hides && (column?.tells || name === "number");
+    const hidden = this.quiz.hides && ((column?.tells && !asked) || name === "number");
     const order = (a: Candidate, b: Candidate): number => {
       const [x, y] = [value(a), value(b)];
       if (x === y) return a.number - b.number;
@@ -289,7 +300,8 @@ class CandidatesView implements View {
   }
 
   private drawHead(own: readonly Candidate[]): void {
-    const by = [this.sorted.name, this.sorted.down, this.stacked].join();
+    const { hides } = this.quiz;
+    const by = [this.sorted.name, this.sorted.down, this.stacked, hides].join();
     if (by === this.headed) return;
     this.headed = by;
     const patterns = this.patterns();
@@ -319,7 +331,9 @@ class CandidatesView implements View {
     };
     const before = focused(this.head)?.closest(".fnb-sort")?.getAttribute("title");
     this.head.replaceChildren(
-      ...this.columns.map((each) => sorter(each.name, each.label, each.title, each.name !== "fate")),
+      ...this.columns.map((each) =>
+        sorter(each.name, (hides && each.askedLabel) || each.label, each.title, each.name !== "fate"),
+      ),
       h("span", { role: "columnheader", title: "From what it costs at least to what it costs" }, ""),
       h(
         "span",
@@ -335,7 +349,8 @@ class CandidatesView implements View {
     const hides = this.quiz.hides;
     const { state, why } = this.quiz.verdict(String(own.number));
     const cells = this.columns.map((column) => {
-      const value = hides && column.tells ? null : column.value(own);
+      const told = !hides || !column.tells;
+      const value = told ? column.value(own) : (column.asked?.(own) ?? null);
       if (column.name === "fate") return this.fate(own, hides, why);
       const text = typeof value === "number" ? formatNumber(value) : (value ?? "");
       return h("span", { role: "cell", class: "fnb-candidate-number" }, text);
@@ -373,7 +388,7 @@ class CandidatesView implements View {
 
   private fate(own: Candidate, hides: boolean, why: string): HTMLElement {
     const cell = h("span", { role: "cell", class: "fnb-candidate-fate" });
-    if (this.quiz.on) {
+    if (this.quiz.on && this.quiz.truths.has(String(own.number))) {
       const radio = h("input", {
         type: "radio",
         name: `fnb-quiz-${this.context.session.client}`,
@@ -384,7 +399,11 @@ class CandidatesView implements View {
       radio.addEventListener("change", () => this.quiz.choose(String(own.number)));
       cell.append(radio);
     }
-    if (!hides) cell.append(`${SIGNS[own.fate] ?? "✕"} ${own.fate}`);
+    const { state } = this.quiz.verdict(String(own.number));
+    // What is not asked for is out for a reason that no figure shows: that is told.
+    const asked = this.quiz.on && this.quiz.truths.has(String(own.number));
+    if (this.quiz.done && asked) cell.append(sign(this.quiz, state), own.fate);
+    else if (!hides || (this.quiz.truths.size > 1 && !asked)) cell.append(`${SIGNS[own.fate] ?? "✕"} ${own.fate}`);
     if (why) mark(cell, "title", why);
     return cell;
   }
@@ -408,7 +427,15 @@ class CandidatesView implements View {
     const axis = this.choice.at(this.context.player.position);
     const own = this.told[axis];
     const best = own.find((each) => each.fate === "best");
-    return new Map(own.map((each) => [String(each.number), { right: each === best, why: because(each, best) }]));
+    const least = best?.cost ?? null;
+    if (least === null) return new Map();
+    const offered = own.filter((each) => each === best || each.fate === "tied" || isOut(each, least));
+    return new Map(
+      offered.map((each) => [
+        String(each.number),
+        { right: each === best || each.fate === "tied", why: because(each, best) },
+      ]),
+    );
   }
 }
 
@@ -420,6 +447,12 @@ const SHORT: Record<string, string> = {
   "no alignment": "nothing keeps μ and the constraints",
   "other axis": "has no counterpart on the other axis",
 };
+
+/** Whether the figures say that a candidate is not the layout: it costs more, also as it is rounded, or at least as much. */
+function isOut({ fate, cost, bound, floor }: Candidate, least: number): boolean {
+  if (fate === "dearer") return cost !== null && cost > least + 0.002;
+  return fate === "bound" && Math.max(bound, floor ?? 0) > least - 0.0005;
+}
 
 /** What the bars and the fates mean, as far as there are such; the tolerance, where it has no column. */
 function barLegend(own: readonly Candidate[]): Node[] {
@@ -458,22 +491,17 @@ function because(own: Candidate, best: Candidate | undefined): string {
   return `${why} ${least}${formatNumber(known)} m against ${formatNumber(best.cost)} m.`;
 }
 
-function filterable(own: Candidate) {
-  const { tolerance, number, omega, columns, deviation } = own;
+/** @param hides whether the view asks: then nothing is found by its answer */
+function filterable(own: Candidate, hides: boolean) {
+  const { tolerance, omega, columns, deviation, number } = own;
+  const telling = { J: own.cost, columns, deviation, bound: proven(own), number };
   return {
-    numbers: {
-      ...own.counters,
-      J: own.cost,
-      omega,
-      Ω: omega,
-      columns,
-      deviation,
-      bound: proven(own),
-      tolerance,
-      μ: tolerance,
-      number,
-    },
-    texts: [own.fate, ...Object.values(own.words), ...Object.values(own.words).map((word) => word.replaceAll(" ", ""))],
+    numbers: { ...own.counters, omega, Ω: omega, tolerance, μ: tolerance, ...(hides ? {} : telling) },
+    texts: [
+      ...(hides ? [] : [own.fate]),
+      ...Object.values(own.words),
+      ...Object.values(own.words).map((word) => word.replaceAll(" ", "")),
+    ],
   };
 }
 

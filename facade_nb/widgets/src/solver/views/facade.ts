@@ -67,6 +67,8 @@ class FacadeView implements View {
   private readonly ids = `fnb-${Math.random().toString(36).slice(2)}`;
   readonly controls: HTMLElement[];
   private preview = false;
+  /** The moment that is shown. */
+  private at = 0;
   /** Where letters and boundaries are placed. */
   private readonly placed: number[];
   private by = "";
@@ -91,7 +93,6 @@ class FacadeView implements View {
     );
     toggle.addEventListener("click", () => {
       this.preview = !this.preview;
-      mark(this.el, "data-preview", this.preview);
       mark(toggle, "aria-pressed", String(this.preview));
       context.refresh();
     });
@@ -111,6 +112,8 @@ class FacadeView implements View {
   }
 
   show(position: number): void {
+    this.at = position;
+    mark(this.el, "data-preview", this.ghost);
     this.dress();
     this.build(position);
     this.load(position);
@@ -196,6 +199,11 @@ class FacadeView implements View {
       return;
     }
     this.marks.replaceChildren(...this.outlines(picked, "fnb-traced-pick"), ...this.outlines(lit, "fnb-traced-lit"));
+  }
+
+  /** Whether it is shown what the façade becomes: not while a view asks, for that tells the answer. */
+  private get ghost(): boolean {
+    return this.preview && !this.context.asking.on;
   }
 
   private choice(): HTMLElement {
@@ -320,18 +328,18 @@ class FacadeView implements View {
   private outlines(told: ReadonlySet<string>, name: string): SVGElement[] {
     if (!told.size) return [];
     const keys = this.ofTheLayout(told);
-    const { position } = this.context.player;
+    const position = this.at;
     const own: SVGElement[] = [];
     const single = [...keys].some((key) => key.startsWith("shape:"));
     for (const [n, shape] of this.shapes.entries()) {
-      if (!this.preview && shape.hasAttribute("data-later")) continue;
+      if (!this.ghost && shape.hasAttribute("data-later")) continue;
       const told = this.placing.shapes[n];
       const hit = single ? keys.has(target.shape(n)) : told && this.placing.about(told).some((key) => keys.has(key));
       if (hit) own.push(this.rect(name, boxOf(shape)));
     }
     if (single) return own;
     for (const line of this.placing.boundaries) {
-      if (!this.preview && line.at > position) continue;
+      if (!this.ghost && line.at > position) continue;
       for (const [j, value] of line.boundaries.entries()) {
         const next = line.boundaries[j + 1];
         if (keys.has(target.boundary(line.axis, line.group, j)))
@@ -342,7 +350,7 @@ class FacadeView implements View {
     }
     // A letter without a shape of its own: transparent, or masked.
     const hidden = this.placing.letters.filter(
-      (each) => (this.preview || each.at <= position) && keys.has(target.letter(each.axis, each.layer, each.letter)),
+      (each) => (this.ghost || each.at <= position) && keys.has(target.letter(each.axis, each.layer, each.letter)),
     );
     for (const each of hidden) own.push(this.rect(`${name} fnb-traced-letter`, this.strip(each)));
     return own;

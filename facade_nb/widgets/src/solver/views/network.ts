@@ -4,6 +4,7 @@
 
 import { h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
+import { Quiz, type Truth } from "../../shared/quiz.ts";
 import { watchDress } from "../../shared/theme.ts";
 import { ledgerOfPath } from "../align/question.ts";
 import type { Alternative } from "../alternatives.ts";
@@ -17,9 +18,12 @@ import { type Arc, type Base, baseOf, edgeKey, leaving, nodeKey, type Scene, sce
 import { type NetworkData, PRUNED, restOf, Story, type Subject, sizeOf, TAKEN, type Told } from "../network/story.ts";
 import { Strip } from "../network/strip.ts";
 import { warp } from "../network/warp.ts";
-import { Quiz, type Truth } from "../quiz.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
 import type { Objective } from "../weights.ts";
+
+const HINT =
+  "g is what the columns cost so far, with this edge; h is what is still to come at least. No alignment through the edge " +
+  "costs less than g + h: add them.";
 
 export const network: ViewKind = {
   title: "Network",
@@ -114,6 +118,7 @@ class NetworkView implements View {
             hovering: this.hovering,
             letters: litLetters(this.scene.subject, new Set([...lit, ...picked])),
             choices: this.quiz.on ? this.marks() : new Map(),
+            verdict: (key) => this.quiz.verdict(key).state,
           });
         },
         hover: (at) => this.hover(at),
@@ -130,7 +135,7 @@ class NetworkView implements View {
     );
     this.el = h("div", { class: "fnb-network" }, this.said, this.note);
     this.quiz = new Quiz(() => [
-      { prompt: "Which edge is next?", truths: () => this.truths(), single: true, from: this.tells() },
+      { prompt: "Which edge is next?", hint: HINT, truths: () => this.truths(), single: true, from: this.tells() },
     ]);
     watchDress(() => {
       this.looked = null;
@@ -564,6 +569,8 @@ class NetworkView implements View {
       arc: value("--fnb-net-arc", "#2f6fb2"),
       path: value("--fnb-net-path", "#d32f2f"),
       error: value("--fnb-muted", "#777"),
+      good: value("--fnb-good", "#388e3c"),
+      bad: value("--fnb-error", "#d32f2f"),
       lit: value("--fnb-lit", "#f2a900"),
       region: value("--fnb-net-region", "rgb(224 138 30 / 22%)"),
       mono: value("--fnb-mono", "monospace"),

@@ -76,6 +76,7 @@ class RunsView implements View {
   private readonly at = h("output", { class: "fnb-runs-at" });
   private readonly table = h("div", { class: "fnb-runs-counts" });
   private readonly note = h("p", { class: "fnb-empty", role: "status" });
+  private readonly kept = h("p", { class: "fnb-empty", role: "status", hidden: true }, "Kept back while a view asks.");
   private readonly sides: [Side, Side];
   private own: AbortController | null = null;
   private run: Run | null = null;
@@ -96,6 +97,7 @@ class RunsView implements View {
     this.slider.addEventListener("input", () => this.go());
     context.signal.addEventListener("abort", () => this.own?.abort("ended"));
     this.el.append(
+      this.kept,
       this.note,
       h("label", { class: "fnb-runs-steps" }, "Node by node", this.slider, this.at),
       h("div", { class: "fnb-runs-sides" }, ...this.sides.map(({ el }) => el)),
@@ -105,6 +107,11 @@ class RunsView implements View {
   }
 
   show(position: number): void {
+    // What both runs come to is what a view may ask for.
+    const { on } = this.context.asking;
+    mark(this.el, "data-asked", on);
+    for (const part of this.el.children) if (part !== this.kept) (part as HTMLElement).inert = on;
+    this.kept.hidden = !on;
     const axis = this.choice.at(position);
     if (axis === this.axis) return;
     this.axis = axis;

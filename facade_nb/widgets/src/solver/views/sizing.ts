@@ -3,14 +3,14 @@
 
 import { h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
+import { offers, type Question, Quiz } from "../../shared/quiz.ts";
 import { AxisChoice } from "../axes.ts";
 import { hueOf } from "../letters.ts";
 import { linked, target } from "../links.ts";
 import type { PathNote } from "../network/story.ts";
-import { offers, type Question, Quiz } from "../quiz.ts";
 import { type Rows, rows } from "../rows.ts";
 import { forces } from "../sizing/forces.ts";
-import { abridged, entering, grown, type Lettered, letteredCases } from "../sizing/question.ts";
+import { abridged, endsOf, entering, grown, isPlain, type Lettered, letteredCases } from "../sizing/question.ts";
 import {
   type Constraint,
   isForce,
@@ -37,6 +37,9 @@ export const sizing: ViewKind = {
 const SIZES = "sizes";
 const EQUATION = "an equation";
 const ACTIVE = "the active set";
+const LETTERED =
+  "i-j-k counts words, columns and letters from 1. A letter that is cut has all its pieces in its equation, and all " +
+  "letters of a symbol share one size.";
 
 type Tab = "all" | "equations" | "inequalities" | "active" | "written";
 
@@ -222,7 +225,7 @@ class SizingView implements View {
     const system = this.systems[this.choice.at(position)];
     const solved = system?.solved && system.at(system.solved.at);
     if (!system || !solved)
-      return [{ prompt: "This axis has no sizes that could be asked for.", truths: () => new Map() }];
+      return [{ prompt: "This axis has no sizes that could be asked for.", hint: "", truths: () => new Map() }];
     const found: Question[] = [];
     const from = system.posed.at;
     const truths = grown(system, solved);
@@ -230,6 +233,9 @@ class SizingView implements View {
       found.push({
         name: SIZES,
         prompt: "Which symbols end larger than they like? Tick them.",
+        hint: isPlain(system, truths)
+          ? "all words fill the canvas in the end. Are they longer or shorter than it at the sizes that symbols like?"
+          : "a letter is as long as from where it begins to where it ends; compare that with what its symbol likes.",
         truths: () => truths,
         from,
       });
@@ -237,7 +243,7 @@ class SizingView implements View {
     if (letter) {
       const named = `${letter.row.symbol} (${system.ijk(letter.place)})`;
       const prompt = `Which equation says how long the marked letter ${named} is?`;
-      found.push({ name: EQUATION, prompt, truths: () => letter.truths, single: true, from });
+      found.push({ name: EQUATION, prompt, hint: LETTERED, truths: () => letter.truths, single: true, from });
     }
     const next = entering(system, position);
     if (next) {
@@ -245,6 +251,7 @@ class SizingView implements View {
       found.push({
         name: ACTIVE,
         prompt: `${few} active next?`,
+        hint: "what is broken most at these sizes is taken up: the number beside each is below 0 by as much as it is broken.",
         truths: () => next.truths,
         single: next.step.entered.length === 1,
         from: next.step.at,
@@ -276,12 +283,34 @@ class SizingView implements View {
     }
     const { symbols } = this.context.timeline.data;
     const chip = (symbol: string) => h("span", { class: `fnb-size-chip ${hueOf(symbols, symbol)}` }, symbol);
-    const list = offers(quiz, (key) => (asked === SIZES ? chip(key) : h("code", { title: key }, abridged(key))));
+    const known = (key: string) => {
+      if (asked === ACTIVE) return `now ${formatNumber(next?.slacks.get(key), 4)} m`;
+      return asked === SIZES ? this.known(system, key) : "";
+    };
+    const list = offers(quiz, (key) =>
+      h(
+        "span",
+        { class: "fnb-size-offer" },
+        asked === SIZES ? chip(key) : h("code", { title: key }, abridged(key)),
+        h("span", { class: "fnb-offer-known" }, known(key)),
+      ),
+    );
     const moment = system.at(next ? (quiz.hides ? next.before.at : next.step.at) : system.solved.at);
     const letter = asked === EQUATION ? this.letter(system) : undefined;
     const how = { before: asked === SIZES && quiz.hides, ...(letter ? { marked: letter.place } : {}) };
     const answer = asked === SIZES && !quiz.hides ? this.objective(system, moment) : null;
     this.el.replaceChildren(forces(system, moment, symbols, how), h("div", { class: "fnb-size-asked" }, list, answer));
+  }
+
+  /** What is known of a symbol while its size is asked for: what it likes, and, where words do not say it all, its ends. */
+  private known(system: System, symbol: string): string {
+    const v = system.posed.meaning.findIndex((own) => own.kind === "size" && own.symbol === symbol);
+    const likes = `likes ${formatNumber(system.posed.target[v])} m`;
+    if (!system.solved) return likes;
+    const solved = system.at(system.solved.at);
+    const pieces = isPlain(system, grown(system, solved)) ? [] : (endsOf(system, solved).get(symbol) ?? []);
+    const ends = pieces.map(([start, end]) => `from ${formatNumber(start, 4)} to ${formatNumber(end, 4)} m`);
+    return ends.length ? `${likes}; a letter of it stands ${ends.join(", and ")}` : likes;
   }
 
   /** Which of its own events is told right now. */

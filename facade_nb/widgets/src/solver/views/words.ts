@@ -3,12 +3,12 @@
 
 import { focused, h, mark, setText } from "../../shared/dom.ts";
 import { formatNumber } from "../../shared/fields.ts";
+import { Quiz, sign, type Truth } from "../../shared/quiz.ts";
 import { stepByKeys } from "../../shared/stepping.ts";
 import { AxisChoice } from "../axes.ts";
 import { type Candidate, combined, type GroupNote, inOrder, type Judged, judge, type WordEvent } from "../bounds.ts";
 import { boxes, type DrawnLetter, lettersLegend, spelled } from "../letters.ts";
 import { linked, target } from "../links.ts";
-import { Quiz, type Truth } from "../quiz.ts";
 import { type Rows, rows } from "../rows.ts";
 import { type Axis, type PatternInfo, played } from "../timeline.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -131,7 +131,7 @@ class WordsView implements View {
     const prompt = "Which words fit? Tick them; the shaded band is canvas ± μ.";
     this.quiz = new Quiz(() => {
       const from = context.timeline.begins("words", this.choice.at(context.player.position));
-      return [{ prompt, truths: () => this.truths(), from }];
+      return [{ prompt, hint: this.hint(), truths: () => this.truths(), from }];
     });
   }
 
@@ -145,8 +145,10 @@ class WordsView implements View {
     setText(this.said, other ? `${other.name}. ${other.fate} Its words are marked.` : alternatives.trouble);
     this.said.hidden = !this.said.textContent;
     const started = round !== undefined && round.first <= position;
+    // Whether another pattern has a word for it is seen only where all words are: a question is of all of them.
+    const all = this.quiz.on && !!round;
     setText(this.note, this.told(axis, story, round, started));
-    this.note.hidden = started;
+    this.note.hidden = started || all;
     if (!round || !story.posed) {
       for (const section of this.sections.values()) if (!section.is("")) section.show(null, 0, -1, null);
       this.tuples.replaceChildren();
@@ -166,13 +168,13 @@ class WordsView implements View {
       const own = this.judged.get(pattern);
       const told = round.words.get(pattern) ?? [];
       const at = told.map((event) => event.at);
-      const seen = started ? played(at, position) : 0;
-      const now = told[seen - 1]?.at === position ? position : -1;
-      const taken = chosen && chosen.at <= position ? (chosen.words[pattern] ?? null) : null;
+      const seen = all ? told.length : started ? played(at, position) : 0;
+      const now = !all && told[seen - 1]?.at === position ? position : -1;
+      const taken = chosen && chosen.at <= position && !this.quiz.hides ? (chosen.words[pattern] ?? null) : null;
       if (section.is(`${stamp}|${seen}|${now}|${taken}`)) continue;
       section.stamp = stamp;
       section.show(
-        own ? { ...own, words: own.words.filter((word) => word.event.at <= position) } : null,
+        own ? { ...own, words: own.words.filter((word) => all || word.event.at <= position) } : null,
         told.length,
         now,
         taken,
@@ -257,14 +259,33 @@ class WordsView implements View {
   }
 
   private truths(): ReadonlyMap<string, Truth> {
-    const { position } = this.context.player;
     const found = new Map<string, Truth>();
     for (const [pattern, own] of this.judged)
       for (const word of own.words)
-        if (word.event.at <= position)
+        if (canBeAsked(word, own))
           found.set(keyOf(pattern, word), { right: word.reason === "fits", why: sentence(word, own) });
     return found;
   }
+
+  private hint(): string {
+    const all = [...this.judged.values()];
+    const open = all.some(({ words }) => words.some(free));
+    const shared = all.some(({ words }) => words.some((word) => word.reason === "no partner"));
+    const parts = [
+      "the length of a word stands at its right, and what it may be beside the pattern.",
+      open ? "Where it ends with +, letters without a size take what is left: such a word is never too short." : "",
+      shared
+        ? "And a word needs a partner: every pattern with the same counters must have one with the same values."
+        : "",
+    ];
+    return parts.filter(Boolean).join(" ");
+  }
+}
+
+/** Whether what is shown says how a word stands: a length that is rounded to its bound does not. */
+function canBeAsked({ size, reason }: Candidate, { low, high }: Judged): boolean {
+  const near = [low, high].some((bound) => Math.abs(size - bound) > 1e-9 && Math.abs(size - bound) < 0.006);
+  return reason !== "left out" && !near;
 }
 
 const keyOf = (pattern: string, word: Candidate): string =>
@@ -453,7 +474,7 @@ class Section {
         class: "fnb-word",
         "data-reason": hides ? null : word.reason,
         "data-now": event.at === this.now,
-        "data-taken": !hides && event.word === this.taken,
+        "data-taken": event.word === this.taken,
         "data-verdict": state,
         tabindex: 0,
         ...linked([target.word(this.axis, event.pattern, event.word)], [target.pattern(event.pattern)]),
@@ -469,8 +490,9 @@ class Section {
       h(
         "span",
         { role: "cell", class: "fnb-word-reason" },
-        this.quiz.on ? this.box(key, word) : null,
-        hides ? null : reasonText(word, event.word === this.taken),
+        this.quiz.on && this.quiz.truths.has(key) ? this.box(key, word) : null,
+        hides ? null : sign(this.quiz, state),
+        hides ? null : reasonText(word, event.word === this.taken, state !== "open"),
       ),
     );
     mark(row, "title", hides ? null : why || sentence(word, own));
@@ -490,8 +512,7 @@ class Section {
     const { letters, pattern } = word.event;
     const open = letters.filter((a) => a.size === null && !(a.symbol in word.sizes)).length;
     const left = open ? Math.max(0, this.canvas - word.size) / open : 0;
-    const { timeline } = this.context;
-    const chosen = timeline.data.chosen[this.axis]?.words[pattern] === word.event.word;
+    const chosen = this.taken === word.event.word;
     let at = 0;
     return letters.map((letter, n) => {
       const start = at;
@@ -509,10 +530,12 @@ class Section {
 
 const free = (word: Candidate): boolean => word.event.letters.some((a) => a.size === null && !(a.symbol in word.sizes));
 
-function reasonText(word: Candidate, taken: boolean): string {
-  if (taken && word.reason === "fits") return "✓ fits, taken";
+/** @param bare without a sign: before it stands whether the reader was right */
+function reasonText(word: Candidate, taken: boolean, bare: boolean): string {
+  if (taken && word.reason === "fits") return bare ? "fits, taken" : "✓ fits, taken";
   const by = word.missed ? ` by ${formatNumber(word.missed, 2)}` : "";
-  return `${word.reason === "fits" ? "✓" : word.reason === "no partner" ? "–" : "✕"} ${word.reason}${by}`;
+  const signed = word.reason === "fits" ? "✓ " : word.reason === "no partner" ? "– " : "✕ ";
+  return `${bare ? "" : signed}${word.reason}${by}`;
 }
 
 function sentence(word: Candidate, own: Judged): string {

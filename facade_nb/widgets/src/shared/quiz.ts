@@ -1,6 +1,6 @@
-// Prediction: a view hides its answer, asks, checks what the reader chose, and explains.
+// Prediction: a view hides its answer, asks, hints, checks what the reader chose, and explains.
 
-import { h } from "../shared/dom.ts";
+import { h } from "./dom.ts";
 
 /** What there is to be said of a thing that can be chosen. */
 export interface Truth {
@@ -24,6 +24,8 @@ export interface Question {
   prompt: string;
   /** What can be chosen at present, by key, and whether it is right to choose it. */
   truths: () => Truths;
+  /** What helps to find the answer with what is on the screen. It is told before the answer. */
+  hint: string;
   /** Whether one thing is to be chosen, not all that are right. */
   single?: boolean;
   /** Position of the first event that would give the answer away; the first of all where it is not said. */
@@ -34,6 +36,8 @@ export interface Question {
 export class Quiz {
   private asking = false;
   private checked = false;
+  private helped = false;
+  private tried = false;
   private readonly chosen = new Set<string>();
   private readonly watchers = new Set<() => void>();
   private subject = "";
@@ -72,6 +76,20 @@ export class Quiz {
     return this.question.prompt;
   }
 
+  get hint(): string {
+    return this.question.hint;
+  }
+
+  /** Whether the hint is told: the reader has asked for it, or answered wrong. */
+  get hinted(): boolean {
+    return this.helped;
+  }
+
+  /** Whether the last answer was wrong, and the reader may give another. */
+  get missed(): boolean {
+    return this.tried && !this.checked;
+  }
+
   get single(): boolean {
     return this.question.single ?? false;
   }
@@ -93,7 +111,7 @@ export class Quiz {
 
   /** Whether something was chosen, or it is checked. */
   get begun(): boolean {
-    return this.checked || this.chosen.size > 0;
+    return this.checked || this.helped || this.chosen.size > 0;
   }
 
   has(key: string): boolean {
@@ -121,13 +139,24 @@ export class Quiz {
     if (this.checked) return;
     if (this.single) this.chosen.clear();
     if (!this.chosen.delete(key)) this.chosen.add(key);
+    this.tried = false;
     this.tell();
   }
 
-  check(): Answer {
-    this.checked = true;
+  /** Tell the hint. */
+  help(): void {
+    this.helped = true;
     this.tell();
-    return this.answer();
+  }
+
+  /** Compare what was chosen. What is wrong for the first time brings the hint, and another try; then all is told. */
+  check(): Answer {
+    const answer = this.answer();
+    if (this.isRight(answer) || this.helped) this.checked = true;
+    else this.tried = true;
+    this.helped = true;
+    this.tell();
+    return answer;
   }
 
   answer(): Answer {
@@ -137,6 +166,11 @@ export class Quiz {
       else if (right && !this.single) answer.missed.push(key);
     }
     return answer;
+  }
+
+  private isRight({ right, wrong, missed }: Answer): boolean {
+    if (!this.single) return !wrong.length && !missed.length;
+    return right.length > 0 || (!wrong.length && ![...this.truths.values()].some((own) => own.right));
   }
 
   /** How a thing stands, and, once checked, why. */
@@ -173,7 +207,7 @@ export class Quiz {
 
   /** Take back what was chosen. */
   clear(): void {
-    this.checked = false;
+    this.checked = this.helped = this.tried = false;
     this.chosen.clear();
     this.tell();
   }
@@ -200,10 +234,14 @@ export function offers(quiz: Quiz, content: (key: string) => Node | string): HTM
       "li",
       { "data-verdict": state },
       h("label", {}, box, what),
-      h("span", { class: "fnb-offer-why" }, SIGN[state], why),
+      h("span", { class: "fnb-offer-why" }, sign(quiz, state), why),
     );
   });
   return h("ul", { class: "fnb-offers", "aria-label": quiz.prompt }, ...items);
 }
 
-const SIGN: Record<Verdict, string> = { open: "", right: "✓ ", wrong: "✕ ", missed: "missed: ", passed: "" };
+/** The sign before the reason of a verdict. Where all that is right is to be chosen, it is also right to leave the rest. */
+export function sign(quiz: Quiz, state: Verdict): string {
+  const signs = { open: "", right: "✓ ", wrong: "✕ ", missed: "missed: ", passed: quiz.single ? "" : "✓ " };
+  return signs[state];
+}

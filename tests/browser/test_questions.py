@@ -1,0 +1,131 @@
+"""Every kind of question the views of the solver ask, answered wrong and right, by keys, in a real JupyterLab."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from .conftest import Watch
+from .jupyter import Notebook
+
+ASKED = """
+    house, terraced = traced('residential-house'), traced('terraced-house')
+    display(
+        AnalysisView(house, player=False, predict=True), WordsView(house, player=False, predict=True),
+        CandidatesView(house, player=False, predict=True), NetworkView(house, player=False, predict=True),
+        AlignmentView(house, player=False, predict=True), SizingView(terraced, player=False, predict=True))
+    NetworkView(traced('figure-8'), at='x/alignment+2', predict=True)
+"""
+
+RED = """view => {
+    const probe = Object.assign(document.createElement('i'), { style: 'color: var(--fnb-error)' });
+    view.append(probe);
+    const red = getComputedStyle(probe).color;
+    probe.remove();
+    return [...view.querySelectorAll('[data-verdict]:is([data-verdict=right], [data-verdict=missed],'
+        + '[data-verdict=passed])')].flatMap(own => [own, ...own.querySelectorAll('*')]).filter(own => {
+            const { color, borderLeftColor, borderLeftWidth, boxShadow } = getComputedStyle(own);
+            const text = own.textContent.trim() && color === red;
+            return text || (borderLeftColor === red && borderLeftWidth !== '0px') || boxShadow.includes(red);
+        }).map(own => own.textContent);
+}"""
+"""Texts of what was right and is painted red."""
+
+
+def inputs(view: Locator) -> Locator:
+    """What can be chosen."""
+    return view.locator(".fnb-view-body input:is([type=radio], [type=checkbox])")
+
+
+def verdicts(view: Locator) -> list[str]:
+    """How each thing stands that can be chosen."""
+    return inputs(view).evaluate_all("list => list.map(own => own.closest('[data-verdict]').dataset.verdict)")
+
+
+def press(view: Locator, name: str) -> None:
+    """Press a button of a question by the keyboard."""
+    view.get_by_role("button", name=name, exact=True).press("Enter")
+
+
+def anew(view: Locator) -> None:
+    """The same question once more."""
+    press(view, "Predict")
+    press(view, "Predict")
+    expect(view.locator(".fnb-quiz-outcome")).to_have_text("")
+    expect(view.locator(".fnb-quiz-hint")).to_be_hidden()
+
+
+def choose(view: Locator, places: list[int]) -> None:
+    """Choose by the keyboard."""
+    for place in places:
+        inputs(view).nth(place).press("Space")
+        expect(inputs(view).nth(place)).to_be_checked()
+
+
+def answered(view: Locator) -> None:
+    """A question: what is right is learnt, then it is answered wrong, then right."""
+    outcome, hint = view.locator(".fnb-quiz-outcome"), view.locator(".fnb-quiz-hint")
+    single = inputs(view).first.get_attribute("type") == "radio"
+    press(view, "Hint")
+    expect(hint).to_contain_text("Hint: ")
+    if single:
+        choose(view, [0])
+    press(view, "Check")
+    expect(outcome).not_to_have_text("")
+    states = verdicts(view)
+    right = [place for place, state in enumerate(states) if state in ("right", "missed")]
+    wrong = [
+        place for place, state in enumerate(states) if state == "wrong" or (state == "passed" and not right)
+    ]
+    wrong = wrong or [place for place, state in enumerate(states) if state == "passed"]
+    assert wrong, states
+    anew(view)
+    choose(view, wrong[:1])
+    press(view, "Check")
+    expect(outcome).to_have_text("Not yet.")  # and nothing more: neither what was wrong nor what is right
+    expect(hint).to_be_visible()
+    assert set(verdicts(view)) == {"open"}
+    press(view, "Check")
+    expect(outcome).to_have_text(re.compile(r"^No\. .|wrong"))
+    assert verdicts(view)[wrong[0]] == "wrong"
+    assert view.evaluate(RED) == []
+    anew(view)
+    choose(view, right[:1] if single else right)
+    press(view, "Check")
+    expect(outcome).to_have_text(re.compile(r"^(Right|All right)"))
+    assert "wrong" not in verdicts(view)
+    assert view.evaluate(RED) == []
+
+
+@pytest.fixture
+def page(watch: Watch) -> Notebook:
+    """Every view, each asking."""
+    return watch(ASKED)
+
+
+def test_every_question_is_answered_wrong_and_right(page: Notebook, out: Path) -> None:
+    asked: list[str] = []
+    for view in page.page.locator(".fnb-view").all():
+        names = view.locator(".fnb-quiz-which option").all_text_contents()
+        for name in names[:3] or [""]:
+            if name:
+                view.locator(".fnb-quiz-which").select_option(name)
+            asked.append(view.locator(".fnb-quiz-prompt").text_content() or "")
+            answered(view)
+        title = view.locator(".fnb-view-title").inner_text().lower()
+        view.screenshot(path=out / f"question-{title.replace(' ', '-')}.png")
+    for part in (
+        "contradict",
+        "equation of pair",
+        "words fit",
+        "becomes the layout",
+        "edge is next",
+        "column",
+    ):
+        assert any(part in prompt for prompt in asked), (part, asked)
+    assert any("was moved to" in prompt for prompt in asked)
+    assert any("end larger" in prompt for prompt in asked)
+    assert any("marked letter" in prompt for prompt in asked)
