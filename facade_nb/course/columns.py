@@ -7,7 +7,7 @@ from typing import Any
 
 from ..solver.experiments import Case
 from .exercises import Exercise
-from .judging import among, cheapest, function, number
+from .judging import among, cheapest, function, number, numbers
 
 __all__ = ["CONTROLS", "DOOR", "EXERCISES", "SLENDER", "WINDOWS"]
 
@@ -35,6 +35,14 @@ def _c1(allowed: Callable[..., Any]) -> str:
 
 
 EXERCISES: Mapping[str, Exercise] = {
+    "terms": Exercise(
+        numbers((1.5, 0.45, 0.3), ("ω of C/AB", "Λ of C/AB", "E of C/ε")),
+        (
+            "C is 0.6 m, and AB is 0.9 + 1.2 m long. In AB there are two neighbours, A and B. C/ε is as wide as C.",
+            "ω is 2.1 − 0.6. Λ is half of the smaller one, A. E is half of the width of C.",
+        ),
+        "1.5, 0.45 and 0.3 m: errors, looseness and room are all told in metres, so that they can be added.",
+    ),
     "fewest": Exercise(
         number(3, "Think of C2: what may share an element with e?"),
         (

@@ -140,4 +140,12 @@ EXERCISES: Mapping[str, Exercise] = {
         ),
         "42 nodes, as ours. Columns with few letters leave more columns, of which the paper wants many.",
     ),
+    "ends": Exercise(
+        numbers((10**8, 2 * 10**4), ("from one end", "from both ends")),
+        (
+            "Ten first edges, each with ten second ones: that is 100 paths of two edges.",
+            "10 ** 8 from one end. From each of the two ends 10 ** 4.",
+        ),
+        "20,000 in place of 100 million: half the way is far less than half the paths.",
+    ),
 }

@@ -145,7 +145,7 @@ EXERCISES: Mapping[str, Exercise] = {
         "About 4.6, 3.6 and 3.3: rooms, layers, masks and chance together.",
     ),
     "compare": Exercise(
-        among("only within a column", ("yes", "only within a column", "no, not at all")),
+        among("ratios", ("milliseconds", "ratios", "nothing")),
         (
             "One was a graphics card, the other two processor cores that do as if they were one.",
             "What can be compared on each machine is one grammar with another.",

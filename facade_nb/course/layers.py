@@ -153,10 +153,19 @@ EXERCISES: Mapping[str, Exercise] = {
     "lamp": Exercise(
         _lamp,
         (
-            "A placeholder before the lamp pushes it to the right: that is all there is across.",
+            "A placeholder before the lamp pushes it to the right. Write it as 'cec; c := C' is written: two small "
+            "letters, and after a semicolon which of them is L.",
             "'xl; l := L' across. And the mask shows the upper floor only, as that of the columns shows ['P'].",
         ),
         "One lamp, at the right, on the upper floor. No other layer had to be touched.",
+    ),
+    "depth": Exercise(
+        among("no", ("yes", "no")),
+        (
+            "Which of the layers is the one farthest back then?",
+            "The base would stand in front of it, and has no gap on the upper floor.",
+        ),
+        "Behind the base, which is wall or window everywhere, there is nothing to be seen.",
     ),
     "storey": Exercise(
         _storey,

@@ -1,4 +1,4 @@
-"""Exercises of tutorial 13: other errors, bounds, orders, rules and modes in the solver."""
+"""Exercises of tutorial 13: other errors, rules, bounds, orders and modes in the solver."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from ..solver.experiments.cases import small_cases
 from .exercises import Exercise
 from .houses import house
 from .judging import Judge, among, experimental, function, number
+from .own_looks import EXERCISES as LOOKS
 
 __all__ = ["ARCADE", "EXERCISES", "HOUSE", "TRIPLET"]
 
@@ -71,6 +72,24 @@ def _windows(error: Callable[..., Any]) -> str:
     return ""
 
 
+def _constraint(constraint: Callable[..., Any]) -> str:
+    told = experiment(ARCADE, constraint=constraint)
+    answer = told.yours[0].answer
+    if told.yours[0].alignment is None:
+        return "Nothing is found any more: it forbids too much."
+    if any("C" in column.split("/")[0] and "B" in column.split("/")[1] for column in answer.split("|")):
+        return f"A post still stands before a window: {answer}"
+    usual = experiment(ARCADE, column_error=_priced, heuristic=_nothing)
+    if told.cost > usual.cost + 1e-6:
+        return f"It forbids more than posts before windows: J is {told.cost:.3f} m, and {usual.cost:.3f} m is possible."
+    return ""
+
+
+def _priced(column: Column) -> float:
+    upper, lower = ({letter.symbol for letter in own} for own in column.elements)
+    return column.omega + (1000 if "C" in upper and "B" in lower else 0)
+
+
 def _loose(answer: object) -> str:
     if not isinstance(answer, (int, float)) or isinstance(answer, bool) or not answer >= 0:
         return f"Expected a price of 0 or more, found {answer!r}."
@@ -114,7 +133,38 @@ EXERCISES: Mapping[str, Exercise] = {
             "column.elements has the letters of each word, topmost first; a letter's name is letter.symbol.",
             "If a C is above and a B below, return 1000 more than column.omega, else column.omega.",
         ),
-        "No post before a window. A price that nobody would pay is a rule.",
+        "No post before a window, as long as there is another way.",
+    ),
+    "constraint": Exercise(
+        experimental(_constraint),
+        (
+            "The two questions of your error, with another answer: True where the column may be, False where not.",
+            "Find out whether a C is above and whether a B is below; then return not (posts and windows).",
+        ),
+        "The same alignment as with the price, and nobody had to think of how much is too much.",
+    ),
+    "no way": Exercise(
+        among(
+            "the price is paid, the constraint finds nothing",
+            (
+                "both find the same",
+                "the price is paid, the constraint finds nothing",
+                "both find nothing",
+            ),
+        ),
+        (
+            "Try to place the two posts by hand. One may stand before the wall. Where does the other one go?",
+            "There is no alignment without a post before a window. Can a price of 1000 m forbid anything?",
+        ),
+        "A price can be paid, a constraint cannot.",
+    ),
+    "fewer": Exercise(
+        among("still exact", ("still exact", "not exact")),
+        (
+            "Of fewer alignments, can the best cost less than that of all?",
+            "What is true of the cheapest way in the whole network is true of a network with fewer edges.",
+        ),
+        "Still exact: fewer edges make no way cheaper, so what is a lower bound stays one.",
     ),
     "pairs": Exercise(
         function(_pairs),
@@ -180,4 +230,5 @@ EXERCISES: Mapping[str, Exercise] = {
         ),
         "The row, and its mirror image without the pivot: k copies of n letters make a word of 2 k n − 1.",
     ),
+    **LOOKS,
 }

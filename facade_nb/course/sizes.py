@@ -112,4 +112,12 @@ EXERCISES: Mapping[str, Exercise] = {
         ),
         "0.92, 1.26 and 0.66 m. A rule that is met exactly is called active.",
     ),
+    "active": Exercise(
+        among("the second", ("the first", "the second", "both", "neither")),
+        (
+            "Which of them is broken by 1.235 m and 0.635 m?",
+            "1.235 m is less than 1.3 m. And if C grows to 0.65 m, the others get less, not more.",
+        ),
+        "The second: C is held at 0.65 m. The first is kept anyway, so it does not pull.",
+    ),
 }

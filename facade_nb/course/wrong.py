@@ -18,8 +18,8 @@ _MARKS = ("opaque", "not opaque", "unoccludable", "attached")
 _PLACES = ("before A", "before B", "before D", "between A and D", "between D and B")
 
 
-def _each(right: Sequence[str], choices: Sequence[str]) -> Judge:
-    """Several words, each one of some."""
+def _each(right: Sequence[str], choices: Sequence[str], first: int = 1) -> Judge:
+    """Several words, each one of some; they are numbered from `first`, as in the picture or the text."""
 
     def judge(answer: object) -> str:
         if not isinstance(answer, (list, tuple)) or len(answer) != len(right):
@@ -29,7 +29,7 @@ def _each(right: Sequence[str], choices: Sequence[str]) -> Judge:
         for given in answer:
             if given not in choices:
                 return f"Expected some of {', '.join(map(repr, choices))}; found {given!r}."
-        off = [str(n) for n, (a, b) in enumerate(zip(answer, right, strict=True), 1) if a != b]
+        off = [str(n) for n, (a, b) in enumerate(zip(answer, right, strict=True), first) if a != b]
         return f"Look again at {', '.join(off)}." if off else ""
 
     return judge
@@ -118,7 +118,7 @@ EXERCISES: Mapping[str, Exercise] = {
         "Now you can find what is covered.",
     ),
     "other kinds": Exercise(
-        _each(("sizing", "beyond"), _KINDS),
+        _each(("sizing", "beyond"), _KINDS, first=4),
         (
             "4: the same symbol is 0.90 m wide at the left end of the façade. 5: where does the canvas end?",
             "One is about sizes that are not the same. The other is outside of the façade.",

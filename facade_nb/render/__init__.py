@@ -20,7 +20,7 @@ from .exchange import (
     write_schedule,
 )
 from .exploded import exploded_svg
-from .geometry import GEOMETRIES
+from .geometry import GEOMETRIES, Geometry
 from .materials import MATERIALS
 from .mesh import to_glb, write_glb
 from .naive import Naive, naive_layout
@@ -30,12 +30,15 @@ from .scene import DrawingWarning, Scene, Solid, build_scene, drawing_faults
 from .splits import split_grammar
 from .texture import Grammar
 from .texture.from_layout import grammar_of
+from .trying import Move, trying
 
 __all__ = [
     "GEOMETRIES",
     "MATERIALS",
     "DrawingWarning",
+    "Geometry",
     "Grammar",
+    "Move",
     "Naive",
     "Scene",
     "Solid",
@@ -56,6 +59,7 @@ __all__ = [
     "to_obj",
     "to_pdf",
     "to_schedule",
+    "trying",
     "write_cityjson",
     "write_dxf",
     "write_glb",

@@ -6,7 +6,8 @@ backwards from there. A few geometries have parts that reach out of that box; ea
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from types import MappingProxyType
@@ -22,7 +23,7 @@ from .roofs import gable as gabled
 from .roofs import hip, hipped, mansard, pitched
 from .stonework import arcade, gable, pediment, quoin, stair, stair_stand, statue
 
-__all__ = ["DEFAULT_GEOMETRY", "GEOMETRIES", "Geometry", "find_geometry"]
+__all__ = ["DEFAULT_GEOMETRY", "GEOMETRIES", "Geometry", "find_geometry", "held"]
 
 DEFAULT_GEOMETRY = "box"
 """What a shape looks like where the design says nothing."""
@@ -411,8 +412,22 @@ _TABLE = (
     ),
 )  # fmt: skip
 
-GEOMETRIES: Mapping[str, Geometry] = MappingProxyType({geometry.name: geometry for geometry in _TABLE})
+_BY_NAME = {geometry.name: geometry for geometry in _TABLE}
+
+GEOMETRIES: Mapping[str, Geometry] = MappingProxyType(_BY_NAME)
 """Every geometry, in the order menus show them."""
+
+
+@contextmanager
+def held(geometry: Geometry) -> Iterator[None]:
+    """A geometry that is in the table until the block ends."""
+    _BY_NAME[geometry.name] = geometry
+    find_geometry.cache_clear()
+    try:
+        yield
+    finally:
+        del _BY_NAME[geometry.name]
+        find_geometry.cache_clear()
 
 
 @lru_cache(maxsize=512)

@@ -104,3 +104,9 @@ def rule_png(library: str, name: str, size: tuple[float, float], scale: float) -
     stream = BytesIO()
     Image.fromarray(rule_pixels(library, name, size, scale)).save(stream, "PNG", optimize=True)
     return stream.getvalue()
+
+
+def forget() -> None:
+    """Let go of what grammars have drawn: an operator may do something else now."""
+    for kept in (_grammar, _mean, rule_pixels, rule_png):
+        kept.cache_clear()

@@ -319,6 +319,11 @@ def _parts(
     return _fitted(geometry, name, width, height, depth, mirrored if geometry.turns else (False, False))
 
 
+def forget() -> None:
+    """Let go of parts that were made by the names of their geometries."""
+    _parts.cache_clear()
+
+
 def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
     layers = {solid.shape.layer for solid in solids}
     if len(layers) < 2:  # the cells of one layer do not overlap

@@ -95,8 +95,10 @@ def test_the_papers_tie_break_saves_nodes_where_much_is_equal() -> None:
     assert same.yours == same.ours
 
 
-def brute(case: Case, error: Callable[[list[float]], float]) -> float:
-    """Least J of two solid words with another column error, by trying everything."""
+def brute(
+    case: Case, error: Callable[[list[float]], float], allowed: Callable[[int], bool] = lambda letters: True
+) -> float:
+    """Least J of two solid words with another column error, or fewer columns, by trying everything."""
     sizes = [[a.size or 0.0 for a in word] for word in case.words]
 
     def go(i: int, j: int, width: float) -> Iterator[float]:
@@ -109,11 +111,13 @@ def brute(case: Case, error: Callable[[list[float]], float]) -> float:
                 totals = [sum(row) for row in own]
                 if not own or max(totals) - min(totals) > case.tolerance + 1e-9:
                     continue
+                if not allowed(sum(map(len, own))):
+                    continue
                 cost = error(totals) + 0.4 * (2 - len(own)) * max(totals)
                 cost += 0.125 * sum(min(a, b) for row in own for a, b in pairwise(row))
-                yield cost + min(go(up, low, width + max(totals)))
+                yield cost + min(go(up, low, width + max(totals)), default=math.inf)
 
-    return min(go(0, 0, 0.0))
+    return min(go(0, 0, 0.0), default=math.inf)
 
 
 def test_another_column_error_is_minimised_and_the_products_heuristic_may_be_too_large_for_it() -> None:
@@ -134,6 +138,44 @@ def test_another_column_error_is_minimised_and_the_products_heuristic_may_be_too
     for own in plain[:4]:
         mine = experiment(own, column_error=lambda column: max(column.sizes) - min(column.sizes))
         assert mine.cost == pytest.approx(brute(own, lambda sizes: max(sizes) - min(sizes)))
+
+
+def test_a_constraint_takes_columns_away_and_what_is_left_is_minimised() -> None:
+    plain = [own for own in small_cases(24, 3) if len(own.words) == 2]
+    plain = [own for own in plain if all(a.size for word in own.words for a in word)]
+    fewer = 0
+    for own in plain[:6]:
+        mine = experiment(own, constraint=lambda column: column.letters <= 2)
+        assert mine.exact and mine.counterexample is None
+        right = brute(own, lambda sizes: max(sizes) - min(sizes), lambda letters: letters <= 2)
+        assert mine.cost == pytest.approx(right)
+        fewer += mine.cost > mine.ours[0].cost + 1e-6
+    assert fewer
+
+
+def free(column: Column) -> bool:
+    upper, lower = ({letter.symbol for letter in own} for own in column.elements)
+    return not ("C" in upper and "B" in lower)
+
+
+def test_a_price_is_paid_where_there_is_no_other_way_and_a_constraint_is_not() -> None:
+    def priced(column: Column) -> float:
+        return column.omega + (0 if free(column) else 1000)
+
+    arcade = Case.of("CeCeC", "BABAB", A=0.9, B=1.2, C=0.6, canvas=5.4)
+    forbidden, dear = experiment(arcade, constraint=free), experiment(arcade, column_error=priced)
+    assert forbidden.exact and forbidden.cost == pytest.approx(dear.cost) == pytest.approx(1.47)
+    assert forbidden.yours[0].answer == dear.yours[0].answer
+    porch = Case.of("CeC", "BAB", A=0.3, B=1.2, C=0.6, soft="C", canvas=2.7)
+    assert experiment(porch, column_error=priced).cost == pytest.approx(2000.15)
+    nowhere = experiment(porch, constraint=free)
+    assert nowhere.cost == math.inf and nowhere.verdict == "Exact: there is no answer at all."
+
+
+def test_a_constraint_on_a_design_is_compared_with_a_search_that_has_it_too() -> None:
+    told = experiment(HOUSE, constraint=lambda column: column.empty == 0)
+    assert told.exact and told.yours[0].cost > told.ours[0].cost
+    assert check(constraint=lambda column: column.letters <= 2, cases=12).wrong == 0
 
 
 def test_another_weight_of_looseness_changes_the_answer() -> None:
@@ -202,6 +244,7 @@ def misspelt(node: Node) -> float:
         ({"heuristic": lambda node: True}, ["returned True (bool)"]),
         ({"heuristic": lambda node: -0.5}, ["returned -0.5", "negative"]),
         ({"column_error": lambda column: math.inf}, ["column_error", "not finite", "the column C / A"]),
+        ({"constraint": lambda column: 1}, ["returned 1 (int)", "neither True nor False", "Expected: True where"]),
         ({"tie_break": lambda column: (1, "a")}, ["tie_break", "a tuple of numbers"]),
         ({"heuristic": nothing, "next_limit": lambda own: None}, ["next_limit", "the pass 1 (limit 0 m"]),
         ({"bound": lambda choice: 0}, ["bound is asked about the candidates of a design"]),

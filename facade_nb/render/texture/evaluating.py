@@ -212,6 +212,8 @@ class _Run:
                     self._skip_mask(rule, record, batch)
                 case "Intrusion":
                     waiting += self._intrusion(rule, record, batch)
+                case _ if record.operator.move is not None:
+                    waiting += self._move(rule, record, batch)
                 case _:
                     self._material(rule, record, batch)
 
@@ -291,6 +293,13 @@ class _Run:
                 Divided(**here, part=int(part[0]), count=int(count[0]), low=bounds[0], high=bounds[1])
             )
         return [(record.targets[0], onward)]
+
+    def _move(self, rule: int, record: Record, batch: Batch) -> list[tuple[int, Batch]]:
+        """An operator that is being tried: points and scopes as it leaves them."""
+        assert record.operator.move is not None
+        if self.steps is not None:
+            self.steps.append(Step(**self._here(rule, batch, record.head_places)))
+        return [(record.targets[0], record.operator.move(batch, record.head.get("v", 0.0)))]
 
     # Chance -----------------------------------------------------------------------------------------------
 

@@ -19,11 +19,16 @@ A channel is named by what stands in it:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum, unique
+from typing import TYPE_CHECKING
 
-__all__ = ["BY_CODE", "OPERATORS", "POLICIES", "USAGES", "Kind", "Operator", "Param"]
+if TYPE_CHECKING:
+    from .batch import Batch
+
+__all__ = ["BY_CODE", "OPERATORS", "POLICIES", "USAGES", "Kind", "Operator", "Param", "held"]
 
 
 @unique
@@ -71,6 +76,11 @@ class Operator:
         Names of the channels that a part takes: four, or two (then two parts share a pixel).
     doc
         What it does, in a sentence or two.
+    move
+        Of an operator that is being tried (`held`): what it does to points and their scope before it goes on with R,
+        in NumPy. It is given the points and the value v. None for those of the table.
+    glsl
+        The same as statements of GLSL, on `now` (`glsl/texture/state.glsl`) and on the number `v`.
     """
 
     name: str
@@ -80,6 +90,8 @@ class Operator:
     head: tuple[str, ...]
     each: tuple[str, ...]
     doc: str
+    move: Callable[[Batch, float], Batch] | None = None
+    glsl: str = ""
 
     @property
     def head_pixels(self) -> int:
@@ -224,8 +236,28 @@ _TABLE = (
     ),
 )
 
-OPERATORS: Mapping[str, Operator] = {operator.name: operator for operator in _TABLE}
+_BY_NAME = {operator.name: operator for operator in _TABLE}
+_BY_CODE = {operator.code: operator for operator in _TABLE}
+
+OPERATORS: Mapping[str, Operator] = _BY_NAME
 """The operators by name, in the order of their codes."""
 
-BY_CODE: Mapping[int, Operator] = {operator.code: operator for operator in _TABLE}
+BY_CODE: Mapping[int, Operator] = _BY_CODE
 """The operators by code."""
+
+FIRST_TRIED = 50
+"""The code of the first operator that is being tried; the table's are less."""
+
+
+@contextmanager
+def held(name: str, move: Callable[[Batch, float], Batch], glsl: str, value: bool) -> Iterator[Operator]:
+    """An operator ``Name(R)``, or ``Name(v, R)`` with a value, that is in the table until the block ends."""
+    fixed = (Param("v", Kind.NUMBER), _RULE) if value else (_RULE,)
+    code = max(FIRST_TRIED, *(known + 1 for known in _BY_CODE))
+    head = ("code", "v" if value else "", "R.x", "R.y")
+    operator = Operator(name, code, fixed, (), head, (), "An operator that is being tried.", move, glsl)
+    _BY_NAME[name] = _BY_CODE[code] = operator
+    try:
+        yield operator
+    finally:
+        del _BY_NAME[name], _BY_CODE[code]

@@ -7,13 +7,13 @@ Codes of operators and the places of their channels come from the operator table
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from importlib.resources import files
 
 from .evaluating import BELOW_ONE, OPAQUE
 from .limits import GRAIN, MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS, half_step_of
-from .operators import OPERATORS, USAGES, Operator
+from .operators import FIRST_TRIED, OPERATORS, USAGES, Operator
 
 __all__ = ["PROFILES", "constants", "room", "rooms_for", "shader"]
 
@@ -75,12 +75,29 @@ def _included(name: str, seen: set[str]) -> Iterator[str]:
     seen.add(name)
     glsl = files("facade_nb.render") / "glsl"
     text = next(own for own in (glsl / folder / name for folder in ROOMS) if own.is_file()).read_text("utf-8")
+    if name == "tried.glsl" and (operators := [own for own in OPERATORS.values() if own.move is not None]):
+        text = _tried(operators)
     at = 0
     for include in _INCLUDE.finditer(text):
         yield text[at : include.start()]
         yield from _included(include[1], seen)
         at = include.end()
     yield text[at:]
+
+
+def _tried(operators: Sequence[Operator]) -> str:
+    """The functions of ``tried.glsl`` for operators that are being tried."""
+    branches = []
+    for own in operators:
+        value = f"head.{own.name}_v" if "v" in own.head else "0.0"
+        branches.append(
+            f"  if (code == OP_{own.name.upper()}) {{\n"
+            f"    float v = {value};\n    {own.glsl}\n    now.rule = ivec2(head.{own.name}_R);\n  }}\n"
+        )
+    return (
+        f"bool tried(int code) {{ return code >= {FIRST_TRIED} && code < {FIRST_TRIED + len(operators)}; }}\n"
+        f"void try_out(inout State now, vec4 head, int code) {{\n{''.join(branches)}}}\n"
+    )
 
 
 def room(height: int) -> int:

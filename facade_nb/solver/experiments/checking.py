@@ -73,6 +73,7 @@ def check(
     *,
     heuristic: Callable[..., Any] | None = None,
     column_error: Callable[..., Any] | None = None,
+    constraint: Callable[..., Any] | None = None,
     tie_break: Callable[..., Any] | None = None,
     next_limit: Callable[..., Any] | None = None,
     bound: Callable[..., Any] | None = None,
@@ -86,7 +87,7 @@ def check(
 
     Parameters
     ----------
-    heuristic, column_error, tie_break, next_limit, bound, candidate_order, objective, table
+    heuristic, column_error, constraint, tie_break, next_limit, bound, candidate_order, objective, table
         As in `experiment`.
     cases
         How many random ones, the smallest first (or the cases themselves). What is asked of candidates is tried on
@@ -94,7 +95,7 @@ def check(
     seed
         Another number gives other cases.
     """
-    functions = Functions(heuristic, column_error, tie_break, next_limit, bound, candidate_order)
+    functions = Functions(heuristic, column_error, constraint, tie_break, next_limit, bound, candidate_order)
     own: Iterable[Case | Design]
     if not isinstance(cases, int):
         own = cases

@@ -1,8 +1,8 @@
 """The paper's search with a learner's functions in it: iterative deepening, one way, from the first node to the last.
 
 The network, the constraints, the prices, the table of visited nodes and the walk are those of `alignment.paper`. The
-learner's may be the heuristic, the error of a column, the order of equal edges, and the next limit. It walks one way
-and knows no alignment beforehand, so that nothing but these decides what it looks at.
+learner's may be the heuristic, the error of a column, a constraint on columns, the order of equal edges, and the next
+limit. It walks one way and knows no alignment beforehand, so that nothing but these decides what it looks at.
 """
 
 from __future__ import annotations
@@ -58,11 +58,11 @@ class Deepened:
 
 
 class _OwnLattice(Lattice):
-    """The network of a group: every edge that leaves a node, with the learner's column error if there is one."""
+    """The network of a group: every edge that leaves a node, with the learner's column error and constraint."""
 
-    def __init__(self, like: Lattice, error: Asked | None) -> None:
+    def __init__(self, like: Lattice, error: Asked | None, constraint: Asked | None) -> None:
         super().__init__(like.group, like.check, like.pairs)
-        self._error = error
+        self._error, self._constraint = error, constraint
         self._own: dict[tuple[State, bool], list[Edge]] = {}
         self._views: dict[int, Column] = {}
         self.shifts: dict[tuple[Option, ...], float] = {}
@@ -72,8 +72,12 @@ class _OwnLattice(Lattice):
         """All that keep the constraints and the tolerance."""
         own = self._own.get((state, owed))
         if own is None:
-            own = self._own[state, owed] = [self._priced(edge) for edge in self.columns(state, owed, inf)[0]]
+            every = self.columns(state, owed, inf)[0]
+            own = self._own[state, owed] = [self._priced(edge) for edge in every if self._allowed(edge)]
         return own
+
+    def _allowed(self, edge: Edge) -> bool:
+        return self._constraint is None or self._constraint.truth(self.view(edge))
 
     def view(self, edge: Edge) -> Column:
         """A column as the learner sees it."""
@@ -101,7 +105,8 @@ class OwnSide(Side):
 
     def __init__(self, lattices: Sequence[Lattice], functions: Functions) -> None:
         self._heuristic, self._tie = functions.asked("heuristic"), functions.asked("tie_break")
-        self.own = [_OwnLattice(lattice, functions.asked("column_error")) for lattice in lattices]
+        error, constraint = functions.asked("column_error"), functions.asked("constraint")
+        self.own = [_OwnLattice(lattice, error, constraint) for lattice in lattices]
         super().__init__("forward", self.own)
 
     def _least(self, half: Half) -> float:

@@ -10,6 +10,8 @@ from dataclasses import dataclass, fields
 from numbers import Real
 from typing import Any
 
+import numpy as np
+
 from ...design.errors import FacadeError, cut
 from .views import Choice, Column, Node, Pass
 
@@ -21,12 +23,15 @@ Key = tuple[float, ...]
 ROLES = {
     "heuristic": ("node", "metres that are still to come"),
     "column_error": ("column", "metres by which the elements of a column disagree"),
+    "constraint": ("column", "True where the column is allowed, False where it is not"),
     "tie_break": ("column", "a number, or a tuple of numbers; the least comes first"),
     "next_limit": ("pass", "the limit of the next pass, in metres"),
     "bound": ("candidate", "metres that the candidate costs at least"),
     "candidate_order": ("candidate", "a number, or a tuple of numbers; the least comes first"),
 }
 """What each function is asked about, and what it says."""
+
+_NO_LENGTHS = ("constraint", "tie_break", "candidate_order")
 
 
 class ExperimentError(FacadeError, ValueError):
@@ -39,6 +44,7 @@ class Functions:
 
     heuristic: Callable[[Node], Any] | None = None
     column_error: Callable[[Column], Any] | None = None
+    constraint: Callable[[Column], Any] | None = None
     tie_break: Callable[[Column], Any] | None = None
     next_limit: Callable[[Pass], Any] | None = None
     bound: Callable[[Choice], Any] | None = None
@@ -49,6 +55,11 @@ class Functions:
             function = getattr(self, own.name)
             if function is not None:
                 _check(own.name, function)
+
+    @property
+    def own_columns(self) -> bool:
+        """Whether columns cost something else, or fewer are allowed: then another answer may be the best."""
+        return self.column_error is not None or self.constraint is not None
 
     def asked(self, role: str) -> Asked | None:
         """The function of a role, ready to be asked."""
@@ -77,6 +88,13 @@ class Asked:
         if not 0.0 <= value <= most:
             raise self._wrong(value, about)
         return value
+
+    def truth(self, about: object) -> bool:
+        """What it says, as yes or no."""
+        said = self._ask(about)
+        if not isinstance(said, (bool, np.bool_)):
+            raise self._wrong(said, about)
+        return bool(said)
 
     def key(self, about: object) -> Key:
         """What it says, as something to put in order by."""
@@ -109,6 +127,8 @@ class Asked:
             hint = " Is a return missing?"
         elif isinstance(said, float) and math.isnan(said):
             hint = " That is not a number."
+        elif self.role == "constraint":
+            hint = " That is neither True nor False."
         elif isinstance(said, float) and said < 0:
             hint = " That is negative."
         elif isinstance(said, float):
@@ -116,7 +136,7 @@ class Asked:
         return ExperimentError(
             f"{self.role} {_name(self.function)!r}{_place(self.function)} returned {found} for the {what} "
             f"{about}.{hint}\n"
-            f"Expected: {expected}{'' if self.role in ('tie_break', 'candidate_order') else ', 0 or more'}."
+            f"Expected: {expected}{'' if self.role in _NO_LENGTHS else ', 0 or more'}."
         )
 
 

@@ -157,8 +157,9 @@ class Experiment:
 
     def _rows(self) -> list[tuple[str, ...]]:
         rows: list[tuple[str, ...]] = []
-        # J of both means the same, unless what a column costs has been changed
-        alike = not any(own.startswith(("column_error", "objective")) for own in self.changed)
+        # both look for the same, unless what a column costs or which are allowed has been changed
+        other = ("column_error", "constraint", "objective")
+        alike = not any(own.startswith(other) for own in self.changed)
         for n, (ours, yours) in enumerate(zip(self.ours, self.yours, strict=True)):
             for who, run in (("ours", ours), ("yours", yours)):
                 mark = ""

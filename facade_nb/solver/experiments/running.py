@@ -41,6 +41,7 @@ def experiment(
     *,
     heuristic: Callable[..., Any] | None = None,
     column_error: Callable[..., Any] | None = None,
+    constraint: Callable[..., Any] | None = None,
     tie_break: Callable[..., Any] | None = None,
     next_limit: Callable[..., Any] | None = None,
     bound: Callable[..., Any] | None = None,
@@ -61,6 +62,8 @@ def experiment(
         Of a `Node`: metres that are still to come. Exact as long as it never says more than the truth.
     column_error
         Of a `Column`: metres by which its elements disagree, in the place of Eq. 9.
+    constraint
+        Of a `Column`: whether it is allowed, beside C1 to C4.
     tie_break
         Of a `Column`: a number, or a tuple of numbers; of columns with the same f, the least is followed first.
     next_limit
@@ -81,7 +84,7 @@ def experiment(
     ExperimentError
         If one of the functions raises, or returns what cannot be used. It names the function and the line.
     """
-    functions = Functions(heuristic, column_error, tie_break, next_limit, bound, candidate_order)
+    functions = Functions(heuristic, column_error, constraint, tie_break, next_limit, bound, candidate_order)
     if not isinstance(case, (Case, Design)):
         raise TypeError(f"experiment: expected a Case or a Design, found {type(case).__name__}")
     return compared(case, functions, objective, table, tuple(tolerances), nodes, time_limit)
@@ -168,8 +171,8 @@ def _run_of(group: Group, done: Deepened) -> Run:
 
 
 def _truth(groups: Sequence[Group], functions: Functions, nodes: int, check: Checked) -> Found:
-    """The best there is: by another search; with another column error, by this one without a heuristic."""
-    if functions.column_error is None:
+    """The best there is: by another search; with columns of the learner's, by this one without a heuristic."""
+    if not functions.own_columns:
         try:
             with session():
                 return search_best(groups, nodes=100 * nodes, check=check)
@@ -183,7 +186,12 @@ def _nothing(_: object) -> float:
 
 
 def _without_bounds(functions: Functions) -> Functions:
-    return Functions(heuristic=_nothing, column_error=functions.column_error, bound=_nothing)
+    return Functions(
+        heuristic=_nothing,
+        column_error=functions.column_error,
+        constraint=functions.constraint,
+        bound=_nothing,
+    )
 
 
 def _overestimate(groups: Sequence[Group], functions: Functions, structure: Structure, best: float) -> str:
@@ -249,11 +257,11 @@ def _of_design(
             )
             yours.append(run)
             known = ours[-1]
-            if functions.column_error is not None or mine != usual:
+            if functions.own_columns or mine != usual:
                 known = run_axis(
                     design,
                     axis,
-                    own if functions.column_error is None else _without_bounds(functions),
+                    _without_bounds(functions) if functions.own_columns else own,
                     mine,
                     tolerances,
                     held=held,
@@ -265,7 +273,7 @@ def _of_design(
                 f"{axis}: this design takes longer than the time limit; experiments are made on small ones"
             ) from None
         value = known.cost
-        if functions.column_error is None and layout is not None and layout.complete:
+        if not functions.own_columns and layout is not None and layout.complete:
             value = layout.along(axis).cost
         sure = not (run.cut or known.cut)
         best.append(value if sure else -inf)

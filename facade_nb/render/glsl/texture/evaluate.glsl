@@ -15,6 +15,7 @@
 #include "terminal.glsl"
 #include "next_layer.glsl"
 #include "intrusion.glsl"
+#include "tried.glsl"
 
 const int UNKNOWN = 100;  // added to the code of a Split that waits for the sum of its absolute sizes
 
@@ -23,7 +24,7 @@ bool chooses(int code) { return code == OP_RAND || code == OP_RANDUNI; }
 bool descends(int code) { return code == OP_RANDSTACK || code == OP_LAYER; }
 bool waits(int code) { return code == UNKNOWN + OP_SPLITX || code == UNKNOWN + OP_SPLITY; }
 bool ends(int code) {
-  return !descends(code) && !divides(code) && !chooses(code) && !waits(code) && code != OP_INTRUSION && code != OP_END;
+  return !descends(code) && !divides(code) && !chooses(code) && !waits(code) && code != OP_INTRUSION && !tried(code) && code != OP_END;
 }
 
 Surface evaluate(Question question) {
@@ -102,6 +103,11 @@ Surface evaluate(Question question) {
     }
     if (code == OP_INTRUSION) {
       intrusion(now, head);
+      head = enter(now, taken);
+      code = int(head.r);
+    }
+    if (tried(code)) {
+      try_out(now, head, code);
       head = enter(now, taken);
       code = int(head.r);
     }
