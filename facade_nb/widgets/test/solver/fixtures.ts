@@ -24,6 +24,8 @@ export const DESIGNS = [
   "figure-8-ida",
 ] as const;
 
+export type Design = (typeof DESIGNS)[number];
+
 /** A piece of a design's trace, as it travels. */
 export function pieceOf(design: string, name: string): Uint8Array {
   return new Uint8Array(readFileSync(join(FOLDER, `${design}.${name}.bin`)));
