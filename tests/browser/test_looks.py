@@ -70,7 +70,7 @@ def test_bundles_on_one_page_leave_each_other_alone_and_figure_3_has_a_legend(
     alone = seen()
     lab.run(
         "from facade_nb import Design, gallery, solve\nfrom facade_nb.widgets import *\n"
-        "from IPython.display import display\nmodel = FacadeModel(gallery.load('residential-house'), time_limit=600.0)\n"
+        "from IPython.display import display\nmodel = FacadeModel(gallery.load('residential-house'))\nmodel.wait()\n"
         "display(WordsView(solve(gallery.load('figure-7'), trace=True)), Studio(model, name=''))"
     )
     lab.shown()
