@@ -287,9 +287,9 @@ def test_a_binding_contradiction_has_no_layout() -> None:
 def test_a_proof_ends_the_search_before_any_word_is_made(patterns: dict[str, str], canvas: float) -> None:
     """Each pattern is in a group of its own: only sizes tie them, and of words there would be no end."""
     one = stacked(patterns, {"A": 0.2, "B": 0.1}, canvas=canvas)
-    conflict = refuted(axis_problem(one, "x"))
-    assert conflict is not None
-    assert conflict == analyse(axis_problem(one, "x")).conflict("binding")
+    proof = refuted(axis_problem(one, "x"))
+    assert proof is not None
+    assert proof.conflict("binding") == analyse(axis_problem(one, "x")).conflict("binding")
     for search in ("best", "ida"):
         with pytest.raises(NoLayout, match="can never be of one length") as caught:
             solve(one, trace=True, search=search, time_limit=None)

@@ -57,10 +57,11 @@ def analyse(problem: AxisProblem, check: Callable[[], None] | None = None) -> An
     return _Analyser(problem, check).result()
 
 
-def refuted(problem: AxisProblem, check: Callable[[], None] | None = None) -> Conflict | None:
-    """The contradiction that proves that an axis has no layout, or None: the `binding` one of `analyse`, much sooner.
+def refuted(problem: AxisProblem, check: Callable[[], None] | None = None) -> Analysis | None:
+    """What proves that an axis has no layout: the `binding` equations, if they contradict each other; None if not.
 
-    Only patterns that are sure to fill the canvas are compared, and few are.
+    That is much sooner known than all that `analyse` finds: only patterns that are sure to fill the canvas are
+    compared, and few are.
     """
     return _Analyser(problem, check).proof()
 
@@ -101,7 +102,7 @@ class _Analyser:
             self._compare((p, q), self.flat[p], self.flat[q], spans[p] and spans[q])
         return self._solved()
 
-    def proof(self) -> Conflict | None:
+    def proof(self) -> Analysis | None:
         """What contradicts itself among the equations that hold in every layout."""
         sure = [n for n, pattern in self.problem.patterns if n in self.flat and self._spans(n, pattern)]
         self._extents(binding=True)
@@ -110,7 +111,8 @@ class _Analyser:
                 self.check()
             self._compare((p, q), self.flat[p], self.flat[q], True)
         self.equations = [own for own in self.equations if own.strength == "binding"]
-        return self._solved().conflict("binding") if self.equations else None
+        found = self._solved() if self.equations else None
+        return found if found is not None and found.conflict("binding") is not None else None
 
     def _solved(self) -> Analysis:
         """Both systems of the equations that there are."""

@@ -9,7 +9,7 @@ from math import inf
 from ...design.errors import NoLayout, Suggestion, quoted
 from ...design.model import Axis, Design
 from .. import tuning
-from ..analysis.systems import Analysis, analyse
+from ..analysis.systems import Analysis, refuted
 from ..budget import Clock, Stopped
 from ..model.letters import Word
 from ..model.problem import AxisProblem
@@ -91,10 +91,10 @@ def _explain(blame: Blame) -> NoLayout:
     walk, other = blame.walk, blame.other
     sides = [_widely(walk), *([_widely(other)] if other else [])]
     for side in sides:
-        analysis = analyse(side.problem, blame.clock.check)
+        proof = refuted(side.problem, blame.clock.check)
         helper = remedies_of(blame, side.problem.axis)
         reason = (
-            _contradiction(blame, side, analysis, helper)
+            _contradiction(blame, side, proof, helper)
             or _length(blame, side, helper)
             or _no_candidate(blame, side, helper)
         )
@@ -121,10 +121,12 @@ def _widely(walk: AxisSearch) -> AxisSearch:
 # Pattern analysis
 
 
-def _contradiction(blame: Blame, walk: AxisSearch, analysis: Analysis, helper: Remedies) -> NoLayout | None:
+def _contradiction(
+    blame: Blame, walk: AxisSearch, analysis: Analysis | None, helper: Remedies
+) -> NoLayout | None:
     """Patterns that can never be of one length."""
-    conflict = analysis.conflict("binding")
-    if conflict is None:
+    conflict = analysis.conflict("binding") if analysis is not None else None
+    if analysis is None or conflict is None:
         return None
     problem = walk.problem
     equations = [analysis.equations[n] for n in (conflict.equation, *conflict.against)]

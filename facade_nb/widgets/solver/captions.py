@@ -26,7 +26,9 @@ def caption(event: Event) -> str:
 
 
 def _m(value: float | None) -> str:
-    return "–" if value is None else f"{value:.4g} m"
+    if value is None:
+        return "–"
+    return f"{0.0 if abs(value) < 1e-9 else value:.4g} m"  # nothing but rounding is left
 
 
 def _values(values: Mapping[str, Any]) -> str:

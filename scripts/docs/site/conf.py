@@ -40,7 +40,7 @@ html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0d5f9e", "color-brand-content": "#0d5f9e"},
     "dark_css_variables": {"color-brand-primary": "#6cb8f2", "color-brand-content": "#6cb8f2"},
 }
-pygments_style = "friendly"
+pygments_style = "default"
 pygments_dark_style = "github-dark"
 
 default_role = "code"  # docstrings write `names` so

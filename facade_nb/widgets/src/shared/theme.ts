@@ -22,10 +22,30 @@ function sheetOf(css: string): CSSStyleSheet {
   return sheet;
 }
 
-/** A bundle's sheets. What is common goes before all else: a bundle that comes later must not undo what another one adds. */
-function sheetsOf(css: string): { common: CSSStyleSheet | null; own: CSSStyleSheet } {
+/**
+ * A bundle's sheets. What is common goes before all else: a bundle that comes later must not undo what another one adds. Its
+ * own rules are those of its own elements alone: two bundles may have one name for two things.
+ */
+function sheetsOf(css: string): { common: CSSStyleSheet | null; own: CSSStyleSheet; name: string } {
   const [common, own] = css.split(OWN);
-  return own === undefined ? { common: null, own: sheetOf(css) } : { common: sheetOf(common ?? ""), own: sheetOf(own) };
+  if (own === undefined) return { common: null, own: sheetOf(css), name: "" };
+  const name = nameOf(own);
+  const scoped = "CSSScopeRule" in globalThis ? `@scope ([data-fnb-sheet="${name}"]) {${own}}` : own;
+  return { common: sheetOf(common ?? ""), own: sheetOf(scoped), name };
+}
+
+const names = new Map<string, string>();
+
+/** A short name for a text: the same one wherever it is made, as each bundle has a copy of this module. */
+function nameOf(text: string): string {
+  let name = names.get(text);
+  if (name === undefined) {
+    let sum = text.length;
+    for (let at = 0; at < text.length; at++) sum = (Math.imul(sum, 31) + text.charCodeAt(at)) | 0;
+    name = (sum >>> 0).toString(36);
+    names.set(text, name);
+  }
+  return name;
 }
 
 function count(root: Root, sheet: CSSStyleSheet, by: 1 | -1, first: boolean): void {
@@ -40,7 +60,8 @@ function count(root: Root, sheet: CSSStyleSheet, by: 1 | -1, first: boolean): vo
 
 /** Have the sheet wherever the element stands, until the signal ends. Some hosts attach it only later, or in a shadow tree. */
 export function adoptStyle(css: string, el: HTMLElement, signal: AbortSignal): void {
-  const { common, own } = sheetsOf(css);
+  const { common, own, name } = sheetsOf(css);
+  if (name) mark(el, "data-fnb-sheet", name);
   let at: Root | null = null;
   const tell = (root: Root, by: 1 | -1) => {
     if (common) count(root, common, by, true);

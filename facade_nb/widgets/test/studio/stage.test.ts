@@ -188,7 +188,7 @@ test("flaws are counted by kind", () => {
     { kind: "hole", rect, text: "" },
     { kind: "occlusion", rect, text: "" },
   ] as const;
-  expect(summary([...flaws], 0)).toBe("2 holes, 1 place covered");
+  expect(summary([...flaws], 0)).toBe("1 place covered, 2 holes");
   expect(summary([...flaws], 1)).toContain("Aligned");
   expect(summary([], 0)).toContain("Nothing is wrong");
 });
