@@ -42,7 +42,13 @@ def objects_of(root: Element, faults: Faults) -> Iterator[Object]:
             yield _object(own, own.id or f"building {number}", polygons, faults)
 
 
-_GEOMETRIES = ("Polygon", "Surface", "PolygonPatch", "CompositeSurface", "OrientableSurface", "MultiSurface")
+_GEOMETRIES = (
+    "Polygon", "Surface", "PolygonPatch", "CompositeSurface", "OrientableSurface", "MultiSurface", "Solid",
+    "MultiSolid", "CompositeSolid", "MultiGeometry", "ImplicitGeometry",
+)  # fmt: skip
+_IMPLICIT = "ImplicitRepresentation"
+_RELATIVE = ("relativeGMLGeometry", "relativeGeometry")
+"""In CityGML 2, and in CityGML 3."""
 
 
 def _object(building: Element, name: str, polygons: dict[str, Element], faults: Faults) -> Object:
@@ -58,7 +64,8 @@ def _object(building: Element, name: str, polygons: dict[str, Element], faults: 
             if not hole.polygons:
                 faults.add(
                     hole.place,
-                    "expected an opening with a lod3MultiSurface of at least one polygon; found none",
+                    "expected an opening with a lod3MultiSurface of at least one polygon, or a "
+                    "lod3ImplicitRepresentation; found none",
                 )
                 continue
             around = own.within(*_SURFACES)
@@ -74,11 +81,77 @@ def _polygons(surface: Element, polygons: dict[str, Element], faults: Faults) ->
     level = {
         own: k for own in surface.children for k, name in enumerate(_LEVELS) if own.name.startswith(name)
     }
-    best = min((own for own in level if own.children), key=level.__getitem__, default=None)
+    given = [
+        own for own in level if own.children or (own.name.endswith(_IMPLICIT) and own.attributes.get("href"))
+    ]
+    best = min(given, key=lambda own: (level[own], own.name.endswith(_IMPLICIT)), default=None)
     if best is None:
         return []
+    return (
+        _implicit(best, polygons, faults)
+        if best.name.endswith(_IMPLICIT)
+        else _within(best, polygons, faults)
+    )
+
+
+def _implicit(representation: Element, polygons: dict[str, Element], faults: Faults) -> list[Points]:
+    """The polygons of a geometry of its own, which is turned by a matrix and put at a place."""
+    given = next((own for own in representation.walk() if own.name == "ImplicitGeometry"), None)
+    href = representation.attributes.get("href", "")
+    if given is None:
+        given = polygons.get(href.removeprefix("#"))
+    if given is None or given.name != "ImplicitGeometry":
+        told = f"; there is no {quoted(href.removeprefix('#'))}" if href else ""
+        faults.add(representation.place, f"expected an ImplicitGeometry of this file{told}")
+        return []
+    parts = {own.name: own for own in given.children}
+    relative = next((parts[name] for name in _RELATIVE if name in parts), None)
+    if relative is None:
+        faults.add(
+            given.place, "expected a relativeGMLGeometry; a libraryObject, in a file of its own, is not read"
+        )
+        return []
+    matrix = np.eye(4)
+    if (turned := parts.get("transformationMatrix")) is not None:
+        values = _floats(turned, faults)
+        if len(values) != 16:
+            faults.add(turned.place, f"expected 16 numbers, row by row; found {len(values)}")
+            return []
+        matrix = np.array(values).reshape(4, 4)
+    point = next(
+        (own for own in given.walk() if own.name in ("pos", "coordinates") and own.within("referencePoint")),
+        None,
+    )
+    at = _floats(point, faults) if point is not None else []
+    if len(at) != 3:
+        faults.add(given.place, f"expected a referencePoint of three numbers; found {len(at)}")
+        return []
+    way = -1 if np.linalg.det(matrix[:3, :3]) < 0 else 1  # a mirror turns corners around
+    return [
+        (corners @ matrix[:3, :3].T + matrix[:3, 3] + at)[::way]
+        for corners in _within(relative, polygons, faults)
+    ]
+
+
+def _floats(own: Element, faults: Faults) -> list[float]:
+    """The numbers of an element; none of them, with a fault, where one is no number."""
+    values: list[float] = []
+    for word in own.text.replace(",", " ").split():
+        try:
+            value = float(word)
+        except ValueError:
+            value = float("nan")
+        if not abs(value) < 1e12:
+            faults.add(own.place, f"expected numbers, found {quoted(word)}")
+            return []
+        values.append(value)
+    return values
+
+
+def _within(best: Element, polygons: dict[str, Element], faults: Faults) -> list[Points]:
+    """The polygons of a geometry, and of those that it refers to."""
     found: list[Points] = []
-    for own in best.walk():
+    for own in (best, *best.walk()):
         href = own.attributes.get("href", "")
         if href.startswith("#"):
             target = polygons.get(href[1:])

@@ -22,16 +22,17 @@ _DEPTHS = {"MultiSurface": 0, "CompositeSurface": 0, "Solid": 1, "MultiSolid": 2
 def objects_of(document: Mapping[str, Any], faults: Faults) -> Iterator[Object]:
     """The buildings of a document, and its parts; what is wrong is noted with its place."""
     vertices = _vertices(document, faults)
+    templates = faults.mapping(document.get("geometry-templates", {}), "geometry-templates")
     objects = faults.mapping(document.get("CityObjects", {}), "CityObjects", "an object with city objects")
     for name, value in objects.items():
         place = f"CityObjects.{name}"
         own = faults.mapping(value, place)
         if own.get("type") in _BUILDINGS:
-            yield _object(str(name), own, place, vertices, faults)
+            yield _object(str(name), own, place, vertices, templates, faults)
 
 
-def _vertices(document: Mapping[str, Any], faults: Faults) -> Points:
-    given = faults.sequence(document.get("vertices", []), "vertices", "a list of vertices")
+def _vertices(document: Mapping[str, Any], faults: Faults, place: str = "vertices") -> Points:
+    given = faults.sequence(document.get("vertices", []), place, "a list of vertices")
     found = np.zeros((len(given), 3))
     for k, vertex in enumerate(given):
         if (
@@ -42,7 +43,7 @@ def _vertices(document: Mapping[str, Any], faults: Faults) -> Points:
         ):
             found[k] = vertex
         else:
-            faults.expected(at("vertices", k), "three numbers", vertex)
+            faults.expected(at(place, k), "three numbers", vertex)
     transform = document.get("transform")
     if transform is None:
         return found
@@ -65,22 +66,86 @@ def _three(value: Any, place: str, faults: Faults) -> Points:
     return np.ones(3)
 
 
-def _object(name: str, own: Mapping[str, Any], place: str, vertices: Points, faults: Faults) -> Object:
-    """The most detailed of an object's geometries that has openings."""
-    made = Object(name)
-    best = ""
+def _object(
+    name: str,
+    own: Mapping[str, Any],
+    place: str,
+    vertices: Points,
+    templates: Mapping[str, Any],
+    faults: Faults,
+) -> Object:
+    """The most detailed of an object's geometries that has openings, with all templates of that level."""
+    whole: dict[str, Object] = {}
+    added: dict[str, list[Object]] = {}
     for k, value in enumerate(
         faults.sequence(own.get("geometry", []), f"{place}.geometry", "a list of geometries")
     ):
         where = at(f"{place}.geometry", k)
         geometry = faults.mapping(value, where)
         lod = str(geometry.get("lod", ""))
-        if geometry.get("type") not in _DEPTHS or "semantics" not in geometry:
-            continue
-        found = _geometry(name, geometry, where, vertices, faults)
-        if (found.loose or any(s.holes for s in found.surfaces)) and lod >= best:
-            made, best = found, lod
-    return made
+        if geometry.get("type") == "GeometryInstance":
+            made = _instance(name, geometry, where, vertices, templates, faults)
+            if made is not None:
+                added.setdefault(made[0], []).append(made[1])
+        elif geometry.get("type") in _DEPTHS and "semantics" in geometry:
+            found = _geometry(name, geometry, where, vertices, faults)
+            if lod not in whole or _opened(found) or not _opened(whole[lod]):
+                whole[lod] = found
+    best = Object(name)
+    for lod in sorted({*whole, *added}):
+        parts = [*([whole[lod]] if lod in whole else []), *added.get(lod, ())]
+        found = Object(
+            name, [s for one in parts for s in one.surfaces], [h for one in parts for h in one.loose]
+        )
+        if _opened(found):
+            best = found
+    return best
+
+
+def _opened(own: Object) -> bool:
+    return bool(own.loose) or any(surface.holes for surface in own.surfaces)
+
+
+def _instance(
+    name: str,
+    geometry: Mapping[str, Any],
+    place: str,
+    vertices: Points,
+    templates: Mapping[str, Any],
+    faults: Faults,
+) -> tuple[str, Object] | None:
+    """A template, turned by a matrix and put at a vertex: its level of detail, and what it is made of."""
+    known = faults.sequence(
+        templates.get("templates", []), "geometry-templates.templates", "a list of geometries"
+    )
+    number = geometry.get("template")
+    if not isinstance(number, int) or isinstance(number, bool) or not 0 <= number < len(known):
+        faults.expected(f"{place}.template", f"the number of a template, 0 to {len(known) - 1}", number)
+        return None
+    where = at("geometry-templates.templates", number)
+    template = faults.mapping(known[number], where)
+    if template.get("type") not in _DEPTHS or "semantics" not in template:
+        return None
+    spots = geometry.get("boundaries")
+    spot = spots[0] if isinstance(spots, list) and len(spots) == 1 else None
+    if not isinstance(spot, int) or isinstance(spot, bool) or not 0 <= spot < len(vertices):
+        faults.expected(f"{place}.boundaries", f"the number of one vertex, 0 to {len(vertices) - 1}", spots)
+        return None
+    given = geometry.get("transformationMatrix", np.eye(4).reshape(-1).tolist())
+    if not isinstance(given, list) or len(given) != 16 or not _numbers(given):
+        faults.expected(f"{place}.transformationMatrix", "16 numbers, row by row", given)
+        return None
+    matrix = np.array(given, float).reshape(4, 4)
+    own = _vertices(
+        {"vertices": templates.get("vertices-templates", [])}, faults, "geometry-templates.vertices-templates"
+    )
+    placed = own @ matrix[:3, :3].T + matrix[:3, 3] + vertices[spot]
+    made = _geometry(name, template, where, placed, faults)
+    if np.linalg.det(matrix[:3, :3]) < 0:  # a mirror turns corners around
+        holes = [*made.loose, *(hole for surface in made.surfaces for hole in surface.holes)]
+        for polygons in (*(one.polygons for one in made.surfaces), *(one.polygons for one in holes)):
+            polygons[:] = [corners[::-1] for corners in polygons]
+    return str(template.get("lod", "")), made
 
 
 def _geometry(name: str, geometry: Mapping[str, Any], place: str, vertices: Points, faults: Faults) -> Object:
