@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, expect
 
 from .conftest import Watch
 from .jupyter import Notebook
@@ -129,3 +129,48 @@ def test_every_question_is_answered_wrong_and_right(page: Notebook, out: Path) -
     assert any("was moved to" in prompt for prompt in asked)
     assert any("end larger" in prompt for prompt in asked)
     assert any("marked letter" in prompt for prompt in asked)
+
+
+def test_a_network_is_built_up_part_by_part(watch: Watch, out: Path) -> None:
+    lab = watch("NetworkView(traced('figure-8'), player=False)")
+    page = lab.page
+    status, told = page.locator(".fnb-net-status"), page.locator(".fnb-net-built-text")
+    expect(told).to_be_hidden()
+    lab.button("Build up").press("Enter")
+    expect(told).to_have_text(re.compile(r"^The first node: nothing is read\. .* are left\.$"))
+    expect(status).not_to_contain_text("The path has")  # the search is not shown while it is built up
+    slider = page.get_by_role("slider", name="Parts of the network")
+    slider.press("ArrowRight")
+    expect(told).to_contain_text("A node is a boundary in both words.")
+    told_all: list[str] = []
+    for theme in ("JupyterLab Light", "JupyterLab Dark"):
+        lab.theme(theme)
+        for width in (900, 1600):
+            lab.resize(width)
+            for share in (0.2, 0.45, 0.8, 1.0):
+                most = int(slider.get_attribute("max") or 0)
+                slider.evaluate(
+                    f"e => {{ e.value = {int(share * most)}; e.dispatchEvent(new Event('input')); }}"
+                )
+                expect(page.locator(".fnb-net-built-count")).to_have_text(f"{int(share * most)} / {most}")
+                told_all.append(told.inner_text())
+                page.screenshot(path=out / f"built-{width}-{theme[11:].lower()}-{int(100 * share)}.png")
+    text = " ".join(told_all)
+    assert "step of the automaton reads" in text
+    assert "That is the whole network" in text
+    lab.button("A part less").press("Enter")
+    expect(told).to_have_text(re.compile(r"(Permitted|Forbidden): "))
+    lab.button("Build up").press("Enter")
+    expect(status).to_contain_text("The path has")
+    for theme in ("JupyterLab Light", "JupyterLab Dark"):
+        lab.theme(theme)
+        for width in (900, 1600):
+            lab.resize(width)
+            page.screenshot(path=out / f"network-all-{width}-{theme[11:].lower()}.png")
+            canvas = page.locator(".fnb-plane-canvas")
+            canvas.focus()
+            canvas.press("ArrowRight")
+            page.screenshot(path=out / f"network-node-{width}-{theme[11:].lower()}.png")
+            page.keyboard.press("Escape")
+    lab.theme("JupyterLab Light")
+    lab.resize(1400)
