@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -174,3 +175,38 @@ def test_a_network_is_built_up_part_by_part(watch: Watch, out: Path) -> None:
             page.keyboard.press("Escape")
     lab.theme("JupyterLab Light")
     lab.resize(1400)
+
+
+PIXEL = """
+    text = '''S -> RepeatX(2.5, Bay)
+    Bay -> SplitX(Rel, 1, Side, Abs, 1.2, Column, Rel, 1, Side)
+    Column -> SplitY(Abs, 0.9, Side, Rel, 1, Window)
+    Window -> Mat(Color, 0, 0.2, 0.2, 0.8, 1)
+    Side -> Mat(Color, 0, 0.6, 0.3, 0.2, 1)'''
+    model = TextureModel(text, size=(10, 9), lit=False)
+    model.pick((3.7, 1.5))
+    PixelInspector(model)
+"""
+
+
+def test_the_part_that_a_pixel_falls_into_is_predicted(lab: Notebook, out: Path) -> None:
+    lab.run("from facade_nb.widgets import *\n" + textwrap.dedent(PIXEL))
+    own = lab.page.locator(".fnb-tex-inspector")
+    steps = own.locator(".fnb-tex-steps li")
+    expect(steps).to_have_count(4)
+    press(own, "Predict")
+    expect(steps).to_have_count(2)
+    expect(own).not_to_contain_text("part 2 of 3")
+    own.get_by_role("radio", name="Side", exact=True).press("Space")
+    press(own, "Check")
+    expect(own.locator(".fnb-quiz-outcome")).to_have_text("Not yet.")
+    expect(own.locator(".fnb-quiz-hint")).to_contain_text("Abs is metres")
+    expect(steps).to_have_count(2)
+    own.get_by_role("radio", name="Column", exact=True).press("Space")
+    press(own, "Check")
+    expect(own.locator(".fnb-quiz-outcome")).to_have_text("Right. It lies in this part.")
+    expect(steps).to_have_count(4)
+    assert own.evaluate(RED) == []
+    own.screenshot(path=out / "question-pixel.png")
+    press(own, "Again")
+    expect(steps).to_have_count(3)

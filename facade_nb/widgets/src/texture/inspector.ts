@@ -1,6 +1,6 @@
 // How the pixel that was clicked came about, step by step.
 
-import { h, mark, setText } from "../shared/dom.ts";
+import { focused, h, mark, setText } from "../shared/dom.ts";
 import { offers, type Question, Quiz } from "../shared/quiz.ts";
 import { quizBar } from "../shared/quizbar.ts";
 import { type Split, splitsOf } from "./question.ts";
@@ -22,7 +22,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
   const detail = h("div", { class: "fnb-tex-detail" });
   const reveal = revealer(list, signal);
   const offered = h("div", { class: "fnb-tex-asked" });
-  let round = 0;
+  let [round, offeredBy] = [0, ""];
   const splits = () => splitsOf(session.text, session.allSteps);
   const asked = (): Split | undefined => {
     const all = splits();
@@ -39,7 +39,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
   });
   const bar = quizBar(quiz, () => {});
   let veiled: { from: Step[]; by: string; steps: Step[] } | null = null;
-  session.veil = (steps) => {
+  const veil = (steps: Step[]) => {
     const split = quiz.hides ? asked() : undefined;
     if (!split) return steps;
     const by = String(split.step);
@@ -51,8 +51,9 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
     }
     return veiled.steps;
   };
+  session.veil = veil;
   signal.addEventListener("abort", () => {
-    session.veil = null;
+    if (session.veil === veil) session.veil = null;
   });
   quiz.watch(() => {
     round = quiz.round;
@@ -68,13 +69,22 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
     session.look(to);
     list.children[to]?.querySelector("button")?.focus();
   });
+  const top = h("div", { class: "fnb-tex-top" }, head, bar.toggle);
   session.hold(() => {
     bar.show();
+    if (quiz.on) top.after(bar.el);
+    else bar.el.remove();
     const split = quiz.on ? asked() : undefined;
     offered.hidden = !split;
-    offered.replaceChildren(
-      ...(split ? [h("p", { class: "fnb-known" }, h("code", {}, split.rule)), offers(quiz, (key) => key)] : []),
-    );
+    const by = split ? `${quiz.stamp}|${quiz.prompt}` : "";
+    if (by !== offeredBy) {
+      offeredBy = by;
+      const inputs = () => [...offered.querySelectorAll("input")];
+      const at = inputs().indexOf(focused(offered) as HTMLInputElement);
+      const rule = split && h("p", { class: "fnb-known" }, h("code", {}, split.rule));
+      offered.replaceChildren(...(rule ? [rule, offers(quiz, (key) => h("code", {}, key))] : []));
+      inputs()[at]?.focus();
+    }
     const { steps, point } = session;
     if (shown !== steps) {
       shown = steps;
@@ -118,7 +128,6 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
         : "Click the façade, or press Enter on it, to see how a pixel comes about.",
     );
   }, signal);
-  const top = h("div", { class: "fnb-tex-top" }, head, bar.toggle);
   return h(
     "section",
     { class: "fnb-tex-inspector", "aria-label": "Pixel inspector" },

@@ -35,7 +35,7 @@ export function splitsOf(text: string, steps: readonly Step[]): Split[] {
     );
     if (options.length < 2 || !options.includes(next.rule) || low === undefined || high === undefined) return [];
     const start = across ? own.scope[0] : own.scope[1];
-    const inside = [low, high].every((border) => Math.abs(border - at) > NEAR || Math.abs(border - start - at) > NEAR);
+    const inside = [low, high].every((border) => Math.abs(border - start - at) > NEAR);
     return inside ? [{ step, rule, options, right: next.rule, at, size, across }] : [];
   });
 }
