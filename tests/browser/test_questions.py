@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, expect
 
 from .conftest import Watch
 from .jupyter import Notebook
@@ -129,3 +130,83 @@ def test_every_question_is_answered_wrong_and_right(page: Notebook, out: Path) -
     assert any("was moved to" in prompt for prompt in asked)
     assert any("end larger" in prompt for prompt in asked)
     assert any("marked letter" in prompt for prompt in asked)
+
+
+def test_a_network_is_built_up_part_by_part(watch: Watch, out: Path) -> None:
+    lab = watch("NetworkView(traced('figure-8'), player=False)")
+    page = lab.page
+    status, told = page.locator(".fnb-net-status"), page.locator(".fnb-net-built-text")
+    expect(told).to_be_hidden()
+    lab.button("Build up").press("Enter")
+    expect(told).to_have_text(re.compile(r"^The first node: nothing is read\. .* are left\.$"))
+    expect(status).not_to_contain_text("The path has")  # the search is not shown while it is built up
+    slider = page.get_by_role("slider", name="Parts of the network")
+    slider.press("ArrowRight")
+    expect(told).to_contain_text("A node is a boundary in both words.")
+    told_all: list[str] = []
+    for theme in ("JupyterLab Light", "JupyterLab Dark"):
+        lab.theme(theme)
+        for width in (900, 1600):
+            lab.resize(width)
+            for share in (0.2, 0.45, 0.8, 1.0):
+                most = int(slider.get_attribute("max") or 0)
+                slider.evaluate(
+                    f"e => {{ e.value = {int(share * most)}; e.dispatchEvent(new Event('input')); }}"
+                )
+                expect(page.locator(".fnb-net-built-count")).to_have_text(f"{int(share * most)} / {most}")
+                told_all.append(told.inner_text())
+                page.screenshot(path=out / f"built-{width}-{theme[11:].lower()}-{int(100 * share)}.png")
+    text = " ".join(told_all)
+    assert "step of the automaton reads" in text
+    assert "That is the whole network" in text
+    lab.button("A part less").press("Enter")
+    expect(told).to_have_text(re.compile(r"(Permitted|Forbidden): "))
+    lab.button("Build up").press("Enter")
+    expect(status).to_contain_text("The path has")
+    for theme in ("JupyterLab Light", "JupyterLab Dark"):
+        lab.theme(theme)
+        for width in (900, 1600):
+            lab.resize(width)
+            page.screenshot(path=out / f"network-all-{width}-{theme[11:].lower()}.png")
+            canvas = page.locator(".fnb-plane-canvas")
+            canvas.focus()
+            canvas.press("ArrowRight")
+            page.screenshot(path=out / f"network-node-{width}-{theme[11:].lower()}.png")
+            page.keyboard.press("Escape")
+    lab.theme("JupyterLab Light")
+    lab.resize(1400)
+
+
+PIXEL = """
+    text = '''S -> RepeatX(2.5, Bay)
+    Bay -> SplitX(Rel, 1, Side, Abs, 1.2, Column, Rel, 1, Side)
+    Column -> SplitY(Abs, 0.9, Side, Rel, 1, Window)
+    Window -> Mat(Color, 0, 0.2, 0.2, 0.8, 1)
+    Side -> Mat(Color, 0, 0.6, 0.3, 0.2, 1)'''
+    model = TextureModel(text, size=(10, 9), lit=False)
+    model.pick((3.7, 1.5))
+    PixelInspector(model)
+"""
+
+
+def test_the_part_that_a_pixel_falls_into_is_predicted(lab: Notebook, out: Path) -> None:
+    lab.run("from facade_nb.widgets import *\n" + textwrap.dedent(PIXEL))
+    own = lab.page.locator(".fnb-tex-inspector")
+    steps = own.locator(".fnb-tex-steps li")
+    expect(steps).to_have_count(4)
+    press(own, "Predict")
+    expect(steps).to_have_count(2)
+    expect(own).not_to_contain_text("part 2 of 3")
+    own.get_by_role("radio", name="Side", exact=True).press("Space")
+    press(own, "Check")
+    expect(own.locator(".fnb-quiz-outcome")).to_have_text("Not yet.")
+    expect(own.locator(".fnb-quiz-hint")).to_contain_text("Abs is metres")
+    expect(steps).to_have_count(2)
+    own.get_by_role("radio", name="Column", exact=True).press("Space")
+    press(own, "Check")
+    expect(own.locator(".fnb-quiz-outcome")).to_have_text("Right. It lies in this part.")
+    expect(steps).to_have_count(4)
+    assert own.evaluate(RED) == []
+    own.screenshot(path=out / "question-pixel.png")
+    press(own, "Again")
+    expect(steps).to_have_count(3)

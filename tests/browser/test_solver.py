@@ -186,6 +186,7 @@ def test_the_reader_predicts_words(watch: Watch) -> None:
     assert "fits" not in " ".join(rows(page, "rooms"))
     section(page, "rooms").get_by_label("A C C C C A fits", exact=True).check()
     section(page, "rooms").get_by_label("A C C C C C C A fits", exact=True).check()
+    lab.button("Hint").click()
     lab.button("Check").click()
     expect(page.locator(".fnb-quiz-outcome")).to_have_text("1 right, 1 wrong, 6 missed.")
     expect(page.locator(".fnb-word[data-verdict=wrong]")).to_contain_text("too long by 0.8")

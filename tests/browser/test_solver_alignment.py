@@ -174,6 +174,7 @@ def test_the_next_column_is_predicted(watch: Watch, out: Path) -> None:
     expect(page.locator(".fnb-align-values, .fnb-align-figure")).to_have_count(0)
     own = page.locator(".fnb-offers li", has_text="first floor corners: D B D B")
     own.filter(has_text="base: ε").get_by_role("radio").check()
+    lab.button("Hint").click()
     lab.button("Check").click()
     expect(page.locator(".fnb-quiz-outcome")).to_have_text(
         "No. G is attached and ends its element, so “base” may not be empty next (C4)."
@@ -196,6 +197,7 @@ def test_what_a_moved_boundary_breaks_is_predicted(watch: Watch, out: Path) -> N
     boxes = page.get_by_role("checkbox")
     for n in range(boxes.count()):
         boxes.nth(n).check()
+    lab.button("Hint").click()
     lab.button("Check").click()
     right = page.locator(".fnb-offers li[data-verdict=right]")
     said = page.locator(".fnb-align-broken li[data-constraint]")

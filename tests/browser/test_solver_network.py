@@ -132,6 +132,7 @@ def test_which_edge_is_next(watch: Watch) -> None:
     expect(page.get_by_role("radio")).not_to_have_count(0)
     assert "J ≥" not in page.locator(".fnb-network").inner_text()
     page.get_by_role("radio").first.check()
+    lab.button("Hint").click()
     lab.button("Check").click()
     right = bool(lab.python("view.answer.get('right', [])"))
     expect(page.locator(".fnb-quiz-outcome")).to_contain_text("Right." if right else "No.")

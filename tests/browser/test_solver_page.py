@@ -198,6 +198,7 @@ def test_a_candidate_is_predicted(watch: Watch) -> None:
     page = lab.page
     assert "best" not in page.locator(".fnb-candidates").inner_text()
     page.locator(".fnb-candidate input").nth(2).check()
+    lab.button("Hint").click()
     lab.button("Check").click()
     expect(page.locator(".fnb-quiz-outcome")).to_contain_text("Right. It is the layout.")
     lab.expect_python("view.answer", {"right": ["0"], "wrong": [], "missed": []})
@@ -223,6 +224,7 @@ def test_the_equation_of_a_pair_is_predicted(watch: Watch, out: Path) -> None:
     expect(page.locator(".fnb-quiz-prompt")).to_have_text("What does the equation of pair (3) say?")
     expect(page.locator(".fnb-pair-follows")).to_have_text("⇒ ?")
     page.get_by_role("radio", name="2|f| = |g| − 1.5j + 4.4", exact=True).check()
+    lab.button("Hint").click()
     lab.button("Check").click()
     expect(page.locator(".fnb-quiz-outcome")).to_have_text(
         "Right. What is left of both lines is equally long."
@@ -271,6 +273,7 @@ def test_the_events_keep_back_what_a_view_asks_for(watch: Watch) -> None:
     lab.button("x: Candidates").click()
     expect(kept).to_be_visible()
     asking.get_by_role("radio").first.check()
+    lab.button("Hint").click()
     lab.button("Check").click()
     expect(kept).to_be_hidden()
     lab.button("Step forward").click()
@@ -405,6 +408,7 @@ def test_the_notebook_shows_its_saved_state_and_can_be_played_without_a_kernel(
         asking.scroll_into_view_if_needed()
         expect(asking.locator(".fnb-quiz-prompt")).to_contain_text("Where does column")
         asking.get_by_role("radio").first.check()
+        asking.get_by_role("button", name="Hint", exact=True).click()
         asking.get_by_role("button", name="Check", exact=True).click()
         expect(asking.locator(".fnb-quiz-outcome")).to_have_text(re.compile(r"^(Right|No)\. .+"))
         figure = page.locator(".fnb-part-words")

@@ -2,6 +2,7 @@
 
 import "../styles/base.css";
 import "../styles/fields.css";
+import "../styles/quiz.css";
 import "../styles/texture.css";
 import { absence } from "../shared/absence.ts";
 import { h } from "../shared/dom.ts";

@@ -33,6 +33,8 @@ export class Session extends Entering<Entered> {
   common: Common | null = null;
   /** The step of the derivation that is looked at. */
   step = 0;
+  /** What the inspector asks keeps back steps of all views. */
+  veil: ((steps: Step[]) => Step[]) | null = null;
   private unpacking = 0;
 
   get size(): Pair {
@@ -56,7 +58,11 @@ export class Session extends Entering<Entered> {
   get report(): string {
     return this.scene?.report ?? "";
   }
+  /** What is shown of the steps: while one is asked for, not that one and what comes behind it. */
   get steps(): Step[] {
+    return this.veil?.(this.allSteps) ?? this.allSteps;
+  }
+  get allSteps(): Step[] {
     return this.channel.get<Step[]>("steps");
   }
   get point(): Pair | null {

@@ -2,6 +2,7 @@
 
 import type { Verdict } from "../../shared/quiz.ts";
 import type { LetterNote } from "../letters.ts";
+import type { Built } from "./building.ts";
 import type { Camera, Point } from "./plane.ts";
 import type { Arc, ArcKind, Scene } from "./scene.ts";
 import { restOf } from "./story.ts";
@@ -157,6 +158,10 @@ class Painter {
   /** The transitions of the automaton: one letter of one word, so all of them together are the lines of a grid. */
   private grid(): void {
     const { c, scene } = this;
+    if (scene.built) {
+      this.steps(scene.built);
+      return;
+    }
     const [rows, cols] = scene.size;
     const seen = this.seen();
     const every = Math.max(1, Math.ceil(3 / (this.cell * ASPECT)));
@@ -179,6 +184,21 @@ class Painter {
     c.lineWidth = this.cell >= BOXES ? 1.6 : this.cell >= DOTS ? 1 : 0.6;
     c.stroke();
     c.globalAlpha = 1;
+  }
+
+  /** The steps that have come, while the network is built up; that which comes now, and that an arc follows from, bold. */
+  private steps({ segments, now }: Built): void {
+    const { c } = this;
+    const bold = now.kind === "step" ? now.segment : now.kind === "arc" ? now.step : null;
+    c.strokeStyle = this.look.step;
+    for (const own of segments) {
+      const [from, to] = [own.from, own.to].map((places) => this.screen(pointOf(this.scene, places))) as [Point, Point];
+      c.lineWidth = own === bold ? 4.5 : 1.4;
+      c.beginPath();
+      c.moveTo(from.x, from.y);
+      c.lineTo(to.x, to.y);
+      c.stroke();
+    }
   }
 
   private arcs(kind: ArcKind): void {
@@ -351,6 +371,7 @@ class Painter {
         for (let j = seen.cols[0]; j <= seen.cols[1]; j++) {
           const places = scene.subject.bands.map((_, n) => (n === a ? 2 * i : n === b ? 2 * j : 0));
           if (a < 0 && i > 0) continue;
+          if (scene.built && !scene.built.nodes.has(places.join())) continue;
           if (!scene.nodes.has(`${places[a] ?? 0},${places[b] ?? 0}`)) this.node(places, boxes, 0, false);
         }
       if (this.cell >= 22) for (const places of scene.cut) this.node(places, false, 0, false);
@@ -358,6 +379,8 @@ class Painter {
     for (const own of scene.nodes.values()) {
       this.node(own.places, boxes && !this.half(own.places), own.taken, own.onPath);
     }
+    const now = scene.built?.now;
+    if (now?.kind === "node") this.focus(now.places);
     if (scene.focus) this.focus(scene.focus);
   }
 
@@ -422,6 +445,9 @@ class Painter {
     const { c, scene, look } = this;
     const own = scene.nodes.get(this.shown(places))?.numbers;
     if (!own || own.f === null) return;
+    // Below a node within a cut letter there may be no room: the words of the next node are rather read.
+    const room = (this.cell * ASPECT) / 2 - this.box().h / 2 - 5;
+    if (this.half(places) && this.cell >= BOXES && room < 12) return;
     const short = (value: number) => String(Number(value.toFixed(2)));
     const text = `${short(own.g)}+${short(Math.max(0, own.f - own.g))}`;
     c.font = `${own.standing === "expanded" ? "600 " : ""}9.5px ${look.mono}`;

@@ -5,6 +5,7 @@ import { type Lattice, latticeOf, type Region, traceRegion } from "../lattice.ts
 import type { LetterNote } from "../letters.ts";
 import { target } from "../links.ts";
 import { Group, type Objective } from "../weights.ts";
+import type { Built } from "./building.ts";
 import { type Numbers, nodesAt } from "./numbers.ts";
 import { type RegionNote, type Story, type Subject, sizeOf, type Told } from "./story.ts";
 
@@ -70,6 +71,8 @@ export interface Scene {
   leftOut: number;
   alive: Set<string>;
   cut: number[][];
+  /** While it is built up: what stands so far. */
+  built?: Built;
 }
 
 /** A lattice as arcs between places: nodes that differ in what C4 asks of them are one in the drawing. */
@@ -199,6 +202,28 @@ export interface Choices {
   forbidden: boolean;
   /** The node that the reader has picked. */
   picked: number[] | null;
+}
+
+/** A network as it is being built up: without what a search did in it. */
+export function sceneBuilt(scene: Scene, built: Built): Scene {
+  const { now } = built;
+  const drawn = built.arcs.map((arc): Arc => {
+    const isCause = now.kind === "arc" && (arc === now.arc || arc === now.parent);
+    return isCause ? { ...arc, kind: arc.constraint ? "refused" : "weighed" } : arc;
+  });
+  const alive = built.done ? scene.alive : built.nodes;
+  const cut = scene.cut.filter((places) => built.nodes.has(places.join()));
+  return {
+    ...scene,
+    built,
+    arcs: drawn,
+    nodes: new Map(),
+    focus: null,
+    searching: false,
+    delta: null,
+    alive: new Set(alive),
+    cut,
+  };
 }
 
 export function sceneOf(

@@ -9,12 +9,23 @@ import { watchDress } from "../../shared/theme.ts";
 import { ledgerOfPath } from "../align/question.ts";
 import type { Alternative } from "../alternatives.ts";
 import { target } from "../links.ts";
+import { BuildBar } from "../network/buildbar.ts";
 import { columnText, LeavingList, litLetters, MEANINGS } from "../network/lists.ts";
 import { edgesAt, gone, sum } from "../network/numbers.ts";
 import { ASPECT, boundsOf, curveOf, type Look, MARGIN, paint, pointOf } from "../network/paint.ts";
 import { Plane, type Point } from "../network/plane.ts";
 import { type Choice, choicesOf, keyOf, nameOf, question } from "../network/question.ts";
-import { type Arc, type Base, baseOf, edgeKey, leaving, nodeKey, type Scene, sceneOf } from "../network/scene.ts";
+import {
+  type Arc,
+  type Base,
+  baseOf,
+  edgeKey,
+  leaving,
+  nodeKey,
+  type Scene,
+  sceneBuilt,
+  sceneOf,
+} from "../network/scene.ts";
 import { type NetworkData, PRUNED, restOf, Story, type Subject, sizeOf, TAKEN, type Told } from "../network/story.ts";
 import { Strip } from "../network/strip.ts";
 import { warp } from "../network/warp.ts";
@@ -59,6 +70,7 @@ class NetworkView implements View {
   private hovered: Arc | null = null;
   private hovering: number[] | null = null;
   private readonly strip: Strip;
+  private readonly build: BuildBar;
   private looked: Look | null = null;
   private by = "";
   private belowBy = "";
@@ -88,6 +100,7 @@ class NetworkView implements View {
       this.context.links.release();
       context.refresh();
     });
+    this.build = new BuildBar(() => context.refresh());
     this.pairs = h("span", { class: "fnb-field" }, "words", this.downs, "×", this.rights);
     for (const [side, select] of [this.downs, this.rights].entries())
       select.addEventListener("change", () => {
@@ -102,7 +115,7 @@ class NetworkView implements View {
         if (next === other) made[1 - side] = before;
         this.choose(own, made);
       });
-    this.controls = [this.select, this.pairs, cuts.label, forbidden.label];
+    this.controls = [this.select, this.pairs, cuts.label, forbidden.label, this.build.toggle];
     this.plane = new Plane(
       {
         label: "Network",
@@ -130,7 +143,16 @@ class NetworkView implements View {
     this.body = h(
       "div",
       { class: "fnb-net-body" },
-      h("div", { class: "fnb-net-main" }, this.plane.el, this.strip.el, this.legend, meanings(), this.status),
+      h(
+        "div",
+        { class: "fnb-net-main" },
+        this.plane.el,
+        this.build.el,
+        this.strip.el,
+        this.legend,
+        meanings(),
+        this.status,
+      ),
       this.beside,
     );
     this.el = h("div", { class: "fnb-network" }, this.said, this.note);
@@ -160,6 +182,7 @@ class NetworkView implements View {
       this.belowBy = "";
       this.by = "";
       this.pairs.hidden = true;
+      this.build.toggle.hidden = true;
       return;
     }
     if (this.note.parentNode === this.el) this.el.replaceChildren(this.said, this.body, this.below);
@@ -168,14 +191,16 @@ class NetworkView implements View {
     const base = this.base(subject, this.cuts.checked);
     const pair = this.pairOf(subject);
     const choices = { pair, cuts: this.cuts.checked || !base.lattice, forbidden: this.forbidden.checked, picked };
-    const scene = sceneOf(this.story, subject, base, this.told, position, choices, this.quiz.hides);
+    const built = this.build.show(subject, base, this.quiz.on);
+    let scene = sceneOf(this.story, subject, base, this.told, position, choices, this.quiz.hides);
+    if (built) scene = sceneBuilt(scene, built);
     if (this.quiz.on)
       scene.arcs.push(...this.choices(position).map(({ arc }) => ({ ...arc, kind: "choice" as const })));
     const fresh = this.scene?.subject !== subject || this.scene.pair.join() !== pair.join();
     this.scene = scene;
     this.hovered = null;
     this.hovering = null;
-    if (this.quiz.on) this.strip.hide();
+    if (this.quiz.on || built) this.strip.hide();
     else this.strip.show(subject, position);
     const by = [
       subject.key,
@@ -185,6 +210,7 @@ class NetworkView implements View {
       this.cuts.checked,
       this.forbidden.checked,
       this.quiz.stamp,
+      this.build.stamp,
     ];
     if (by.join("|") !== this.by) {
       this.by = by.join("|");
@@ -274,7 +300,7 @@ class NetworkView implements View {
       ["step", "automaton steps"],
       [
         "arc",
-        scene.exact && !scene.focus && base.arcs.length > scene.arcs.length + 200
+        scene.exact && !scene.built && !scene.focus && base.arcs.length > scene.arcs.length + 200
           ? "closure: the lightest of its permitted arcs"
           : "closure",
       ],
@@ -295,6 +321,16 @@ class NetworkView implements View {
     if (this.quiz.on) {
       const searching = this.story.next(subject, position, TAKEN) !== undefined;
       this.beside.replaceChildren(question(subject, this.choices(position), searching, this.quiz));
+    } else if (scene.built) {
+      // What leaves the node that is spoken of, as far as it has come.
+      const { now, arcs } = scene.built;
+      const from = now.kind === "arc" ? now.arc.from : now.kind === "step" ? now.segment.from : null;
+      const places = from ?? (now.kind === "node" ? now.places : subject.bands.map(() => 0));
+      const here = arcs.filter((arc) => arc.from.join() === places.join());
+      const standing = (arc: Arc) => (arc.constraint ? "forbidden" : "permitted");
+      const listed = here.map((arc) => ({ arc, numbers: null, standing: standing(arc) }) as const);
+      this.leaving.show(subject, places, listed, null);
+      if (this.leaving.el.parentNode !== this.beside) this.beside.replaceChildren(this.leaving.el);
     } else {
       const focus = scene.focus ?? subject.bands.map(() => 0);
       const arcs = leaving(this.story, subject, base, told, focus);
