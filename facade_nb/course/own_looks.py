@@ -36,7 +36,7 @@ Leaf -> Mat(Color, 0, 0, 1, 0, 1)
 """
 """A room in a mirror, which begins half a metre from the left end: a ray that is not turned meets the wrong wall."""
 
-_SIZES = ((3.6, 1.4, 0.2), (6.0, 2.0, 0.3), (0.5, 1.0, 0.1))
+_SIZES = ((4.1, 1.4, 0.2), (6.2, 2.0, 0.3), (0.5, 1.0, 0.1))
 
 
 def _mirror(batch: Batch, v: float) -> Batch:
