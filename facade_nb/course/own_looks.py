@@ -93,9 +93,9 @@ def _mirrors(mirror: Callable[..., Any]) -> str:
         return said
 
     at = np.array([2.25, 2.5], np.float32)
-    one = [np.full(1, value, np.float32) for value in (2, 0, 3, 1)]
-    ray = tuple(np.full(1, value, np.float32) for value in (0.5, 0.25, -1))
-    asked = Batch(np.arange(2), at, at, *one, ray, one[1], (one[1], one[1]))
+    left, bottom, right, top, rx, ry, rz = (np.full(1, v, np.float32) for v in (2, 0, 3, 1, 0.5, 0.25, -1))
+    ray, none = (rx, ry, rz), (bottom, bottom)
+    asked = Batch(np.arange(2), at, at, left, bottom, right, top, ray, bottom, none)
     said = checked(asked, 0.0)
     wanted = _mirror(asked, 0.0)
     if not np.allclose(said.x, wanted.x):
