@@ -95,6 +95,14 @@ EXERCISES: Mapping[str, Exercise] = {
         ),
         "With this rule no pass ever goes beyond J of the best.",
     ),
+    "steps": Exercise(
+        among("doubling", ("creeping", "doubling", "both alike")),
+        (
+            "Each pass begins anew, and takes up again what the passes before it have taken up.",
+            "With small steps there are many passes, and in each of them most nodes are old ones.",
+        ),
+        "Doubling: fewer passes. It may look beyond the best in its last one, and that costs less.",
+    ),
     "rests": Exercise(
         experimental(lambda heuristic: _judged(heuristic, _solid())),
         (

@@ -36,7 +36,7 @@ Leaf -> Mat(Color, 0, 0, 1, 0, 1)
 """
 """A room in a mirror, which begins half a metre from the left end: a ray that is not turned meets the wrong wall."""
 
-_SIZES = ((3.6, 1.4, 0.2), (6.0, 2.0, 0.3), (0.5, 1.0, 0.1))
+_SIZES = ((4.1, 1.4, 0.2), (6.2, 2.0, 0.3), (0.5, 1.0, 0.1))
 
 
 def _mirror(batch: Batch, v: float) -> Batch:
@@ -93,9 +93,9 @@ def _mirrors(mirror: Callable[..., Any]) -> str:
         return said
 
     at = np.array([2.25, 2.5], np.float32)
-    one = [np.full(1, value, np.float32) for value in (2, 0, 3, 1)]
-    ray = tuple(np.full(1, value, np.float32) for value in (0.5, 0.25, -1))
-    asked = Batch(np.arange(2), at, at, *one, ray, one[1], (one[1], one[1]))
+    left, bottom, right, top, rx, ry, rz = (np.full(1, v, np.float32) for v in (2, 0, 3, 1, 0.5, 0.25, -1))
+    ray, none = (rx, ry, rz), (bottom, bottom)
+    asked = Batch(np.arange(2), at, at, left, bottom, right, top, ray, bottom, none)
     said = checked(asked, 0.0)
     wanted = _mirror(asked, 0.0)
     if not np.allclose(said.x, wanted.x):

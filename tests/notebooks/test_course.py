@@ -7,6 +7,7 @@ import contextlib
 import doctest
 import io
 import re
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ from facade_nb.course.deepening import CENTRED
 from facade_nb.course.exercises import Open, solution_of
 from facade_nb.course.flattened import colonnade, flattened, porch, telling
 from facade_nb.course.own_code import TRIPLET
+from facade_nb.render.parts import Block
 from facade_nb.solver.experiments import Case, Node, checking, experiment
 from facade_nb.solver.experiments.cases import small_cases
 
@@ -146,6 +148,7 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
         ("01-a-stack-of-layers", "drawn", ["C P", "e P"], "'e P' is not drawn by this layer."),
         ("01-a-stack-of-layers", "lamp", ("xl; l := L", ["P", "Q"]), "are on: P, Q."),
         ("01-a-stack-of-layers", "lamp", ("lx; l := L", ["Q"]), "from the left end."),
+        ("01-a-stack-of-layers", "lamp", ("xL", ["Q"]), "as 'cec; c := C' is written"),
         ("01-a-stack-of-layers", "storey", {"By": "PQ", "Ry": "PQQR"}, "There is a hole in it now."),
         ("02-patterns-and-words", "pairs", "A(BA)^k", "It makes ABA, which is not wanted."),
         ("02-patterns-and-words", "pairs", "A(BBA", "A(BBA"),
@@ -174,10 +177,12 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
         ("03-what-is-known-beforehand", "mend", "A A A A^m A^m", "needs 2m + 3 = 2l"),
         ("03-what-is-known-beforehand", "mend", "A^m A^m", "put walls A before it or after it."),
         ("04-what-goes-wrong", "kinds", ["misalignment", "hole", "placement", "hole"], "Look again at 2."),
+        ("04-what-goes-wrong", "other kinds", ["sizing", "hole"], "Look again at 5."),
         ("04-what-goes-wrong", "starts", lambda sizes: [0.0 for _ in sizes], "you say [0.0, 0.0, 0.0]"),
         ("04-what-goes-wrong", "common", lambda a, b: min(a[1], b[1]) - max(a[0], b[0]), "Of (0.0, 0.5)"),
         ("04-what-goes-wrong", "d", "between B and D", "Expected one of"),
         ("04-what-goes-wrong", "free", porch(attached="B"), "before the window at 0.00 to 1.20 m."),
+        ("05-columns-and-constraints", "terms", [1.5, 1.05, 0.3], "Look again at Λ of C/AB."),
         ("05-columns-and-constraints", "C1", lambda column: True, "Of [['soft'], []] you say True."),
         (
             "05-columns-and-constraints",
@@ -207,6 +212,7 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
         ("07-iterative-deepening", "rests", lambda node: 0, "It could say more."),
         ("07-iterative-deepening", "rests", lambda node: node.size, "A node has canvas"),
         ("07-iterative-deepening", "next limit", lambda own: own.limit + 0.1, "pass 2 has the limit 0.1 m"),
+        ("07-iterative-deepening", "ends", [10**8, 10**4], "Look again at from both ends."),
         ("07-iterative-deepening", "tie", lambda column: -column.letters, "It takes up 65 nodes"),
         ("08-candidates-and-proof", "bounds", [0.9, 0.375, 0.2], "Look again at k = 3."),
         ("08-candidates-and-proof", "bound", lambda choice: 0.0, "candidates are aligned; 7 will do"),
@@ -263,6 +269,41 @@ def test_hints_come_before_the_solution(capsys: pytest.CaptureFixture[str]) -> N
         ),
         ("12-the-pipeline-and-a-town", "hides", lambda above, far, reach: above / far, "you say 1."),
         ("13-change-the-solver", "windows", lambda column: 0, "A post still stands before a window"),
+        ("13-change-the-solver", "constraint", lambda column: True, "A post still stands before a window"),
+        ("13-change-the-solver", "constraint", lambda column: False, "Nothing is found any more"),
+        ("13-change-the-solver", "constraint", lambda column: 1, "neither True nor False"),
+        ("13-change-the-solver", "teeth", [5, 0.8], "Look again at the width of each."),
+        (
+            "13-change-the-solver",
+            "battlement",
+            lambda w, h, d: (Block(0, 0, w, h, -d, 0),),
+            "there is stone 0.68 m from the left and 1.12 m up, where nothing should be.",
+        ),
+        (
+            "13-change-the-solver",
+            "battlement",
+            lambda w, h, d: (Block(0, h, w, 0, -d, 0),),
+            "has no room in it",
+        ),
+        (
+            "13-change-the-solver",
+            "mirror",
+            lambda batch, v: replace(batch, x=-batch.x),
+            "you make -2.25, -2.5.",
+        ),
+        (
+            "13-change-the-solver",
+            "mirror",
+            lambda batch, v: replace(batch, x=batch.left + batch.right - batch.x),
+            "Of the ray (0.5, 0.25, -1) you make (0.5, 0.25, -1).",
+        ),
+        ("13-change-the-solver", "shader", "now.at.x = now.scope.left;", "The GLSL compiler says: "),
+        (
+            "13-change-the-solver",
+            "shader",
+            "now.at.x = now.scope.x + now.scope.z - now.at.x;",
+            "pixels differ from NumPy's.",
+        ),
         (
             "13-change-the-solver",
             "pairs",
@@ -339,6 +380,14 @@ def test_the_town_costs_what_was_measured() -> None:
 
 def text(name: str) -> str:
     return (TUTORIALS / f"{name}.ipynb").read_text("utf-8")
+
+
+def test_each_chapter_names_the_one_that_is_printed_after_it() -> None:
+    read = [nbformat.read(TUTORIALS / f"{name}.ipynb", as_version=4).cells for name in CHAPTERS]
+    titles = [pages[0].source.partition("\n")[0].removeprefix("# ") for pages in read]
+    assert [int(title.split()[0]) for title in titles] == list(range(1, 14))
+    for pages, after in zip(read, titles[1:], strict=False):
+        assert f"*{after}*" in pages[-1].source
 
 
 def test_the_page_about_them() -> None:
