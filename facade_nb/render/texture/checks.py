@@ -11,7 +11,7 @@ from .limits import MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS
 from .operators import Kind
 from .program import Rule, Source, children
 
-__all__ = ["Finding", "check_rules", "check_tiles", "recurs", "stack_heights"]
+__all__ = ["Finding", "check_rules", "check_tiles", "depths"]
 
 _MANY = 50
 """Faults that say what may have been meant; nobody reads more."""
@@ -52,19 +52,17 @@ def check_tiles(named: Sequence[tuple[int, str]], tiles: Tiles) -> list[tuple[in
     return found
 
 
-def recurs(rules: Sequence[Rule]) -> bool:
-    """Whether some rule can come back to itself."""
-    return bool(_circles(children(rules)))
+def depths(rules: Sequence[Rule]) -> tuple[bool, tuple[int, int, int]]:
+    """Whether some rule can come back to itself, and how high the stacks of layers, seeds and rooms can become.
 
-
-def stack_heights(rules: Sequence[Rule]) -> tuple[int, int, int]:
-    """How high the stacks of layers, seeds and rooms can become, from whichever rule one begins."""
+    It holds from whichever rule one begins.
+    """
     below = children(rules)
     groups = _components(below)
     frames, seeds, rooms = (
         max(_heights(rules, below, groups, pushes), default=0) for _, _, pushes in _STACKS
     )
-    return frames, seeds, rooms
+    return bool(_circles(below, groups)), (frames, seeds, rooms)
 
 
 def _heights(
@@ -131,7 +129,7 @@ def _structure(rules: tuple[Rule, ...]) -> list[Finding]:
     ]  # -1: one that has a fault of its own
     smaller = [_smaller(rule) for rule in rules]
     stuck = [[to for to in onward if to not in smaller[i]] for i, onward in enumerate(below)]
-    circles = _circles(stuck)
+    circles = _circles(stuck, _components(stuck))
     if circles:
         return [_endless(rules, stuck, group) for group in circles]
     groups = _components(below)
@@ -260,9 +258,9 @@ def _too_long(
     return [Finding(at, None, f"a pixel may take {steps[at]} steps from here: expected at most {MAX_STEPS}")]
 
 
-def _circles(edges: Sequence[Sequence[int]]) -> list[list[int]]:
-    """Groups of rules that lead to each other, or to themselves."""
-    return [group for group in _components(edges) if len(group) > 1 or group[0] in edges[group[0]]]
+def _circles(edges: Sequence[Sequence[int]], groups: Sequence[list[int]]) -> list[list[int]]:
+    """Those of the `_components` in which rules lead to each other, or to themselves."""
+    return [group for group in groups if len(group) > 1 or group[0] in edges[group[0]]]
 
 
 def _components(edges: Sequence[Sequence[int]]) -> list[list[int]]:

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...design.errors import DesignError, Fault, GrammarError, cut, nearest, quoted
 from ...design.names import nfc
 from .atlas import Atlas, Tiles, pack
-from .checks import Finding, check_rules, check_tiles, recurs, stack_heights
+from .checks import Finding, check_rules, check_tiles, depths
 from .compiling import Places, compile_text
 from .encoding import Encoding, Record, encode, read_records
 from .evaluating import Question, Surface, evaluate
@@ -197,6 +197,7 @@ class Grammar:
         if not max(map(abs, place)) < 2**53:
             raise ValueError(f"seed: expected two numbers below 2⁵³; found {seed}")
         names = tuple(rule.name for rule in self.rules)
+        recurs, stacks = self._depths
         return Question(
             self.texture(),
             self._records,
@@ -205,9 +206,9 @@ class Grammar:
             (width, height),
             Seed.of(place),
             self.atlas(tiles, relief),
-            self._recurs,
-            self._stacks[:2],
-            self._stacks[2],
+            recurs,
+            stacks[:2],
+            stacks[2],
             relief,
         )
 
@@ -229,12 +230,8 @@ class Grammar:
         return read_records(self.texture())
 
     @cached_property
-    def _stacks(self) -> tuple[int, int, int]:
-        return stack_heights(self.rules)
-
-    @cached_property
-    def _recurs(self) -> bool:
-        return recurs(self.rules)
+    def _depths(self) -> tuple[bool, tuple[int, int, int]]:
+        return depths(self.rules)
 
     @cached_property
     def _atlas(self) -> Atlas:

@@ -76,14 +76,12 @@ def blobs_of(model: TownModel) -> dict[str, Blob]:
 
 def needs_of(model: TownModel) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Which blocks of vertices each chunk draws: offsets (c + 1,) into the numbers of blocks."""
-    blocks = model.source.indices // BLOCK
-    offsets, numbers = [0], []
-    for first, count in zip(
-        model.source.chunks["first"].tolist(), model.source.chunks["count"].tolist(), strict=True
-    ):
-        numbers += np.unique(blocks[first : first + count]).tolist()
-        offsets.append(len(numbers))
-    return np.array(offsets, np.int32), np.array(numbers, np.int32)
+    blocks, chunks = model.source.indices // BLOCK, model.source.chunks
+    needed = np.zeros((len(chunks), int(blocks.max(initial=0)) + 1), bool)
+    for chunk, first, count in zip(needed, chunks["first"].tolist(), chunks["count"].tolist(), strict=True):
+        chunk[blocks[first : first + count]] = True
+    offsets = np.concatenate([[0], needed.sum(axis=1).cumsum()])
+    return offsets.astype(np.int32), needed.nonzero()[1].astype(np.int32)
 
 
 def row(place: Viewpoint) -> list[float]:

@@ -66,15 +66,18 @@ def _in_the_street(plan: Plan, centre: tuple[float, float]) -> tuple[Viewpoint |
     for k in best.tolist():
         along = (b[k] - a[k]) / max(hypot(*(b[k] - a[k])), 1e-9)
         out = np.array([-along[1], along[0]])  # z runs south: outside is on the left here
+        eye = middle[k] + 7.0 * out
+        room = _free(eye, out, edges)
+        if room <= 4.0:
+            continue
         for way in (along, -along):
-            eye = middle[k] + 7.0 * out
             look = way - 0.3 * out
             free = _free(eye, look / np.hypot(*look), edges)
-            ahead = _free(eye, way, edges)
-            room = _free(eye, out, edges)
-            score = min(ahead, 140.0) + min(free, 60.0) - 3.0 * max(0.0, room - 14.0)
-            if min(room, free) > 4.0 and (street is None or score > street[0]):
-                street = (score, _looking(eye, way - 0.04 * out, 6.0))
+            if free > 4.0:
+                ahead = _free(eye, way, edges)
+                score = min(ahead, 140.0) + min(free, 60.0) - 3.0 * max(0.0, room - 14.0)
+                if street is None or score > street[0]:
+                    street = (score, _looking(eye, way - 0.04 * out, 6.0))
             near = middle[k] + 3.6 * out - 1.1 * way
             score = -abs(float(away[k]) - 60.0) + 8.0 * min(int(tall[k]), 4)
             if room > 6.0 and (close is None or score > close[0]):

@@ -60,7 +60,7 @@ def test_the_grammar_keeps_within_its_bounds() -> None:
     assert set(names) <= set(TILES.names)
     small = pack(SparingTiles(TileSet.builtin(32)), names).pixels.nbytes
     assert small * (256 // 32) ** 2 < 60e6
-    frames, seeds, _ = grammar._stacks
+    _, (frames, seeds, _) = grammar._depths
     assert frames <= 4
     assert seeds <= 2
 
