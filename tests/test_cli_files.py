@@ -197,7 +197,7 @@ class TestOneFile:
         dealt(
             [(c, *pair) for c in COMMANDS for pair in combinations(outputs(c), 2)],
             list(product(KEPT, (False, True))),
-            each=3,
+            each=1,
         ),
     )
     def test_two_outputs(

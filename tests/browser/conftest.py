@@ -27,7 +27,7 @@ from IPython.display import display
 from facade_nb import Design, gallery, solve
 from facade_nb.widgets import *
 def traced(name, **more):
-    return solve(gallery.load(name), trace=True, **more)
+    return solve(gallery.load(name), trace=True, time_limit=None, **more)
 """
 
 Watch = Callable[[str], Notebook]

@@ -26,7 +26,7 @@ display(Studio(model), GrammarEditor(texture))
 ALL = """
 from IPython.display import display
 from facade_nb import solve
-trace = TraceModel.of(solve(gallery.load("figure-7"), trace=True))
+trace = TraceModel.of(solve(gallery.load("figure-7"), trace=True, time_limit=None))
 texture = TextureModel("S -> Mat(Color, 0, 1, 0, 0, 1)", size=(4, 3), lit=False)
 display(
     Studio(model), ElevationView(model), PatternEditor(model), SymbolEditor(model), CounterEditor(model),

@@ -28,10 +28,10 @@ CELLS = [
     from facade_nb import gallery, solve
     from facade_nb.widgets import FacadeModel, SolverView, Studio, ElevationView, TextureStudio
     """,
-    'model = FacadeModel(gallery.load("residential-house"))',
+    'model = FacadeModel(gallery.load("residential-house"), time_limit=600.0)',
     "Studio(model)",
     "ElevationView(model)",
-    'SolverView(solve(gallery.load("figure-7"), trace=True), height=400)',
+    'SolverView(solve(gallery.load("figure-7"), trace=True, time_limit=None), height=400)',
     'TextureStudio("S -> Mat(Color, 0, 1, 0, 0, 1)", size=(4, 3), lit=False, antialias="none")',
 ]
 VIEWS = 4

@@ -20,7 +20,7 @@ CODE = """
 from IPython.display import display
 from facade_nb import gallery, solve
 from facade_nb.widgets import TextureView, WordsView
-display(WordsView(solve(gallery.load("figure-7"), trace=True), tolerance=1.0, step=1.0))
+display(WordsView(solve(gallery.load("figure-7"), trace=True, time_limit=None), tolerance=1.0, step=1.0))
 view = TextureView("S -> SplitX(Rel, 1, Red, Rel, 1, Blue)  Red -> Mat(Color, 0, 1, 0, 0, 1)"
                    "  Blue -> Mat(Color, 0, 0, 0, 1, 1)", lit=False, size=(12, 9), layout={'width': '300px'})
 view"""

@@ -34,7 +34,8 @@ def texts(page: Page, selector: str) -> list[str]:
 
 
 def test_the_supplements_pair_is_on_the_screen(watch: Watch) -> None:
-    lab = watch(PAIR + "AnalysisView(solve(pair('A^k c C^m c A^k; c := C', 'A^k C^l A^k'), trace=True))")
+    own = "pair('A^k c C^m c A^k; c := C', 'A^k C^l A^k')"
+    lab = watch(f"{PAIR}AnalysisView(solve({own}, trace=True, time_limit=None))")
     page = lab.page
     assert texts(page, ".fnb-pair-middle") == ["Cm+2", "Cl"]
     assert texts(page, ".fnb-pair-prefix") == ["Ak", "Ak"]
@@ -54,7 +55,7 @@ def test_the_inconsistent_pair_is_red(watch: Watch) -> None:
         PAIR
         + """
 try:
-    solve(pair("A A^m A^m", "A^l A^l", {"m": {"max": 2}, "l": {"max": 2}}), trace=True)
+    solve(pair("A A^m A^m", "A^l A^l", {"m": {"max": 2}, "l": {"max": 2}}), trace=True, time_limit=None)
 except NoLayout as none:
     failed = none
 AnalysisView(failed)"""

@@ -305,7 +305,7 @@ SLOW = """
 import time
 from facade_nb import solve
 def slowly(design, *, should_stop, **more):
-    layout = solve(design)
+    layout = solve(design, time_limit=None)
     while design.canvas.width == 9 and not should_stop():
         time.sleep(0.01)
     return layout

@@ -62,7 +62,7 @@ def has_room(part: Part) -> bool:
 
 
 @pytest.mark.parametrize("name", GEOMETRIES)
-@settings(max_examples=50)
+@settings(max_examples=25)
 @given(w=SIZES, h=SIZES, d=DEPTHS, mirrored=st.sampled_from(MIRRORED))
 def test_parts_of_any_size(name: str, w: float, h: float, d: float, mirrored: tuple[bool, bool]) -> None:
     h = min(h, 300 / w)  # a window of 100 m by 100 m has 30,000 parts

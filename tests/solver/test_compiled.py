@@ -129,7 +129,7 @@ class TestSearch:
 
 
 class TestDives:
-    @pytest.mark.parametrize("seed", range(60))
+    @pytest.mark.parametrize("seed", range(30))
     def test_random(self, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
         if seed % 2:
             monkeypatch.setattr(tuning, "TALL", 1)
@@ -174,7 +174,7 @@ class TestDesigns:
     def test_gallery(self, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
         self.compare(gallery.load(name), monkeypatch)
 
-    @pytest.mark.parametrize("seed", range(60))
+    @pytest.mark.parametrize("seed", range(30))
     def test_random(self, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
         self.compare(make_design(seed), monkeypatch)
 

@@ -29,7 +29,7 @@ def kernel() -> Iterator[tuple[KernelManager, BlockingKernelClient]]:
         manager.shutdown_kernel(now=True)
 
 
-def answer(client: BlockingKernelClient, sent: str, timeout: float = 60.0) -> dict[str, object]:
+def answer(client: BlockingKernelClient, sent: str, timeout: float | None = None) -> dict[str, object]:
     """What became of a cell."""
     while True:
         reply = client.get_shell_msg(timeout=timeout)
@@ -48,7 +48,6 @@ def value(client: BlockingKernelClient, text: str) -> str:
     return str(found["data"]["text/plain"])
 
 
-@pytest.mark.timeout(120)
 @pytest.mark.parametrize("seconds", [0.1, 0.6])
 @pytest.mark.parametrize("name", ["six counters, no layout", "40 layers"])
 def test_the_stop_button(
@@ -57,7 +56,7 @@ def test_the_stop_button(
     manager, client = kernel
     assert answer(client, client.execute(SETUP))["status"] == "ok"
     sent = client.execute(f"solve(NASTY[{name!r}], time_limit=None)", stop_on_error=False)
-    while client.get_iopub_msg(timeout=60)["msg_type"] != "execute_input":
+    while client.get_iopub_msg(timeout=None)["msg_type"] != "execute_input":
         pass
     time.sleep(seconds)  # wherever it is by then: words, candidates, alignment
     content = None
@@ -67,7 +66,7 @@ def test_the_stop_button(
             content = answer(client, sent, timeout=2.0)
     assert content["status"] == "error" and content["ename"] == "KeyboardInterrupt"
     # Nothing that is kept between calls is spoilt: the same kernel solves on, twice alike.
-    same = "[solve(gallery.load('qualifiers-a')).to_dict() for _ in 'ab']"
+    same = "[solve(gallery.load('qualifiers-a'), time_limit=None).to_dict() for _ in 'ab']"
     assert value(client, f"(lambda a, b: a == b and b['complete'])(*{same})") == "True"
 
 
@@ -107,5 +106,5 @@ print("well")
 
 def test_signals_while_compiled_code_runs() -> None:
     """What a handler raises must not leave wasmtime's callback: that brought the process down, now and then."""
-    ran = subprocess.run([sys.executable, "-c", SIGNALS], capture_output=True, text=True, timeout=120)
+    ran = subprocess.run([sys.executable, "-c", SIGNALS], capture_output=True, text=True)
     assert (ran.returncode, ran.stdout, ran.stderr) == (0, "well\n", "")

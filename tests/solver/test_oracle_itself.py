@@ -144,15 +144,14 @@ class TestFigure4:
         assert {behind for before, behind in zip(top, wall, strict=True) if before == "P"} == {"B"}
         assert wall == list("ADBDADBDA")
 
-    @pytest.mark.parametrize("attached", ["", "B"])
-    def test_then_columns_of_its_own(self, attached: str) -> None:
-        top, wall = (line.split() for line in self.solve(7.8, True, "D", attached))
+    def test_then_columns_of_its_own(self) -> None:
+        """Beside D, and not beside B, which is attached."""
+        top, wall = (line.split() for line in self.solve(7.8, True, "D", "B"))
         places = [number for number, cell in enumerate(top) if cell == "P"]
         assert [wall[place] for place in places] == ["ε", "ε"]
         for place in places:
             beside = {wall[place - 1], wall[place + 1]}
-            assert "D" in beside
-            assert not (attached and "B" in beside)
+            assert "D" in beside and "B" not in beside
 
 
 def small(seed: int) -> Case:

@@ -14,13 +14,10 @@ from tests.oracle.designs import design, make_design
 from tests.oracle.solving import counters_of, group_rows, least_of_both, price_of_layout, sizable, solve_axis
 
 SEEDS = [
-    0, 1, 2, 3, 4, 6, 7, 8, 9, 12, 13, 14, 15, 16, 17, 20, 21, 24, 25, 26, 27, 28, 29, 30, 31, 32, 34,
-    35, 37, 38, 39, 40, 41, 42, 43, 44, 45, 48, 50, 53, 57, 58, 60, 70, 71, 72, 76, 78, 79, 83, 84, 88,
-    90, 91, 94, 98, 103, 104, 106, 107, 108, 109, 111, 112, 113, 114, 115, 119, 121, 123, 124, 129, 130,
-    131, 132, 136, 137, 141, 144, 146, 147, 149, 150, 151, 156, 158, 159, 162, 163, 166, 167, 171, 174,
-    175, 176, 179, 180, 181, 182, 183, 185, 186, 188, 189, 192, 194, 199, 200, 203, 204, 205, 206, 207,
-    212, 214, 216, 217, 220, 221, 223, 224, 226, 232, 234, 236, 237, 238, 239, 240, 242, 244, 245, 246,
-    248, 250, 253, 256, 257, 258,
+    0, 1, 2, 3, 7, 12, 15, 20, 24, 25, 26, 28, 30, 31, 35, 39, 40, 41, 42, 44, 45, 53, 58, 60, 72, 78,
+    79, 88, 91, 94, 104, 106, 108, 112, 114, 115, 123, 124, 130, 131, 132, 136, 141, 144, 149, 150, 156,
+    158, 162, 163, 167, 171, 174, 175, 180, 183, 188, 194, 203, 204, 206, 214, 220, 221, 223, 224, 234,
+    238, 240, 242, 246, 253, 256, 258,
 ]  # fmt: skip
 """Designs that the oracle is quick with (see `tests.oracle.designs`), some of them without a layout."""
 
@@ -51,7 +48,7 @@ def test_random_designs(seed: int) -> None:
     compare(make_design(seed))
 
 
-@pytest.mark.parametrize("seed", SEEDS[::8])
+@pytest.mark.parametrize("seed", SEEDS[::4])
 def test_random_designs_by_the_papers_search(seed: int) -> None:
     compare(make_design(seed), "ida")
 

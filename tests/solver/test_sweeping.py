@@ -106,10 +106,9 @@ class TestWhatIsFound:
 class TestPlaceholders:
     """Rows with letters that are cut, sized or not, and shared or not."""
 
-    @pytest.mark.parametrize("block", range(4))
-    def test_is_an_alignment_and_no_better_than_the_best(self, block: int) -> None:
+    def test_is_an_alignment_and_no_better_than_the_best(self) -> None:
         found = best = as_good = 0
-        for seed in range(200 * block, 200 * block + 200):
+        for seed in range(300):
             case = make_case(random.Random(seed).choice, unsized=bool(seed % 2))
             if not any(case.rows):
                 continue

@@ -314,10 +314,15 @@ def data(name: str) -> Path:
 
 @pytest.mark.parametrize(
     ("name", "buildings", "features"),
-    [("liechtenstein.geojson.gz", 8980, 8994), ("bayreuth.geojson.gz", 4266, 4267)],
+    [("liechtenstein.geojson.gz", 1496, 1499), ("bayreuth.geojson.gz", 4266, 4267)],
 )
 def test_real_towns(name: str, buildings: int, features: int) -> None:
-    town = Town.from_geojson(data(name))
+    """All of a town, which is read as a file; every sixth building of a country, villages apart."""
+    given: Any = data(name)
+    if name.startswith("liechtenstein"):
+        given = json.loads(gzip.decompress(given.read_bytes()))
+        given["features"] = given["features"][::6]
+    town = Town.from_geojson(given)
     assert len(town.buildings) == buildings
     assert buildings + sum(town.left_out.values()) == features
     assert town.buildings["height"].between(2, 30).all()

@@ -19,23 +19,23 @@ __all__ = ["TRACES", "write"]
 
 
 def _gallery(name: str) -> Callable[[], Trace]:
-    return lambda: solve(gallery.load(name), trace=True).trace
+    return lambda: solve(gallery.load(name), trace=True, time_limit=None).trace
 
 
 def _figure_7() -> Trace:
     """The paper's own way: tolerance by tolerance."""
-    return solve(gallery.load("figure-7"), objective=Objective.paper(), trace=True).trace
+    return solve(gallery.load("figure-7"), objective=Objective.paper(), trace=True, time_limit=None).trace
 
 
 def _supplement() -> Trace:
     """The pair of supplement 3.1, m + 2 = l."""
-    return solve(_pair("A^k c C^m c A^k; c := C", "A^k C^l A^k"), trace=True).trace
+    return solve(_pair("A^k c C^m c A^k; c := C", "A^k C^l A^k"), trace=True, time_limit=None).trace
 
 
 def _contradiction() -> Trace:
     """Odd against even: there is no layout, and pattern analysis says why."""
     try:
-        solve(_pair("A A^m A^m", "A^l A^l", {"m": {"max": 2}, "l": {"max": 2}}), trace=True)
+        solve(_pair("A A^m A^m", "A^l A^l", {"m": {"max": 2}, "l": {"max": 2}}), trace=True, time_limit=None)
     except NoLayout as none:
         return none.trace
     raise AssertionError("expected no layout")
@@ -61,12 +61,12 @@ def _pair(over: str, under: str, counters: Mapping[str, Any] | None = None) -> D
 
 def _figure_8(search: str = "best") -> Trace:
     """The network of (CeC, ABABA), with the sizes of Figure 8."""
-    return solve(gallery.load("figure-8"), search=search, trace=True).trace
+    return solve(gallery.load("figure-8"), search=search, trace=True, time_limit=None).trace
 
 
 def _lesson(name: str) -> Trace:
     note = gallery.lesson_note(name)
-    return solve(note.design, search=note.search, trace=True).trace
+    return solve(note.design, search=note.search, trace=True, time_limit=None).trace
 
 
 def _alternation() -> Trace:
@@ -83,7 +83,7 @@ def _alternation() -> Trace:
             "layers": [{"name": "wall", "x": {"pattern": "P"}, "y": {"pattern": "Y"}}],
         }
     )
-    return solve(design, trace=True).trace
+    return solve(design, trace=True, time_limit=None).trace
 
 
 TRACES: Mapping[str, Callable[[], Trace]] = {

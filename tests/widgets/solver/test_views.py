@@ -349,9 +349,8 @@ class TestViews:
         assert AS_RUN not in WordsView(trace)._repr_mimebundle_()[0]["text/html"]
         assert AS_RUN in WordsView(gallery.load("figure-7"))._repr_mimebundle_()[0]["text/html"]
 
-    @pytest.mark.parametrize("name", ["bookshop", "concert-hall", "terraced-house"])
-    def test_the_largest_designs_have_static_forms_that_are_kept(self, name: str) -> None:
-        trace = solve(gallery.load(name), trace=True).trace
+    def test_the_largest_design_has_static_forms_that_are_kept(self) -> None:
+        trace = solve(gallery.load("bookshop"), trace=True).trace
         for cls in VIEWS:
             made = cls(trace)._repr_mimebundle_()
             static = made[0].get("text/html", "")

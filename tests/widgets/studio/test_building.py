@@ -185,4 +185,4 @@ def test_a_studio_knows_nothing_of_pythreejs() -> None:
         "Studio(gallery.load('residential-house'), name='', view='both');"
         "sys.exit('pythreejs' in sys.modules)"
     )
-    assert subprocess.run([sys.executable, "-c", code], check=False, timeout=300).returncode == 0
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -314,7 +314,7 @@ def test_an_outcome_that_comes_after_its_loop_has_closed_waits_for_wait() -> Non
     model = asyncio.run(begin())
     assert model.busy
     gate.open.set()
-    assert model.wait(5.0)
+    assert model.wait(600.0)
     assert model.layout is not None
     assert not model.busy
 

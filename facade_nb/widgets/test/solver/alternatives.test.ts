@@ -10,14 +10,16 @@ import { VIEWS } from "../../src/solver/views/index.ts";
 import { DESIGNS, pieceOf, type Shown, show } from "./fixtures.ts";
 
 const piece = <T>(design: string, name: string) => unpack<T>(pieceOf(design, name));
-const soon = () => new Promise((resolve) => setTimeout(resolve, 200));
+
+/** What was chosen has come. */
+const come = (own: Alternatives) => new Promise<void>((resolve) => own.watch(resolve, new AbortController().signal));
 
 async function chosen(design: string, axis: "x" | "y", number: number) {
   const timeline = new Timeline(await piece<TimelineData>(design, "timeline"));
   const links = new Links([target.candidate(axis, number)]);
   const end = new AbortController();
   const own = new Alternatives((name) => piece(design, name), timeline, links, end.signal);
-  await soon();
+  await come(own);
   return { own, links, timeline };
 }
 
@@ -105,7 +107,7 @@ describe("choosing a candidate", () => {
     if (!kind) throw new Error(`no view ${view}`);
     one = await show(kind, design);
     one.links.pick([target.candidate("x", number)]);
-    await soon();
+    await come(one.alternatives);
     one.go(one.timeline.last);
     return one.view.el;
   };

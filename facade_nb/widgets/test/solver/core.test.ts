@@ -12,6 +12,7 @@ import { Player } from "../../src/solver/player.ts";
 import { Session } from "../../src/solver/session.ts";
 import { Timeline, type TimelineData } from "../../src/solver/timeline.ts";
 import { FakeModel } from "../shared/fake.ts";
+import { eventually } from "../shared/waiting.ts";
 import { DESIGNS, pieceOf } from "./fixtures.ts";
 
 const timelineOf = async (design: string): Promise<Timeline> =>
@@ -118,7 +119,7 @@ describe("the bar of the player", () => {
     expect(bar.querySelectorAll(".fnb-play-stage")).toHaveLength(timeline.data.stages.length);
     expect(bar.querySelectorAll(".fnb-play-mark")).toHaveLength(timeline.data.marks.length);
     const caption = bar.querySelector(".fnb-play-caption");
-    await vi.waitFor(() => expect(caption?.textContent).toBe("solve was asked for Apartment house."));
+    await eventually(() => expect(caption?.textContent).toBe("solve was asked for Apartment house."));
     player.step(1);
     expect(caption?.textContent).toMatch(/^Horizontally, 21 m to fill/);
     // While a view asks, it says nothing, and marks nothing from where the answer is told.
@@ -335,7 +336,7 @@ describe("a session", () => {
     const session = Session.of(model);
     expect(Session.of(model)).toBe(session);
     const both = Promise.all([session.piece("words"), session.piece("words")]);
-    await vi.waitFor(() => expect(model.asked).toEqual([{ op: "provide", names: ["words"] }]));
+    await eventually(() => expect(model.asked).toEqual([{ op: "provide", names: ["words"] }]));
     model.set({ words: pieceOf("figure-7", "words") });
     const [one, other] = await both;
     expect(one).toBe(other);
@@ -358,9 +359,9 @@ describe("a session", () => {
     expect(player.position).toBe(5);
     player.go(8);
     player.go(9);
-    await vi.waitFor(() => expect(model.get("position")).toBe(9));
+    await eventually(() => expect(model.get("position")).toBe(9));
     model.set({ position: -1 });
-    await vi.waitFor(() => expect(player.atEnd).toBe(true));
+    await eventually(() => expect(player.atEnd).toBe(true));
     end.abort();
   });
 

@@ -1,6 +1,7 @@
-import { afterEach, describe, expect, it, vi } from "vitest";
+import { afterEach, describe, expect, it } from "vitest";
 import { target } from "../../src/solver/links.ts";
 import { facade } from "../../src/solver/views/facade.ts";
+import { eventually } from "../shared/waiting.ts";
 import { type Shown, show } from "./fixtures.ts";
 
 let one: Shown;
@@ -70,7 +71,7 @@ describe("the façade", () => {
     const [, , width = 0, height] = viewBox();
     const edge = () => one.view.el.querySelector(".fnb-traced-beyond");
     one.links.pick([target.candidate("x", 3)]); // (AB)5A, 9 m
-    await vi.waitFor(() => expect(edge()?.querySelector("text")?.textContent).toBe("canvas 6 m"));
+    await eventually(() => expect(edge()?.querySelector("text")?.textContent).toBe("canvas 6 m"));
     const boxes = [...one.view.el.querySelectorAll(".fnb-traced-other [data-x]")].map((each) => {
       const cell = each.querySelector("rect.cell");
       const [move = 0, by = 1] =
@@ -89,7 +90,7 @@ describe("the façade", () => {
     expect(edge()?.children).toHaveLength(0);
     // One that is shorter needs no more room.
     one.links.pick([target.candidate("x", 4)]);
-    await vi.waitFor(() => expect(note()).toContain("not the layout"));
+    await eventually(() => expect(note()).toContain("not the layout"));
     expect(viewBox()).toEqual([0, 0, width, height]);
     expect(note()).not.toContain("beyond");
   });
@@ -102,7 +103,7 @@ describe("the façade", () => {
     const plain = (all: Element[]) => all.filter((each) => !each.querySelector("use")).length;
     expect(plain(windows("svg"))).toBe(7); // the first floor's stand behind its own layers
     one.links.pick([target.candidate("y", 3)]);
-    await vi.waitFor(() => expect(windows(".fnb-traced-other").length).toBeGreaterThan(7));
+    await eventually(() => expect(windows(".fnb-traced-other").length).toBeGreaterThan(7));
     expect(plain(windows(".fnb-traced-other"))).toBe(0);
   });
 
@@ -171,7 +172,7 @@ describe("the façade", () => {
       expect([loads().length, legend()]).toEqual([0, "Forces are not shown while a view asks."]);
       one.asking.set(one, null);
       one.links.pick([target.candidate("x", 1)]);
-      await vi.waitFor(() => expect(legend()).toBe("Forces are told of the layout only."));
+      await eventually(() => expect(legend()).toBe("Forces are told of the layout only."));
       expect(loads()).toHaveLength(0);
     });
   });

@@ -43,6 +43,7 @@ export interface Shown {
   player: Player;
   links: Links;
   asking: Asking;
+  alternatives: Alternatives;
   timeline: Timeline;
   /** Go to a position, and show it at once. */
   go(position: number): void;
@@ -87,6 +88,7 @@ export async function show(kind: ViewKind, design: string, traits: Record<string
     player,
     links,
     asking,
+    alternatives,
     timeline,
     go(position) {
       player.go(position);
