@@ -35,7 +35,7 @@ class Move:
         Given points (`Batch`) and v, the points as they go on: ``replace(batch, x=…)``.
     glsl
         The same as statements of GLSL, on ``now``, the state of one pixel, and on ``v``: ``now.at.x = …;``. Empty:
-        only NumPy (``backend="cpu"``) draws it.
+        where OpenGL draws, it goes on with the rule as if nothing had been done.
     value
         Whether it is written with a number.
     """
@@ -84,7 +84,7 @@ def trying(own: Geometry | Move) -> Iterator[None]:
 def _check(name: str, taken: Collection[str], form: str, what: str, such: str) -> None:
     if not re.fullmatch(form, name):
         raise ValueError(f"trying: expected the name of {what} such as {such!r}, found {name!r}")
-    if name in taken:
+    if name.upper() in {known.upper() for known in taken}:  # the shader has them in capitals
         raise ValueError(f"trying: there is {what} {name!r} already; give yours another name")
 
 

@@ -99,6 +99,7 @@ def test_two_at_once_one_of_them_with_a_number() -> None:
         (Geometry("box", half, ""), "there is a geometry 'box' already"),
         (Geometry("My Box", half, ""), "such as 'battlement', found 'My Box'"),
         (Move("RandUni", mirror), "there is an operator 'RandUni' already"),
+        (Move("RANDUNI", mirror), "there is an operator 'RANDUNI' already"),
         (Move("mirror", mirror), "such as 'MirrorX', found 'mirror'"),
     ],
 )

@@ -13,7 +13,7 @@ from importlib.resources import files
 
 from .evaluating import BELOW_ONE, OPAQUE
 from .limits import GRAIN, MAX_FACES, MAX_FRAMES, MAX_SEEDS, MAX_STEPS, half_step_of
-from .operators import FIRST_TRIED, OPERATORS, USAGES, Operator
+from .operators import OPERATORS, USAGES, Operator
 
 __all__ = ["PROFILES", "constants", "room", "rooms_for", "shader"]
 
@@ -87,15 +87,16 @@ def _included(name: str, seen: set[str]) -> Iterator[str]:
 
 def _tried(operators: Sequence[Operator]) -> str:
     """The functions of ``tried.glsl`` for operators that are being tried."""
-    branches = []
+    codes = [f"code == OP_{own.name.upper()}" for own in operators]
+    branches: list[str] = []
     for own in operators:
         value = f"head.{own.name}_v" if "v" in own.head else "0.0"
         branches.append(
-            f"  if (code == OP_{own.name.upper()}) {{\n"
+            f"  if ({codes[len(branches)]}) {{\n"
             f"    float v = {value};\n    {own.glsl}\n    now.rule = ivec2(head.{own.name}_R);\n  }}\n"
         )
     return (
-        f"bool tried(int code) {{ return code >= {FIRST_TRIED} && code < {FIRST_TRIED + len(operators)}; }}\n"
+        f"bool tried(int code) {{ return {' || '.join(codes)}; }}\n"
         f"void try_out(inout State now, vec4 head, int code) {{\n{''.join(branches)}}}\n"
     )
 
