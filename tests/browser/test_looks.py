@@ -41,7 +41,7 @@ CONTRASTS = """() => {
 def test_small_text_can_be_read_in_both_themes(show: Callable[[str], Notebook]) -> None:
     lab = show("Studio(model)")
     for theme in ("JupyterLab Dark", "JupyterLab Light"):
-        lab.theme(theme)  # type: ignore[arg-type]
+        lab.theme(theme)
         frames(lab.page, 3)
 
         def read() -> None:
