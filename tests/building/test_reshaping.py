@@ -75,6 +75,14 @@ def test_plan_corners_and_roof_are_edited_and_undone(studio: BuildingStudio) -> 
     assert "found &#x27;high&#x27;" in studio._panel._fault.value and studio.building == before
     field(studio, "Depth").value = 0.01
     assert "expected walls of at least 0.1 m" in studio._panel._fault.value and studio.building == before
+    for wall in range(1, 5):
+        field(studio, f"Wall {wall}").value = ""
+    assert "all would be blind" in studio._panel._fault.value and studio.building.walls[3] == "Front"
+    for wall, design in enumerate(HOUSE.walls, 1):
+        field(studio, f"Wall {wall}").value = design
+    for _ in range(6):
+        studio.undo()
+    assert studio.building == before
     studio.model.enter("symbols.G.size", "3.6")
     for _ in range(4):
         studio._panel.undo_button.click()

@@ -178,7 +178,10 @@ def _with_length(name: str, building: Building, value: float) -> Building:
 
 
 def _with_wall(number: int, building: Building, design: str) -> Building:
-    return walled(building, number, design or None)
+    made = walled(building, number, design or None)
+    if not any(made.walls):
+        raise ValueError(f"wall {number + 1}: expected a design on one wall at least; all would be blind")
+    return made
 
 
 def _with_corner(number: int, building: Building, kind: Treatment | None) -> Building:
