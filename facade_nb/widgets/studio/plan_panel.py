@@ -46,7 +46,8 @@ class PlanPanel(VBox):
         self.undo_button.on_click(lambda _: undo())
         self.redo_button.on_click(lambda _: redo())
         self._fault = HTML()
-        super().__init__()
+        self._rows = [HBox(layout={"flex_flow": "row wrap"}) for _ in range(4)]
+        super().__init__([*self._rows, HBox([self.undo_button, self.redo_button]), self._fault])
         self.add_class("facade-nb-plan")
 
     def show(self, building: Building, *, undo: bool, redo: bool) -> None:
@@ -64,8 +65,9 @@ class PlanPanel(VBox):
             ]
         finally:
             self._quiet = False
-        buttons = HBox([self.undo_button, self.redo_button])
-        self.children = [*(HBox(row, layout={"flex_flow": "row wrap"}) for row in rows), buttons, self._fault]
+        for box, row in zip(self._rows, rows, strict=True):
+            if box.children != tuple(row):  # what stays in its place keeps the focus
+                box.children = row
 
     def _plan(self, building: Building) -> list[Any]:
         kind, lengths = plan_of(building)
