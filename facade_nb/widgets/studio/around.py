@@ -185,7 +185,7 @@ class BuildingStudio(VBox):
         design = replace(
             self.building.designs[key], canvas=Canvas(self._width_of(wall), self.building.height)
         )
-        before, self.wall = self.wall, wall
+        before = self.wall
         if wall not in self._studios:
             model = FacadeModel(design, time_limit=self._time_limit, solve=self._solver(wall))
             self._models[wall] = model
@@ -196,6 +196,7 @@ class BuildingStudio(VBox):
             self._models[wall].load(design)
         elif self._found is not None and self._found[0] != self.building:  # other walls have changed
             self._models[wall].solve_for(self._time_limit)
+        self.wall = wall  # last: it has a model then, whichever thread asks
         if before in self._studios:  # one goes on looking as one did
             self._studios[wall].view = self._studios[before].view
             self._studios[wall].hour = self._studios[before].hour
