@@ -12,7 +12,7 @@ from ..render.pipeline.solids import Solids, combined, solids_scene
 from ..render.scene import Triangles, triangles_of
 from ..solver.model.layout import Rect
 from .bodies import Frame, bodies_of, deepest, drawn_by, rules_of
-from .layout import BuildingLayout
+from .layout import BuildingLayout, SolvedFace
 from .roofline import wall_material
 from .roofs import outline, roofing
 
@@ -95,8 +95,16 @@ def _core(layout: BuildingLayout, back: float) -> Floats:
     return np.concatenate(found) if found else np.zeros((0, 3, 3))
 
 
-def solids_of_building(layout: BuildingLayout, *, ground: bool = True) -> Solids:
-    """The scene of a building. Its triangles name shapes by face and index: those of all faces one after the other."""
+def solids_of_building(
+    layout: BuildingLayout, *, ground: bool = True, before: SolvedFace | None = None
+) -> Solids:
+    """The scene of a building. Its triangles name shapes by face and index: those of all faces one after the other.
+
+    Parameters
+    ----------
+    before
+        A face that is to be in the plane z = 0, its lower left corner the origin.
+    """
     back, library = deepest(layout), rules_of(layout)
     parts: list[tuple[Triangles, list[Rect], Frame | None, int]] = []
     first = 0
@@ -117,6 +125,9 @@ def solids_of_building(layout: BuildingLayout, *, ground: bool = True) -> Solids
             solids = solids.moved(frame.origin, frame.axes)
         shapes = np.where(solids.shapes >= 0, solids.shapes + start, solids.shapes)
         made.append(replace(solids, shapes=shapes))
+    if before is not None:
+        place = Frame.of(before)
+        made = [part.moved(-place.origin @ place.axes.T, place.axes.T) for part in made]
     return combined(made, names, library, ground=ground)
 
 

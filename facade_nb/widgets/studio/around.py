@@ -5,20 +5,24 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from html import escape
 from pathlib import Path
 from typing import Any
 
-from ipywidgets import HTML, ToggleButtons, VBox
+from ipywidgets import HTML, Accordion, ToggleButtons, VBox
 from traitlets import Instance, Unicode
 
 from ...building import Building, BuildingLayout
 from ...building.faces import faces
 from ...design import Design
 from ...design.model import Canvas
+from ...render.pipeline.solids import Solids
 from ...solver import Layout
 from .model import FacadeModel
+from .plan_panel import PlanPanel
 from .studio import Studio
+from .whole import Whole, solids_around
 
 __all__ = ["BuildingStudio"]
 
@@ -28,10 +32,12 @@ _TALL = 240
 
 
 class BuildingStudio(VBox):
-    """A strip with all walls, a choice of one, and a `Studio` for its design.
+    """A strip with all walls, fields for plan, corners and roof, a choice of a wall, and a `Studio` for its design.
 
-    An edit solves the whole building again: what changes the heights of one wall changes those of all. Walls of one
-    design change together. The height of the canvas is the building's; its width is that of the wall in the plan.
+    The studio's 3D shows the whole building, the chosen wall in front and marked; a click on another wall chooses that.
+    Plan, corners and roof have an undo of their own. An edit solves the whole building again: what changes the heights
+    of one wall changes those of all. Walls of one design change together. The height of the canvas is the building's;
+    its width is that of the wall in the plan.
 
     Parameters
     ----------
@@ -66,7 +72,12 @@ class BuildingStudio(VBox):
         self._strip = HTML(layout={"width": "100%"})
         self._choice = ToggleButtons(description="", style={"button_width": "auto"})
         self._choice.add_class("facade-nb-walls")
-        super().__init__(children=[self._strip, self._choice])
+        self._past: list[Building] = []
+        self._future: list[Building] = []
+        self._wholes: dict[str, tuple[Layout, BuildingLayout]] = {}
+        self._panel = PlanPanel(self._reshape, self.undo, self.redo)
+        self._plan = Accordion([self._panel], titles=("Plan, corners and roof",), selected_index=None)
+        super().__init__(children=[self._strip, self._plan, self._choice])
         self.building = building
         self._offer()
         self._choice.observe(lambda change: self._choose(change["new"]), "value")
@@ -85,6 +96,22 @@ class BuildingStudio(VBox):
             raise ValueError(f"expected one of {', '.join(names)}; found {wall!r}")
         self._choice.value = wall
 
+    def reshape(self, building: Building) -> None:
+        """Go on with a building of another plan, other corners or another roof, as one step that `undo` takes back."""
+        self._reshape(building)
+
+    def undo(self) -> None:
+        """Take back the last change of plan, corners or roof; designs stay as they are now."""
+        if self._past:
+            self._future.append(self.building)
+            self._go_on(_with_designs(self._past.pop(), self.building))
+
+    def redo(self) -> None:
+        """Make again what was taken back last."""
+        if self._future:
+            self._past.append(self.building)
+            self._go_on(_with_designs(self._future.pop(), self.building))
+
     def close(self) -> None:
         """Stop solving, and close all widgets."""
         for model in self._models.values():
@@ -97,7 +124,44 @@ class BuildingStudio(VBox):
         options = [(f"{face.name} · {face.design} · {face.length:.2f} m", face.name) for face in around]
         quoins = {own.design: number for number, own in self.building.corners.items() if own.kind == "quoins"}
         options += [(f"quoins · {design}", f"quoins {design}") for design in quoins]
-        self._choice.options = options or [("no walls", "")]
+        self._offering = True
+        try:
+            self._choice.options = options or [("no walls", "")]
+        finally:
+            self._offering = False
+        self._panel.show(self.building, undo=bool(self._past), redo=bool(self._future))
+
+    def _reshape(self, building: Building) -> None:
+        self._past.append(self.building)
+        self._future.clear()
+        self._go_on(building)
+
+    def _go_on(self, building: Building) -> None:
+        """Take on another plan, other corners or another roof. Walls that keep their design keep their undo."""
+        before = {wall: self._design_of(wall) for wall in self._models}
+        self._assign(building)
+        wall = self.wall
+        self._offer()
+        names = [value for _, value in self._choice.options]
+        for name, design in before.items():
+            if name not in names or self._design_of(name) != design:
+                self._models.pop(name).close()
+                self._studios.pop(name)
+        self._choice.value = wall if wall in names else names[0]
+        self._choose(self._choice.value)
+
+    def _assign(self, building: Building) -> None:
+        self.unobserve(self._replaced, "building")
+        self.building = building
+        self.observe(self._replaced, "building")
+
+    def _walls(self) -> list[str]:
+        return [value for _, value in self._choice.options]
+
+    def _around(self, wall: str, layout: Layout) -> Solids | None:
+        """The building around a layout of a wall's model."""
+        own, whole = self._wholes.get(wall, (None, None))
+        return solids_around(whole, wall, layout, self._walls()) if whole and own is layout else None
 
     def _design_of(self, wall: str) -> str:
         """The name of the design of a choice."""
@@ -115,23 +179,28 @@ class BuildingStudio(VBox):
 
     def _choose(self, wall: str | None) -> None:
         """Show the studio of a wall."""
-        if not wall:
+        if not wall or self._offering:
             return
         key = self._design_of(wall)
         design = replace(
             self.building.designs[key], canvas=Canvas(self._width_of(wall), self.building.height)
         )
-        self.wall = wall
+        before = self.wall
         if wall not in self._studios:
             model = FacadeModel(design, time_limit=self._time_limit, solve=self._solver(wall))
             self._models[wall] = model
+            model.whole = Whole(self._walls, partial(self._around, wall), self._choose_number)
             self._studios[wall] = Studio(model, **self._given)
             model.observe(lambda _: self._follow(wall), "version")
         elif self._models[wall].design != design:  # it has changed on another wall of the same design
             self._models[wall].load(design)
         elif self._found is not None and self._found[0] != self.building:  # other walls have changed
             self._models[wall].solve_for(self._time_limit)
-        self.children = [self._strip, self._choice, self._studios[wall]]
+        self.wall = wall  # last: it has a model then, whichever thread asks
+        if before in self._studios:  # one goes on looking as one did
+            self._studios[wall].view = self._studios[before].view
+            self._studios[wall].hour = self._studios[before].hour
+        self.children = [self._strip, self._plan, self._choice, self._studios[wall]]
         self._follow(wall)
 
     def _solver(self, wall: str) -> Callable[..., Layout]:
@@ -147,9 +216,17 @@ class BuildingStudio(VBox):
             building = self._with(wall, design)
             layout = building.solve(time_limit=time_limit, should_stop=should_stop)
             self._found = building, layout, _strip_of(layout, wall)
-            return _own(layout, wall, design)
+            own = _own(layout, wall, design)
+            self._wholes[wall] = own, layout
+            return own
 
         return solved
+
+    def _choose_number(self, number: int) -> None:
+        """Edit the wall of that number among those to choose."""
+        names = self._walls()
+        if 0 <= number < len(names):
+            self.choose(names[number])
 
     def _with(self, wall: str, design: Design) -> Building:
         """The building with another design on a wall, and on all walls of that design."""
@@ -169,9 +246,8 @@ class BuildingStudio(VBox):
             return
         changed = self._with(wall, model.design)
         if changed != self.building:
-            self.unobserve(self._replaced, "building")
-            self.building = changed
-            self.observe(self._replaced, "building")
+            self._assign(changed)
+            self._panel.show(changed, undo=bool(self._past), redo=bool(self._future))
         if self._found is not None and self._found[0] == self.building:
             self.solved = self._found[1]
             self._strip.value = self._found[2]
@@ -182,6 +258,9 @@ class BuildingStudio(VBox):
             model.close()
         self._models.clear()
         self._studios.clear()
+        self._wholes.clear()
+        self._past.clear()
+        self._future.clear()
         self._found = None
         wall = self.wall
         self._offer()
@@ -189,6 +268,11 @@ class BuildingStudio(VBox):
         self._choice.value = wall if wall in names else names[0]
         if self.wall not in self._models:
             self._choose(self._choice.value)
+
+
+def _with_designs(building: Building, now: Building) -> Building:
+    """A building as it was, with its designs and its height as they are now."""
+    return replace(building, designs={**building.designs, **now.designs}, height=now.height)
 
 
 def _own(layout: BuildingLayout, wall: str, design: Design) -> Layout:

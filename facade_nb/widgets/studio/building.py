@@ -90,7 +90,9 @@ class BuildingView(Part):
         layout = self.model.layout
         if layout is None:
             raise ValueError("there is no layout yet, and so no building to look at")
-        box = solids_of(layout, ground=False).box
+        whole = self.model.whole
+        solids = whole.solids(layout) if whole else None
+        box = (solids or solids_of(layout, ground=False)).box
         target = np.array(self.target) if self.target else box.mean(axis=0)
         out = _outward(self.turn, self.rise)
         x, y, z = target + (self.distance or _distance(box, pixels[0] / pixels[1])) * out

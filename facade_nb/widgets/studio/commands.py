@@ -77,6 +77,12 @@ def _select(model: FacadeModel, message: Message) -> Reply:
     return None
 
 
+def _wall(model: FacadeModel, message: Message) -> Reply:
+    if model.whole is not None:
+        model.whole.choose(int(message["wall"]))
+    return None
+
+
 def _toggle(model: FacadeModel, message: Message) -> Reply:
     # What is picked is known here alone: to a second click that comes before the answer to the first, too.
     model.toggle(
@@ -322,6 +328,7 @@ COMMANDS: dict[str, Callable[[FacadeModel, Message], Reply]] = {
     "redo": _redo,
     "select": _select,
     "toggle": _toggle,
+    "wall": _wall,
     "save": _save,
     "open": _open,
     "gallery": _gallery,

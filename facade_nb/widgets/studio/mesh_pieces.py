@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from functools import lru_cache
 from typing import Any
@@ -68,8 +69,8 @@ def works_piece(grammar: Grammar) -> bytes:
     )
 
 
-def mesh_piece(solids: Solids, layout: Layout) -> bytes:
-    """The triangles of a layout, and to which shape each belongs."""
+def mesh_piece(solids: Solids, layout: Layout, walls: Sequence[str] = ()) -> bytes:
+    """The triangles of a layout, and to which shape each belongs, or to which of the other walls of its building."""
     scene = solids.scene
     vertices = scene.vertices
     fields: Any = VERTEX.fields
@@ -93,6 +94,7 @@ def mesh_piece(solids: Solids, layout: Layout) -> bytes:
             "body": solids.box.reshape(-1).tolist(),
             "canvas": [layout.canvas.width, layout.canvas.height],
             "names": names,
+            "walls": list(walls),
             "placed": np.array(
                 [number[name] for shape in layout.shapes for name in (shape.layer, shape.x, shape.y)],
                 np.int32,

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from traitlets import Any as AnyTrait
 from traitlets import Bool, Float, Instance, Int, Unicode
@@ -22,6 +22,9 @@ from .background import LatestSolver, Outcome, Solve
 from .fields import Path
 from .handles import Linkable
 from .newcomers import Newcomers
+
+if TYPE_CHECKING:
+    from .whole import Whole
 
 __all__ = ["Draft", "FacadeModel", "Selection"]
 
@@ -107,6 +110,8 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         self.time_limit = time_limit
         #: The layer that was shown alone last, and those that were shown before.
         self.alone: tuple[str, frozenset[str]] = ("", frozenset())
+        #: The building that the façade is a wall of, for the 3D view; none for a façade by itself.
+        self.whole: Whole | None = None
         self._history = History(_Snapshot(self.design))
         self._revision = 0
         self._reason = ""

@@ -54,14 +54,15 @@ class Scenery(Extras):
             return
         self._meshed = layout
         try:
-            solids = solids_of(layout)
+            whole = self.model.whole
+            solids = (whole.solids(layout) if whole else None) or solids_of(layout)
         except DesignError:  # a material that there is not: the elevation says so; the last good mesh stays
             return
         grammar = solids.scene.grammar
         with self.hold_sync():
             if grammar is not self._grammar:
                 self.works, self._grammar = works_piece(grammar), grammar
-            self.mesh = mesh_piece(solids, layout)
+            self.mesh = mesh_piece(solids, layout, whole.walls() if whole else ())
 
     def _drop_mesh(self) -> None:
         if self._meshing is not None:

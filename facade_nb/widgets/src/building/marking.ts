@@ -12,6 +12,7 @@ import { met, type Seen, seenBy } from "./seen.ts";
 import type { Vector } from "./types.ts";
 
 const NONE: ReadonlySet<number> = new Set();
+const OTHER = -3; // as whole.py has it
 
 interface Named {
   layer: string;
@@ -26,6 +27,8 @@ export interface Marking {
   meet(across: number, up: number): { point: Vector; shape: number } | null;
   /** The pointer is there; null: it has left. */
   hover(at: { across: number; up: number } | null): void;
+  /** The number of the wall of a building that a triangle is of, when it is another than that edited; -1: none. */
+  wallOf(shape: number): number;
 }
 
 interface Parts {
@@ -59,7 +62,13 @@ export function marking({ store, signal }: Context, { canvas, over, data, scener
       pairs.length > 0
         ? own.layer === layer && pairs.some(([a, b]) => own.x === a && own.y === b)
         : (layer !== "" && own.layer === layer) || (x !== "" && own.x === x) || (y !== "" && own.y === y);
-    return { picked: shape ?? -1, alike: layer || x || y ? shapesLike(alike) : NONE, lit, hovered };
+    return {
+      picked: shape ?? -1,
+      alike: layer || x || y ? shapesLike(alike) : NONE,
+      lit,
+      hovered,
+      framed: (data.mesh?.walls.length ?? 0) > 1,
+    };
   };
   const draw = () => {
     const paper = over.getContext("2d");
@@ -99,8 +108,13 @@ export function marking({ store, signal }: Context, { canvas, over, data, scener
     const point = eye.map((at, k) => at + found.far * (ray[k] as number)) as Vector;
     return { point, shape: mesh.shapes[found.triangle] as number };
   };
+  const wallOf = (shape: number) => (shape <= OTHER ? OTHER - shape : -1);
   const hover: Marking["hover"] = (at) => {
-    const shape = Math.max(-1, (at && meet(at.across, at.up)?.shape) ?? -1);
+    const found = (at && meet(at.across, at.up)?.shape) ?? -1;
+    const shape = Math.max(-1, found);
+    const wall = data.mesh?.walls[wallOf(found)];
+    mark(canvas, "title", wall ? `Edit ${wall}` : null);
+    mark(canvas, "data-wall", wall ?? null);
     if (shape === hovered) return;
     hovered = shape;
     mark(canvas, "data-over", shape >= 0);
@@ -122,5 +136,5 @@ export function marking({ store, signal }: Context, { canvas, over, data, scener
   );
   store.watch(["selection"], show);
   signal.addEventListener("abort", () => cancelAnimationFrame(frame));
-  return { show, meet, hover };
+  return { show, meet, hover, wallOf };
 }

@@ -8,6 +8,8 @@ export interface Marked {
   alike: ReadonlySet<number>;
   lit: ReadonlySet<number>;
   hovered: number;
+  /** Whether the shapes together, which are one wall of a building, have an outline. */
+  framed?: boolean;
 }
 
 type Colour = [red: number, green: number, blue: number, alpha: number];
@@ -20,8 +22,8 @@ const COLOURS: Record<"picked" | "alike" | "lit" | "hovered" | "tint", Colour> =
 };
 const SHADE: Colour = [10, 30, 60, 150]; // beside a bright line, so that it is seen on bright walls
 
-export const isMarked = ({ picked, alike, lit, hovered }: Marked): boolean =>
-  picked >= 0 || hovered >= 0 || alike.size > 0 || lit.size > 0;
+export const isMarked = ({ picked, alike, lit, hovered, framed }: Marked): boolean =>
+  !!framed || picked >= 0 || hovered >= 0 || alike.size > 0 || lit.size > 0;
 
 /** Draw them; `wide`: pixels of a line. */
 export function drawMarks(seen: Seen, shapes: Int32Array, marked: Marked, to: ImageData, wide: number): void {
@@ -48,6 +50,11 @@ export function drawMarks(seen: Seen, shapes: Int32Array, marked: Marked, to: Im
       const shape = own[k] as number;
       const rank = shape < 0 ? 0 : (ranks[shape] as number);
       const hover = shape >= 0 && shape === marked.hovered;
+      if (marked.framed && shape >= 0 && rank < 2 && !hover) {
+        const far = 3 * wide;
+        if (at(x - far, y) < 0 || at(x + far, y) < 0 || at(x, y - far) < 0 || at(x, y + far) < 0)
+          out[k] = colours[3] as number;
+      }
       if (!rank && !hover) continue;
       const edge = (far: number) =>
         at(x - far, y) !== shape || at(x + far, y) !== shape || at(x, y - far) !== shape || at(x, y + far) !== shape;

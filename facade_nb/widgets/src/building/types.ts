@@ -33,13 +33,15 @@ export interface Packed {
   facet: Int32Array;
   indices: Int32Array;
   turning: number;
-  /** The shape that each triangle belongs to; below 0: none. */
+  /** The shape that each triangle belongs to; -1, -2: none; from OTHER down another wall, by its number in `walls`. */
   shapes: Int32Array;
   /** Least and greatest coordinates of what throws shadows, and of the building. */
   sunny: number[];
   body: number[];
   canvas: [width: number, height: number];
   names: string[];
+  /** The walls of a building that can be chosen; empty: it is a façade by itself. */
+  walls: string[];
   /** Layer and symbols of each shape: numbers of names. */
   placed: Int32Array;
 }

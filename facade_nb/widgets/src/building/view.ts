@@ -152,7 +152,9 @@ export function building(view: Context, model: WidgetModel): HTMLElement {
       meet: (across, up) => marks.meet(across, up)?.point ?? null,
       clicked(across, up) {
         const shape = marks.meet(across, up)?.shape ?? -1;
-        store.ask(shape >= 0 ? { op: "select", shape } : { op: "select" });
+        const wall = marks.wallOf(shape);
+        if (wall >= 0) store.ask({ op: "wall", wall });
+        else store.ask(shape >= 0 ? { op: "select", shape } : { op: "select" });
       },
       hovered: marks.hover,
       save: () => store.kernel.save(model),

@@ -15,6 +15,7 @@ const PACKED: Packed = {
   body: [0, 0, 0, 1, 1, 1],
   canvas: [1, 1],
   names: ["a"],
+  walls: [],
   placed: Int32Array.of(0, 0, 0),
 };
 
