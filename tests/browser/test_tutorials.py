@@ -95,7 +95,9 @@ def test_each_question_is_answered_as_the_text_says(run: Notebook, out: Path) ->
     page.screenshot(path=out / "tutorial-network.png")
 
     own = cell(page, "AlignmentView(slender")
-    own.locator(".fnb-offers li", has_text=re.compile(r"front: ?Cwalls: ?A ?J with it")).get_by_role("radio").check()
+    own.locator(".fnb-offers li", has_text=re.compile(r"front: ?Cwalls: ?A ?J with it")).get_by_role(
+        "radio"
+    ).check()
     expect(answer(own)).to_contain_text("Right.")
     expect(own.locator(".fnb-offers")).to_contain_text("no row stands behind it with opaque letters (C1)")
 

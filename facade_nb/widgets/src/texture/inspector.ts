@@ -128,15 +128,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
         : "Click the façade, or press Enter on it, to see how a pixel comes about.",
     );
   }, signal);
-  return h(
-    "section",
-    { class: "fnb-tex-inspector", "aria-label": "Pixel inspector" },
-    top,
-    bar.el,
-    offered,
-    list,
-    detail,
-  );
+  return h("section", { class: "fnb-tex-inspector", "aria-label": "Pixel inspector" }, top, offered, list, detail);
 }
 
 function questionOf({ options, right, at, size, across }: Split): Question {

@@ -288,7 +288,8 @@ class CandidatesView implements View {
     const asked = this.quiz.hides && column?.tells ? column.asked : undefined;
     const value = asked ?? (column ? column.value : (each: Candidate) => each.words[name] ?? null);
     // In the order in which they are told the best often comes first.
-    const hidden = this.quiz.hides && ((column?.tells && !asked) || name === "number");
+    // Nor do rows change places when the answer is told.
+    const hidden = (this.quiz.hides && column?.tells && !asked) || (this.quiz.on && name === "number");
     const order = (a: Candidate, b: Candidate): number => {
       const [x, y] = [value(a), value(b)];
       if (x === y) return a.number - b.number;
