@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from .repeats import letters
 from .structure import Line, Structure, clusters
 
-__all__ = ["Axis", "Names", "agreement", "fit", "measured", "named", "renumbered"]
+__all__ = ["Axis", "Names", "agreement", "count_letters", "fit", "measured", "named", "renumbered", "solved"]
 
 Names = tuple[tuple[int, ...], ...]
 """For each line the symbol of each token."""
@@ -71,13 +71,25 @@ def renumbered(names: Names) -> Names:
 def fit(lines: Sequence[Line], names: Names, canvas: float, *, mirrors: bool) -> Axis | None:
     """Least squares over the places of all openings, with every line as long as the canvas; None where that fails.
 
-    Without `mirrors` patterns do not reflect: along y, windows would stand upside down.
+    Without `mirrors` no opening is mirrored: along y, windows would stand upside down.
     """
     names = renumbered(names)
+    fitted = solved(lines, names, [canvas] * len(lines))
+    if fitted is None:
+        return None
+    return Axis(names, *fitted, count_letters(lines, names, mirrors=mirrors))
+
+
+def solved(
+    lines: Sequence[Line], names: Names, canvases: Sequence[float]
+) -> tuple[tuple[float, ...], tuple[NDArray[np.float64], ...]] | None:
+    """The sizes of symbols, numbered as they appear, and where the openings of each line come to stand.
+
+    Each line is as long as its canvas; None where that fails.
+    """
     n = 1 + max(symbol for line in names for symbol in line)
     normal = np.zeros((n + len(lines), n + len(lines)))
-    right = np.full(n + len(lines), canvas)
-    right[:n] = 0.0
+    right = np.concatenate([np.zeros(n), canvases])
     tally = np.zeros((n, 2))
     parts: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
     for number, (line, word) in enumerate(zip(lines, names, strict=True)):
@@ -97,15 +109,19 @@ def fit(lines: Sequence[Line], names: Names, canvas: float, *, mirrors: bool) ->
     normal[range(n), range(n)] += _TIE
     right[:n] += _TIE * tally[:, 0] / tally[:, 1]
     sizes = np.round(np.linalg.lstsq(normal, right, rcond=None)[0][:n], 3)
-    totals = normal[n:, :n]
-    if sizes.min() < _LEAST or np.abs(totals @ sizes - canvas).max() > 0.02 + 1e-3 * totals.sum(axis=1).max():
+    lengths = normal[n:, :n]
+    slack = 0.02 + 1e-3 * lengths.sum(axis=1).max()
+    if sizes.min() < _LEAST or np.abs(lengths @ sizes - canvases).max() > slack:
         return None
     spans = tuple(np.stack([low @ sizes, high @ sizes], axis=1) for low, high in parts)
-    return Axis(
-        names,
-        tuple(float(size) for size in sizes),
-        spans,
-        sum(letters(word, mirrors=mirrors) for word in names),
+    return tuple(float(size) for size in sizes), spans
+
+
+def count_letters(lines: Sequence[Line], names: Names, *, mirrors: bool) -> int:
+    """How many letters the patterns of some lines have. Without `mirrors` no opening is mirrored."""
+    return sum(
+        letters(word, () if mirrors else [word[i] for i in line.solid])
+        for line, word in zip(lines, names, strict=True)
     )
 
 

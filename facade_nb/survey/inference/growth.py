@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from .repeats import Expression, Leaf, Mirror, Run, Series
+from .repeats import Chain, Expression, Leaf, Mirror, Run, Series
 
 __all__ = ["Looks", "grown", "shares"]
 
@@ -31,7 +31,7 @@ def grown(expression: Expression, counter: str, looks: Looks, *, only_runs: bool
         (
             (round(_score(part, step, looks), 6), n, changed)
             for n, (part, step, changed) in enumerate(_growths(expression, counter, 1))
-            if not only_runs or (isinstance(part, Run) and part.times > 1)
+            if not only_runs or (isinstance(part, Run | Chain) and part.times > 1)
         ),
         key=lambda entry: entry[:2],
         default=None,
@@ -49,6 +49,8 @@ def _growths(
                 yield expression, copies, replace(expression, counter=counter)
             for part, step, changed in _growths(body, counter, copies * times):
                 yield part, step, replace(expression, body=changed)
+        case Chain(_, times):
+            yield expression, copies, replace(expression, counter=counter)
         case Mirror(body):
             for part, step, changed in _growths(body, counter, copies * 2):
                 yield part, step, replace(expression, body=changed)
@@ -81,15 +83,29 @@ def _word(expression: Expression) -> list[int]:
         case Mirror(body, pivot):
             word = _word(body)
             return word + word[::-1][pivot:]
+        case Chain(_, times):
+            link = _link(expression)
+            return link * times + link[:1]
+
+
+def _link(chain: Chain) -> list[int]:
+    """What a chain repeats."""
+    word = _word(chain.body)
+    return word + word[-1 - chain.total : 0 : -1]
 
 
 def _score(part: Expression, copies: int, looks: Looks) -> float:
     """How badly a part suits; 2 and more: not at all."""
-    body = part.body if isinstance(part, Run) else part
-    word = _word(body)
+    match part:
+        case Run(body):
+            word = _word(body)
+        case Chain():
+            word = _link(part)
+        case _:
+            word = _word(part)
     openings = [symbol for symbol in word if symbol in looks.usual]
     ends = [symbol in looks.usual for symbol in (word[0], word[-1])]
-    repeats = isinstance(part, Run) and part.times > 1
+    repeats = isinstance(part, Run | Chain) and part.times > 1
     if (
         not openings
         or any(symbol in looks.odd for symbol in openings)
@@ -125,6 +141,9 @@ def _copies(expression: Expression) -> list[tuple[int, ...]]:
         case Run(body, times, counter):
             inner = [(0,)] * len(_word(body)) if counter else _copies(body)
             return [copy and (n, *copy) for n in range(times) for copy in inner]
+        case Chain(_, times, _, counter):
+            links = [(n,) if counter else () for n in range(times) for _ in _link(expression)]
+            return [*links, ()]
         case Mirror(body, pivot):
             half = _copies(body)
             return [copy and (0, *copy) for copy in half] + [

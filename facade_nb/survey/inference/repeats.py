@@ -6,17 +6,17 @@ the one with fewer counts and reflections is taken, for it is easier to read.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
 
-__all__ = ["Expression", "Leaf", "Mirror", "Run", "Series", "leaves", "letters", "shortest"]
+__all__ = ["Chain", "Expression", "Leaf", "Mirror", "Run", "Series", "leaves", "letters", "shortest"]
 
-_RUN, _MIRROR = 0.1, 0.15
-"""What a count and a reflection weigh, in letters: they decide between expressions with as many letters."""
+_RUN, _MIRROR, _CHAIN = 0.1, 0.15, 0.2
+"""What a count, a reflection and both at once weigh, in letters: they decide where there are as many letters."""
 _FAR = 1_000_000
 """More letters than any word has."""
 
@@ -52,7 +52,20 @@ class Mirror:
     pivot: bool
 
 
-Expression: TypeAlias = "Leaf | Series | Run | Mirror"
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """The body and its mirror image, so many times, and its first letter again: `aBaBa` is a chain of `aB`.
+
+    Each shares its first letter with the one before. In a `total` one the body and its image share the last letter too.
+    """
+
+    body: Expression
+    times: int
+    total: bool
+    counter: str = ""
+
+
+Expression: TypeAlias = "Leaf | Series | Run | Mirror | Chain"
 
 
 def leaves(expression: Expression) -> Iterator[int]:
@@ -63,19 +76,28 @@ def leaves(expression: Expression) -> Iterator[int]:
         case Series(parts):
             for part in parts:
                 yield from leaves(part)
-        case Run(body) | Mirror(body):
+        case Run(body) | Mirror(body) | Chain(body):
             yield from leaves(body)
 
 
-def letters(word: Sequence[int], *, mirrors: bool = True) -> int:
-    """How many letters the shortest expression of a word has."""
-    return _solved(_canonical(word), _FAR if mirrors else 0)[1] if word else 0
+def letters(word: Sequence[int], upright: Collection[int] = ()) -> int:
+    """How many letters the shortest expression of a word has. No letter that is `upright` is mirrored."""
+    return _solved(_canonical(word), _FAR, _places(word, upright))[1] if word else 0
 
 
-def shortest(word: Sequence[int], reach: int | None = None) -> Expression:
-    """The shortest expression of a word of at least one letter, without reflections that make more than `reach`."""
+def shortest(word: Sequence[int], upright: Collection[int] = (), reach: int | None = None) -> Expression:
+    """The shortest expression of a word of at least one letter, without reflections that make more than `reach`.
+
+    No letter that is `upright` is mirrored.
+    """
     names = list(dict.fromkeys(word))
-    return _renamed(_solved(_canonical(word), _FAR if reach is None else reach)[0], names)
+    far = _FAR if reach is None else reach
+    return _renamed(_solved(_canonical(word), far, _places(word, upright))[0], names)
+
+
+def _places(word: Sequence[int], upright: Collection[int]) -> tuple[bool, ...]:
+    """For each place of a word whether its letter may be mirrored; empty: all may."""
+    return tuple(symbol not in upright for symbol in word) if upright else ()
 
 
 def _canonical(word: Sequence[int]) -> tuple[int, ...]:
@@ -94,12 +116,15 @@ def _renamed(expression: Expression, names: Sequence[int]) -> Expression:
             return Run(_renamed(body, names), times)
         case Mirror(body, pivot):
             return Mirror(_renamed(body, names), pivot)
+        case Chain(body, times, total):
+            return Chain(_renamed(body, names), times, total)
 
 
 @lru_cache(maxsize=20_000)
-def _solved(word: tuple[int, ...], reach: int) -> tuple[Expression, int]:
+def _solved(word: tuple[int, ...], reach: int, turns: tuple[bool, ...]) -> tuple[Expression, int]:
     """The shortest expression of a word, and its letters: the best of each part of it, the short ones first."""
     n = len(word)
+    turns = turns or (True,) * n
     text = "".join(map(chr, word))
     cost = np.full((n + 1, n + 1), np.inf)
     how: dict[tuple[int, int], tuple[str, int]] = {}
@@ -117,8 +142,21 @@ def _solved(word: tuple[int, ...], reach: int) -> tuple[Expression, int]:
                 if cost[i, i + d] + _RUN < best and part == part[:d] * (length // d):
                     best, way = float(cost[i, i + d]) + _RUN, ("run", d)
             half = (length + 1) // 2
-            if 2 < length <= reach and cost[i, i + half] + _MIRROR < best and part == part[::-1]:
+            if not 2 < length <= reach or part[0] != part[-1] or not turns[j - 1]:
+                pass
+            elif cost[i, i + half] + _MIRROR < best and part == part[::-1] and all(turns[i + half : j]):
                 best, way = float(cost[i, i + half]) + _MIRROR, ("mirror", half)
+            else:
+                for d in range(2, (length - 1) // 2 + 1):
+                    if (
+                        (length - 1) % d
+                        or part[:-1] != part[:d] * (length // d)
+                        or part[1:d] != part[d - 1 : 0 : -1]
+                    ):
+                        continue
+                    half = d // 2 + 1
+                    if cost[i, i + half] + _CHAIN < best and all(turns[i + half : i + d]):
+                        best, way = float(cost[i, i + half]) + _CHAIN, ("chain", d)
             cost[i, j] = best
             how[i, j] = way
 
@@ -130,6 +168,8 @@ def _solved(word: tuple[int, ...], reach: int) -> tuple[Expression, int]:
             return Run(made(i, i + at), (j - i) // at)
         if kind == "mirror":
             return Mirror(made(i, i + at), (j - i) % 2 == 1)
+        if kind == "chain":
+            return Chain(made(i, i + at // 2 + 1), (j - i) // at, at % 2 == 0)
         parts = [made(i, at), made(at, j)]
         flat = (inner for part in parts for inner in (part.parts if isinstance(part, Series) else (part,)))
         return Series(tuple(flat))

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .fitting import Axis, Names, agreement, fit, measured, named
-from .repeats import letters
-from .structure import Line, Opening, Structure, structures
+from .fitting import Axis, Names, agreement, count_letters, fit, measured, named
+from .structure import Line, Opening, Structure, corner, structures
 
-__all__ = ["Order", "search"]
+__all__ = ["ERROR", "NEAR", "SYMBOL", "Order", "search"]
 
 NEAR = 0.903
 """A design agrees with the survey at least so well where that can be."""
@@ -26,9 +25,9 @@ _POLISHED = 4
 _TRIALS = 20_000
 """So many letters are looked at in simplifying a line, all trials together."""
 
-_SYMBOL, _EXCEPTION, _LINE = 0.5, 0.25, 0.5
+SYMBOL, _EXCEPTION, _LINE = 0.5, 0.25, 0.5
 """What a symbol, an exception and a line weigh, in letters."""
-_ERROR = 1.5
+ERROR = 1.5
 """What it costs, in letters an opening, to agree in nothing."""
 _FAR = 60.0
 """The same, of what lacks to `NEAR`."""
@@ -47,8 +46,7 @@ class Order:
 
 def search(openings: Sequence[Opening], width: float, height: float) -> Order:
     """The order that costs least."""
-    target = np.array([(o.x[0], o.y[0], o.x[1], o.y[1]) for o in openings])
-    target -= np.tile(target[:, :2].min(axis=0), 2)
+    target = corner(openings)
     found: list[Order] = []
     for structure in structures(openings, width, height):
         if not found:  # the exact one, which is there whatever else cannot be fitted
@@ -90,9 +88,9 @@ def _candidates(lines: Sequence[Line], canvas: float, *, mirrors: bool) -> Itera
 
 def _order(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> Order:
     near = agreement(structure, target, x, y)
-    size = x.letters + y.letters + _SYMBOL * (x.symbols + y.symbols) + _EXCEPTION * structure.exceptions
+    size = x.letters + y.letters + SYMBOL * (x.symbols + y.symbols) + _EXCEPTION * structure.exceptions
     size += _LINE * (len(structure.x) + len(structure.y))
-    cost = size / len(target) + _ERROR * (1 - near) + _FAR * max(0.0, NEAR - near)
+    cost = size / len(target) + ERROR * (1 - near) + _FAR * max(0.0, NEAR - near)
     return Order(structure, x, y, near, round(cost, 9))
 
 
@@ -109,7 +107,9 @@ def _polished(order: Order, target: NDArray[np.float64], width: float, height: f
                 mirrors = axis == "x"
                 for names in _simpler(lines, own.names):
                     left[axis] -= sum(map(len, names))
-                    if order.agreement >= NEAR and _weight(names, mirrors) >= _weight(own.names, mirrors):
+                    if order.agreement >= NEAR and _weight(lines, names, mirrors) >= _weight(
+                        lines, own.names, mirrors
+                    ):
                         continue
                     fitted = fit(lines, names, width if mirrors else height, mirrors=mirrors)
                     if fitted:
@@ -126,11 +126,10 @@ def _polished(order: Order, target: NDArray[np.float64], width: float, height: f
             return order
 
 
-def _weight(names: Names, mirrors: bool) -> float:
+def _weight(lines: Sequence[Line], names: Names, mirrors: bool) -> float:
     """What symbols and letters of some lines weigh."""
-    return _SYMBOL * len({s for word in names for s in word}) + sum(
-        letters(word, mirrors=mirrors) for word in names
-    )
+    symbols = len({s for word in names for s in word})
+    return SYMBOL * symbols + count_letters(lines, names, mirrors=mirrors)
 
 
 def _simpler(lines: Sequence[Line], names: Names) -> Iterator[Names]:

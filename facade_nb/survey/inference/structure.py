@@ -8,14 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from scipy.cluster.hierarchy import fcluster, linkage
+from numpy.typing import NDArray
+from scipy.cluster.hierarchy import linkage
 
 from .repeats import letters
 
-__all__ = ["GAP", "Line", "Opening", "Span", "Structure", "clusters", "structures"]
+__all__ = ["GAP", "Line", "Opening", "Span", "Structure", "clusters", "corner", "structures"]
 
 Span = tuple[float, float]
 
@@ -103,14 +105,30 @@ def structures(openings: Sequence[Opening], width: float, height: float) -> Iter
                     yield found
 
 
+def corner(openings: Sequence[Opening]) -> NDArray[np.float64]:
+    """The rectangles of openings (n, 4), moved to their common lower left corner."""
+    rects = np.array([(o.x[0], o.y[0], o.x[1], o.y[1]) for o in openings])
+    return rects - np.tile(rects[:, :2].min(axis=0), 2)
+
+
 def clusters(values: Sequence[Sequence[float]], tolerance: float) -> list[int]:
     """Number each of some points so that those of one number differ by no more than the tolerance; the first is 0."""
+    groups = {i: [i] for i in range(len(values))}
+    for n, (a, b, distance) in enumerate(_tree(tuple(map(tuple, values)))):
+        if distance > tolerance + 1e-9:
+            break
+        groups[len(values) + n] = groups.pop(a) + groups.pop(b)
+    numbers = {i: number for number, group in enumerate(sorted(groups.values(), key=min)) for i in group}
+    return [numbers[i] for i in range(len(values))]
+
+
+@lru_cache(maxsize=2000)
+def _tree(values: tuple[tuple[float, ...], ...]) -> list[tuple[int, int, float]]:
+    """Which groups of points become one, and at which distance, the nearest first: the n-th makes group points + n."""
     if len(values) < 2:
-        return [0] * len(values)
-    tree = linkage(np.array(values, float), "complete", metric="chebyshev")
-    numbers: dict[int, int] = {}
-    found = fcluster(tree, tolerance + 1e-9, "distance")
-    return [numbers.setdefault(int(number), len(numbers)) for number in found]
+        return []
+    found = linkage(np.array(values, float), "complete", metric="chebyshev")
+    return [(int(a), int(b), float(distance)) for a, b, distance, _ in found]
 
 
 def _mean(spans: Iterable[Span]) -> Span:

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections import Counter as Tally
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate, count
+from types import MappingProxyType
 from typing import Any
 
 from ...design.model import Design
 from .fitting import Axis
 from .growth import Looks, grown, shares
 from .layering import WALL, Named, layers, title
-from .repeats import Expression, Leaf, Mirror, Run, Series, shortest
+from .repeats import Chain, Expression, Leaf, Mirror, Run, Series, shortest
 from .search import Order
+from .sharing import shared
 from .structure import GAP, Line, Opening
 
 __all__ = ["plain", "written"]
@@ -55,17 +57,26 @@ def written(
     structure = order.structure
     width, height = (extent / unit for extent in canvas)
     across = _named("x", structure.x, order.x, _odd(order, openings, "x"), width, ())
-    along = _named("y", structure.y, order.y, _odd(order, openings, "y"), height, across.counters)
+    odd = _odd(order, openings, "y")
+    along = _named("y", structure.y, order.y, odd, height, across.counters)
+    kinds = (
+        _kinds(structure.x, order.x, across, unit),
+        _kinds(structure.y, order.y, along, unit),
+    )
+    order, pairs = shared(order, openings, (width, height), kinds)
+    names = {y: across.symbols[x] for y, x in pairs.items()}
+    along = _named("y", structure.y, order.y, odd, height, across.counters, names)
+    symbols = _symbols(structure.x, order.x, across, unit)
+    for symbol, fields in _symbols(structure.y, order.y, along, unit).items():
+        if symbols.setdefault(symbol, fields).keys() != fields.keys():  # bounded along one axis alone
+            symbols[symbol] = {"size": fields["size"]}
     patterns = {f"{title('x', n)}": text for n, text in enumerate(across.texts)}
     patterns |= {f"{title('y', n)}": text for n, text in enumerate(along.texts)}
     document: dict[str, Any] = {
         "format": "facade-nb/design/1",
         "name": name,
         "canvas": {"width": canvas[0], "height": canvas[1]},
-        "symbols": {
-            **_symbols(structure.x, order.x, across, unit),
-            **_symbols(structure.y, order.y, along, unit),
-        },
+        "symbols": symbols,
         "counters": {counter: {"min": 1} for counter in across.counters + along.counters},
         "patterns": patterns,
         "layers": list(layers(order, openings, across, along)),
@@ -90,16 +101,32 @@ def _odd(order: Order, openings: Sequence[Opening], axis: str) -> frozenset[int]
     return frozenset(symbol for symbol in found if 2 * doors[symbol] >= tally[symbol])
 
 
+def _kinds(
+    lines: Sequence[Line], fitted: Axis, named: Named, unit: float
+) -> list[tuple[bool, tuple[str, ...]]]:
+    """For each symbol whether openings have it, and how its size is bounded: what differs in that is never one."""
+    solid = {word[i] for line, word in zip(lines, fitted.names, strict=True) for i in line.solid}
+    symbols = _symbols(lines, fitted, named, unit)
+    return [(symbol in solid, tuple(symbols[name])) for symbol, name in enumerate(named.symbols)]
+
+
 def _named(
-    axis: str, lines: Sequence[Line], fitted: Axis, odd: frozenset[int], canvas: float, taken: Sequence[str]
+    axis: str,
+    lines: Sequence[Line],
+    fitted: Axis,
+    odd: frozenset[int],
+    canvas: float,
+    taken: Sequence[str],
+    names: Mapping[int, str] = MappingProxyType({}),
 ) -> Named:
+    """An axis with texts, without the counters that are taken, and with names for its symbols: some may have theirs."""
     solid = {
         s: c != GAP
         for line, word in zip(lines, fitted.names, strict=True)
         for s, c in zip(word, line.categories, strict=True)
     }
     letters = {kind: _letters(_NAMES[axis, kind]) for kind in (True, False)}
-    symbols = tuple(next(letters[solid[symbol]]) for symbol in range(fitted.symbols))
+    symbols = tuple(names.get(symbol) or next(letters[solid[symbol]]) for symbol in range(fitted.symbols))
     counters: Iterator[str] = (c for c in _letters(_COUNTERS[axis]) if c not in taken)
     texts, used, grows = [], [], []
     for n, (line, word) in enumerate(zip(lines, fitted.names, strict=True)):
@@ -124,14 +151,14 @@ def _growing(
 ) -> Expression:
     """The shortest expression of a word in which a counter has a place; without one where there is none.
 
-    Nothing is reflected along y: windows would stand upside down.
+    No opening is mirrored along y: windows would stand upside down.
     """
-    reaches = (None, (len(word) + 1) // 2 + 1, 0) if axis == "x" else (0,)
-    best = shortest(word, reaches[0])
+    upright = () if axis == "x" else frozenset(looks.usual)
+    best = shortest(word, upright)
     if openings < 2:
         return best
-    for reach in reaches:
-        expression = grown(shortest(word, reach), counter, looks, only_runs=only_runs)
+    for reach in (None, (len(word) + 1) // 2 + 1, 0):
+        expression = grown(shortest(word, upright, reach), counter, looks, only_runs=only_runs)
         if _counts(expression):
             return expression
     return best
@@ -144,7 +171,7 @@ def _before(first: str, rest: Iterator[str]) -> Iterator[str]:
 
 def _counts(expression: Expression) -> bool:
     match expression:
-        case Run(body, _, counter):
+        case Run(body, _, counter) | Chain(body, _, _, counter):
             return bool(counter) or _counts(body)
         case Mirror(body):
             return _counts(body)
@@ -169,11 +196,15 @@ def _text(expression: Expression, symbols: Sequence[str]) -> str:
         case Series(parts):
             return "".join(_text(part, symbols) for part in parts)
         case Run(body, times, counter):
-            return (
-                f"{_grouped(body, symbols)}^{'{' + counter + '}' if len(counter) > 1 else counter or times} "
-            )
+            return f"{_grouped(body, symbols)}^{_count(times, counter)} "
+        case Chain(body, times, total, counter):
+            return f"{_grouped(body, symbols)}^{'@' if total else ':'}{_count(times, counter)} "
         case Mirror(body, pivot):
             return f"{_grouped(body, symbols)}^{'.' if pivot else '~'}1 "
+
+
+def _count(times: int, counter: str) -> str:
+    return f"{{{counter}}}" if len(counter) > 1 else counter or str(times)
 
 
 def _grouped(body: Expression, symbols: Sequence[str]) -> str:
