@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import SequenceMatcher
 
 from .design.model import AXES, Design
-from .render.splits import Node, Shape, Split, Stack, children, repeated, rules_of, split_rules, split_tree
+from .render.split_edits import touched
+from .render.splits import split_rules, split_tree
 from .solver import Layout, solve
 
 __all__ = ["Complexity", "Edits", "complexity", "edits"]
@@ -98,7 +97,7 @@ def edits(before: Design, after: Design) -> Edits:
     return Edits(
         patterns=_differing(*({name: d.patterns[name].text for name in _used(d)} for d in (before, after))),
         layers=_differing(*({layer.name: (layer.x, layer.y) for layer in d.layers} for d in (before, after))),
-        split_rules=_touched(split_tree(solve(before)), split_tree(solve(after))),
+        split_rules=sum(map(len, touched(split_tree(solve(before)), split_tree(solve(after))))),
     )
 
 
@@ -109,54 +108,3 @@ def _used(design: Design) -> set[str]:
 
 def _differing(before: Mapping[str, object], after: Mapping[str, object]) -> int:
     return sum(before.get(name) != after.get(name) for name in {*before, *after})
-
-
-def _touched(before: Node, after: Node) -> int:
-    partner: dict[Node, Node] = {}  # of rules after the edit, and what it was before
-    waiting = [(before, after)]
-    taken = {before}
-    partner[after] = before
-    for old, new in waiting:
-        for was, now in _pairs(list(dict.fromkeys(children(old))), list(dict.fromkeys(children(new)))):
-            both = isinstance(was, Split | Stack) and isinstance(now, Split | Stack)
-            if both and now not in partner and was not in taken:
-                partner[now] = was
-                taken.add(was)
-                waiting.append((was, now))
-    number: dict[Node, int] = {}
-    changed = sum(
-        _written([partner.get(child, child) for child in children(new)], number)
-        != _written(list(children(old)), number)
-        or _kind(old) != _kind(new)
-        for new, old in partner.items()
-    )
-    lone = len(set(rules_of(before)) - taken) + len(set(rules_of(after)) - set(partner))
-    return changed + lone
-
-
-def _written(parts: list[Node], number: dict[Node, int]) -> str:
-    """A rule's right side as it is written, without sizes and numbers of repetitions; `number` names the parts."""
-    words = [str(number.setdefault(part, len(number))) for part in parts]
-    return re.sub(r"\}\*\d+", "}*", " | ".join(repeated(words)))
-
-
-def _kind(node: Node) -> str:
-    return (
-        node.axis
-        if isinstance(node, Split)
-        else node.name
-        if isinstance(node, Shape)
-        else type(node).__name__
-    )
-
-
-def _pairs(old: list[Node], new: list[Node]) -> Iterator[tuple[Node, Node]]:
-    """Parts that are in each other's place: equal ones first, then those of one kind."""
-    same = set(old) & set(new)
-    yield from ((node, node) for node in new if node in same)
-    old, new = ([node for node in nodes if node not in same] for nodes in (old, new))
-    matcher = SequenceMatcher(
-        None, [_kind(node) for node in old], [_kind(node) for node in new], autojunk=False
-    )
-    for i, j, count in matcher.get_matching_blocks():
-        yield from zip(old[i : i + count], new[j : j + count], strict=True)

@@ -12,12 +12,13 @@ import nbformat
 from nbclient import NotebookClient
 
 ROOT = Path(__file__).resolve().parents[1]
-WIDGETS = ("studio", "solver", "texture", "town", "inference", "variations")
+WIDGETS = ("studio", "solver", "texture", "town", "inference", "variations", "figures")
 """Those in `notebooks` that have widgets; all in `tutorials` have."""
 STATIC = (
     "texture",
     "town",
     "inference",
+    "figures",
     "10-a-pixel-by-grammar",
     "11-rooms-behind-windows",
     "12-the-pipeline-and-a-town",

@@ -4,6 +4,7 @@ Nothing here needs a GL library, trimesh or Pillow until a mesh or a picture is 
 or pandas until one of the files is.
 """
 
+from .derivation import rules_svg, splits_svg
 from .elevation import elevation_svg
 from .exchange import (
     obj_files,
@@ -24,6 +25,7 @@ from .geometry import GEOMETRIES, Geometry
 from .materials import MATERIALS
 from .mesh import to_glb, write_glb
 from .naive import Naive, naive_layout
+from .outline import outline_svg
 from .overlay import overlay_svg
 from .picture import render_png
 from .scene import DrawingWarning, Scene, Solid, build_scene, drawing_faults
@@ -49,10 +51,13 @@ __all__ = [
     "grammar_of",
     "naive_layout",
     "obj_files",
+    "outline_svg",
     "overlay_svg",
     "render_png",
+    "rules_svg",
     "schedule",
     "split_grammar",
+    "splits_svg",
     "to_cityjson",
     "to_dxf",
     "to_glb",
