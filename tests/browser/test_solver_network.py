@@ -26,11 +26,13 @@ def watch(watch: Watch) -> Watch:
 
 
 def colour_at(page: Page, x: float, y: float) -> list[int]:
-    """The colour of the canvas at a point, CSS pixels from its corner."""
+    """The colour of the canvas at a point, CSS pixels from its corner; clear while the canvas has no place yet."""
     return page.evaluate(
         """([x, y]) => {
             const canvas = document.querySelector('.fnb-plane-canvas');
-            const ratio = canvas.width / canvas.getBoundingClientRect().width;
+            const { width } = canvas.getBoundingClientRect();
+            if (width === 0 || canvas.width === 0) return [0, 0, 0, 0];
+            const ratio = canvas.width / width;
             return [...canvas.getContext('2d').getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data];
         }""",
         [x, y],
@@ -56,8 +58,9 @@ def count(page: Page, colour: str) -> int:
 
 def papered(page: Page, light: bool) -> None:
     """The canvas has the colour of the theme."""
-    paper = sum(colour_at(page, 4, 4)[:3])
-    assert paper > 600 if light else paper < 200
+    *paper, alpha = colour_at(page, 4, 4)
+    assert alpha
+    assert sum(paper) > 600 if light else sum(paper) < 200
 
 
 def test_figure_8_is_on_the_screen(watch: Watch) -> None:

@@ -64,7 +64,12 @@ AnalysisView(failed)"""
     pair = page.locator(".fnb-pair[data-conflict]")
     expect(pair).to_contain_text("2m + 1 = 2l; no whole numbers satisfy that")
     red, _, blue = pair.locator(".fnb-pair-equation").evaluate(
-        "e => getComputedStyle(e).color.match(/[\\d.]+/g).map(Number)"
+        """e => {
+            const pen = document.createElement("canvas").getContext("2d");
+            pen.fillStyle = getComputedStyle(e).color;  // in whatever colour space it is told
+            pen.fillRect(0, 0, 1, 1);
+            return [...pen.getImageData(0, 0, 1, 1).data];
+        }"""
     )[:3]
     assert red > blue + 80
 
