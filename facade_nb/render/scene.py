@@ -325,24 +325,32 @@ def forget() -> None:
 
 
 def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
+    import numpy as np
+
     layers = {solid.shape.layer for solid in solids}
     if len(layers) < 2:  # the cells of one layer do not overlap
         return solids
     cutters = [solid for solid in solids if solid.geometry.full or solid.geometry.cuts]
+    # Of the many pairs only few overlap: all of a solid's are compared at once.
+    lefts, bottoms, rights, tops = np.array([own.rect for own in cutters]).reshape(-1, 4).T
     done: list[Solid] = []
     for solid in solids:
         left, bottom, right, top = solid.rect
-        found = [
-            other
-            for other in cutters
-            if other.index > solid.index
-            and _stands_in(other, solid)
-            and other.shape.layer != solid.shape.layer
-            and other.rect[0] < right - _EPS
-            and other.rect[2] > left + _EPS
-            and other.rect[1] < top - _EPS
-            and other.rect[3] > bottom + _EPS
-        ]
+        found: list[Solid] = []
+        if solid.geometry.wall or solid.geometry.roof:
+            over = (
+                (lefts < right - _EPS)
+                & (rights > left + _EPS)
+                & (bottoms < top - _EPS)
+                & (tops > bottom + _EPS)
+            )
+            found = [
+                other
+                for other in map(cutters.__getitem__, np.flatnonzero(over))
+                if other.index > solid.index
+                and other.shape.layer != solid.shape.layer
+                and _stands_in(other, solid)
+            ]
         if not found:
             done.append(solid)
             continue

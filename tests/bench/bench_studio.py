@@ -68,7 +68,10 @@ TIMED = """([event, watched]) => {
         const timer = setTimeout(() => reject(new Error("nothing was repainted in 60 s")), 60000);
         let began = performance.now();
         if (event) window.addEventListener(event, () => { began = performance.now(); }, { capture: true, once: true });
-        const observer = new MutationObserver(() => {
+        const drawn = ({ type, addedNodes }) => type === "characterData" || [...addedNodes].some((node) =>
+            node.nodeType === Node.TEXT_NODE ? window.emptyOutput.contains(node) : node.matches("svg, :has(svg)"));
+        const observer = new MutationObserver((records) => {
+            if (!records.some(drawn)) return; // such as a label beside the pointer
             observer.disconnect();
             clearTimeout(timer);
             requestAnimationFrame(() => resolve(performance.now() - began));

@@ -10,7 +10,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from ipywidgets import HTML, Accordion, ToggleButtons, VBox
+from ipywidgets import HTML, ToggleButton, ToggleButtons, VBox
 from traitlets import Instance, Unicode
 
 from ...building import Building, BuildingLayout
@@ -76,8 +76,14 @@ class BuildingStudio(VBox):
         self._future: list[Building] = []
         self._wholes: dict[str, tuple[Layout, BuildingLayout]] = {}
         self._panel = PlanPanel(self._reshape, self.undo, self.redo)
-        self._plan = Accordion([self._panel], titles=("Plan, corners and roof",), selected_index=None)
+        opened = ToggleButton(
+            description="Plan, corners and roof", icon="caret-right", layout={"width": "auto"}
+        )
+        opened.observe(lambda change: self._open(change["owner"]), "value")
+        self._open(opened)
+        self._plan = VBox([opened, self._panel])
         super().__init__(children=[self._strip, self._plan, self._choice])
+        self.add_class("facade-nb-keys")  # the studio in it keeps the keys of these fields from JupyterLab
         self.building = building
         self._offer()
         self._choice.observe(lambda change: self._choose(change["new"]), "value")
@@ -111,6 +117,11 @@ class BuildingStudio(VBox):
         if self._future:
             self._past.append(self.building)
             self._go_on(_with_designs(self._future.pop(), self.building))
+
+    def _open(self, button: ToggleButton) -> None:
+        """Show the fields of plan, corners and roof while the button is down."""
+        button.icon = "caret-down" if button.value else "caret-right"
+        self._panel.layout.display = None if button.value else "none"
 
     def close(self) -> None:
         """Stop solving, and close all widgets."""

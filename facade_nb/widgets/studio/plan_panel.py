@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from html import escape
+from math import inf
 from typing import Any
 
 from ipywidgets import HTML, Button, Combobox, Dropdown, FloatText, HBox, IntText, Text, VBox
@@ -175,6 +176,9 @@ def _rise(text: str) -> float | None:
 
 
 def _with_length(name: str, building: Building, value: float) -> Building:
+    if not 0 < value < inf:
+        told = _LENGTHS.get(name, f"Width of {name}").lower()
+        raise ValueError(f"{told}: expected metres above 0; found {value:g}")
     kind, lengths = plan_of(building)
     return reshaped(building, kind, {**lengths, name: float(value)})
 

@@ -12,7 +12,7 @@ import "../styles/building.css";
 import { building } from "../building/view.ts";
 import { absence } from "../shared/absence.ts";
 import { h, mark } from "../shared/dom.ts";
-import { keepKeys } from "../shared/keys.ts";
+import { keepKeys, keepKeysAround } from "../shared/keys.ts";
 import { keepFocus } from "../shared/staying.ts";
 import { Store } from "../shared/store.ts";
 import { adoptStyle, type Theme, themeOf, watchTheme } from "../shared/theme.ts";
@@ -86,6 +86,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   link(root, store.prefix, signal, resolveIn(store));
   keepFocus(root, signal);
   keepKeys(root, signal, (op) => store.ask({ op }));
+  keepKeysAround(el, signal);
   root.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && !event.defaultPrevented) store.ask({ op: "select" });
   });

@@ -92,6 +92,23 @@ export function keepKeys(root: HTMLElement, signal: AbortSignal, history?: (op: 
   );
 }
 
+/** What Python puts around a part, with fields that are not ours, has this class. */
+const AROUND = ".facade-nb-keys";
+
+/** Keep the keys of what stands around a part as well, once the part stands in it: else its lists' letters are the host's. */
+export function keepKeysAround(el: HTMLElement, signal: AbortSignal): void {
+  const observer = new ResizeObserver(() => {
+    const around = el.closest<HTMLElement>(AROUND);
+    if (!around) return;
+    observer.disconnect();
+    const ours = ({ target }: Event) => target instanceof Element && target.closest(".fnb") !== null; // it keeps them itself
+    window.addEventListener("keydown", (event) => ours(event) || label(around, event), { capture: true, signal });
+    around.addEventListener("keydown", (event) => isHosts(event) || event.stopPropagation(), { signal });
+  });
+  observer.observe(el);
+  signal.addEventListener("abort", () => observer.disconnect());
+}
+
 /** Say to the host, before it looks, whose key this is. */
 function label(root: HTMLElement, event: KeyboardEvent): void {
   const path = event.composedPath();
