@@ -77,7 +77,9 @@ class BuildingStudio(VBox):
         self._wholes: dict[str, tuple[Layout, BuildingLayout]] = {}
         self._panel = PlanPanel(self._reshape, self.undo, self.redo)
         opened = ToggleButton(
-            description="Plan, corners and roof", icon="caret-right", layout={"width": "auto"}
+            description="Plan, corners and roof",
+            icon="caret-right",
+            layout={"width": "auto", "align_self": "flex-start"},
         )
         opened.observe(lambda change: self._open(change["owner"]), "value")
         self._open(opened)

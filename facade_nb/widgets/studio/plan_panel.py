@@ -42,8 +42,13 @@ class PlanPanel(VBox):
         self._building: Building | None = None
         self._kept: dict[str, Any] = {}
         self._quiet = False
-        self.undo_button = Button(description="Undo", tooltip="Undo plan, corners or roof", icon="undo")
-        self.redo_button = Button(description="Redo", tooltip="Redo plan, corners or roof", icon="repeat")
+        narrow = {"width": "auto"}
+        self.undo_button = Button(
+            description="Undo", tooltip="Undo plan, corners or roof", icon="undo", layout=narrow
+        )
+        self.redo_button = Button(
+            description="Redo", tooltip="Redo plan, corners or roof", icon="repeat", layout=narrow
+        )
         self.undo_button.on_click(lambda _: undo())
         self.redo_button.on_click(lambda _: redo())
         self._fault = HTML()

@@ -476,9 +476,11 @@ class Painter {
       c.fillText(String(Number(value.toFixed(2))), x, y + 0.5);
       return;
     }
-    c.font = `11px ${look.mono}`;
+    const { h } = this.box();
+    const size = Math.min(11, (h - 3.5) / 2); // two lines stay within a low box
+    c.font = `${size}px ${look.mono}`;
     c.fillStyle = look.ink;
-    const fits = Math.max(2, Math.floor((w - 4) / 6.8));
+    const fits = Math.max(2, Math.floor((w - 4) / (0.618 * size)));
     const short = (text: string) => (text.length > fits ? `${text.slice(0, fits - 1)}…` : text);
     const own = (band: number) => {
       const word = scene.subject.bands[band];
@@ -486,8 +488,8 @@ class Painter {
     };
     if (a < 0) c.fillText(own(b), x, y);
     else {
-      c.fillText(own(a), x, y - 6.5);
-      c.fillText(own(b), x, y + 7);
+      c.fillText(own(a), x, y - Math.min(6.5, 0.22 * h));
+      c.fillText(own(b), x, y + Math.min(7, 0.25 * h));
     }
   }
 
