@@ -20,7 +20,16 @@ if TYPE_CHECKING:
 
     from .texture.grammar import Grammar
 
-__all__ = ["is_rule", "library_of", "material_of", "rule_fault", "rule_pixels", "rule_png"]
+__all__ = [
+    "grammar_faults",
+    "is_rule",
+    "library_of",
+    "material_of",
+    "rule_fault",
+    "rule_names",
+    "rule_pixels",
+    "rule_png",
+]
 
 _MOST = 512
 """Pixels of a picture of a rule, along each side, at most."""
@@ -54,6 +63,23 @@ def rule_fault(library: str, material: str, place: str) -> Fault | None:
             place, f"expected a rule of the design's grammar; found {material!r}{nearest(name, names)}"
         )
     return None
+
+
+def grammar_faults(library: str) -> tuple[Fault, ...]:
+    """What is wrong with a design's grammar, each fault with its line; an empty one has none."""
+    try:
+        if library.strip():
+            _grammar(library)
+    except (GrammarError, DesignError) as error:
+        return error.faults
+    return ()
+
+
+def rule_names(library: str) -> tuple[str, ...]:
+    """The names of the rules that a material may be: those of a grammar without faults."""
+    if not library.strip() or grammar_faults(library):
+        return ()
+    return tuple(_grammar(library).encoding.names)
 
 
 def material_of(library: str, name: str) -> Material:

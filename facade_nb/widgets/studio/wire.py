@@ -8,6 +8,8 @@ from typing import Any
 
 from ...design import Fault
 from ...design.model import AXES, Axis, Design, Layer, LayerAxis
+from ...render.materials import RULE
+from ...render.ruled import grammar_faults, material_of, rule_names
 from ...render.scene import drawing_faults
 from .fields import UNSHAPED
 from .looks import describe_cell, describe_pairs
@@ -38,6 +40,9 @@ def describe_design(model: FacadeModel) -> Json:
         ],
         "symbols": [_symbol(model, name, uses.get(name, ""), uses) for name in {**design.symbols, **uses}],
         "counters": [_counter(model, name) for name in _counters(design)],
+        "grammar": design.grammar,
+        "grammarFaults": describe_faults(grammar_faults(design.grammar)),
+        "rules": _rules(design.grammar),
         "groups": sorted({layer.along(axis).group for layer in design.layers for axis in AXES} | {"default"}),
     }
 
@@ -88,6 +93,16 @@ def describe_drafts(model: FacadeModel) -> list[Json]:
         }
         for path, draft in model.drafts.items()
     ]
+
+
+_COLOURED = 24
+"""Rules that have a colour in lists of materials, at most: each must be drawn for that."""
+
+
+def _rules(grammar: str) -> dict[str, str]:
+    """Materials that rules of a grammar are, each with the colour that stands for it."""
+    names = [f"{RULE}{name}" for name in rule_names(grammar)]
+    return {name: material_of(grammar, name).fill if k < _COLOURED else "" for k, name in enumerate(names)}
 
 
 def describe_faults(faults: Iterable[Fault]) -> list[Json]:

@@ -68,6 +68,10 @@ export interface DesignState {
   symbols: SymbolState[];
   counters: CounterState[];
   groups: string[];
+  /** The design's texture grammar, what is wrong with it, and the materials that its rules are, with their colours. */
+  grammar?: string;
+  grammarFaults?: Fault[];
+  rules?: Record<string, string>;
 }
 
 export interface Solved {

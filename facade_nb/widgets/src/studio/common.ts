@@ -63,6 +63,17 @@ export function tint(store: Store, symbol: string): string {
   return slot === undefined ? "var(--fnb-muted)" : colourAt(slot);
 }
 
+/** Names of the materials there are: those of the catalogue, and the rules of the design's grammar. */
+export function materialsOf(store: Store): string[] {
+  return [...store.get("catalogue").materials, ...Object.keys(store.get("design").rules ?? {})];
+}
+
+/** The colours that stand for materials. */
+export function swatchesOf(store: Store): Record<string, string> {
+  const rules = Object.entries(store.get("design").rules ?? {}).filter(([, colour]) => colour);
+  return { ...store.get("catalogue").swatches, ...Object.fromEntries(rules) };
+}
+
 /** What hover links ask of the design of a store. */
 export function resolveIn(store: Store): Resolve {
   return {

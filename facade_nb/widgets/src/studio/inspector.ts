@@ -2,7 +2,7 @@ import { h, keyed, mark, setText } from "../shared/dom.ts";
 import { button, draftOf, type Field, faultBox, formatNumber, numberField } from "../shared/fields.ts";
 import { swatchField } from "../shared/swatches.ts";
 import type { Cell, Level, LookState, Looks, Path, SelectionState } from "../shared/types.ts";
-import { type Context, type MakePart, tint } from "./common.ts";
+import { type Context, type MakePart, materialsOf, swatchesOf, tint } from "./common.ts";
 import { geometryField } from "./geometry.ts";
 import { variantsForm } from "./variants.ts";
 
@@ -63,8 +63,8 @@ function form({ store }: Context, place: Place): { el: HTMLElement; update(): vo
     material: swatchField({
       label: `material of ${what} in ${layer}`,
       value: () => String(draftOf(store, path("material"))?.value ?? value("material")),
-      choices: () => store.get("catalogue").materials,
-      colours: () => store.get("catalogue").swatches,
+      choices: () => materialsOf(store),
+      colours: () => swatchesOf(store),
       choose: (to) => set("material", to),
     }),
     kind: kindField(

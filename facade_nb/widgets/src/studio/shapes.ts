@@ -1,7 +1,7 @@
 import { focused, h, mark, setText } from "../shared/dom.ts";
 import { colourOf } from "../shared/swatches.ts";
 import type { Pairs } from "../shared/types.ts";
-import { emptyNote, type MakePart, tint } from "./common.ts";
+import { emptyNote, type MakePart, swatchesOf, tint } from "./common.ts";
 
 /** The table of pairs of the picked layer: what each pair of its symbols looks like, and by which key. */
 export const shapes: MakePart = ({ store }) => {
@@ -24,7 +24,7 @@ export const shapes: MakePart = ({ store }) => {
       return el;
     };
     table.style.setProperty("--fnb-columns", String(pairs.columns.length));
-    const { swatches } = store.get("catalogue");
+    const swatches = swatchesOf(store);
     // The first letter of a vertical pattern is at the bottom.
     const rows = pairs.rows.map((y, j) => ({ y, j })).reverse();
     table.replaceChildren(

@@ -10,6 +10,7 @@ import { exploded } from "./exploded.ts";
 import { inspector } from "./inspector.ts";
 import { layers } from "./layers.ts";
 import { patterns } from "./patterns.ts";
+import { rules } from "./rules.ts";
 import { shapes } from "./shapes.ts";
 import { statusLine } from "./status.ts";
 import { symbols } from "./symbols.ts";
@@ -33,6 +34,7 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
     section("Shapes", shapes(context)),
     section("Symbols", symbols(context), { add: add("symbol") }),
     section("Counters", counters(context)),
+    section("Rules", rules(context), { open: Boolean(store.get("design").grammar) }),
   );
   const flat = elevation(context);
   const stage = h("div", { class: "fnb-stage" }, flat);

@@ -3,6 +3,7 @@ import { button, type Field, formatNumber } from "../shared/fields.ts";
 import type { Store } from "../shared/store.ts";
 import { swatchField } from "../shared/swatches.ts";
 import type { Path, VariantState } from "../shared/types.ts";
+import { materialsOf, swatchesOf } from "./common.ts";
 import { geometryField } from "./geometry.ts";
 
 interface VariantsOptions {
@@ -37,7 +38,7 @@ export function variantsForm(store: Store, { label, path, own }: VariantsOptions
   };
   const add = h("button", { type: "button", class: "fnb-fix" }, "Add a variant");
   add.addEventListener("click", () => {
-    const { materials } = store.get("catalogue");
+    const materials = materialsOf(store);
     const taken = current().map((variant) => variant.material);
     const material = materials.find((name) => !taken.includes(name));
     send([...current(), { weight: 1, material }]);
@@ -81,8 +82,8 @@ export function variantsForm(store: Store, { label, path, own }: VariantsOptions
     const material = swatchField({
       label: named("material"),
       value: () => variant.material ?? INHERITED,
-      choices: () => [INHERITED, ...store.get("catalogue").materials],
-      colours: () => store.get("catalogue").swatches,
+      choices: () => [INHERITED, ...materialsOf(store)],
+      colours: () => swatchesOf(store),
       choose: (to) => change(at, "material", to),
     });
     material.update();
