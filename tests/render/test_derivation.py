@@ -11,7 +11,7 @@ from facade_nb.comparison import edits
 from facade_nb.design import Design
 from facade_nb.design.edit import remove_layer
 from facade_nb.render import rules_svg, split_grammar, splits_svg
-from facade_nb.render.splits import Shape, Split, children, rules_of, split_tree
+from facade_nb.render.splits import Node, Shape, Split, children, rules_of, split_tree
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -30,13 +30,13 @@ def cuts(layout: Layout, levels: int | None = None) -> dict[str, int]:
     """How many cuts the derivation makes along each axis, counted node by node."""
     found = {"x": 0, "y": 0}
 
-    def follow(node: object, depth: int) -> None:
+    def follow(node: Node, depth: int) -> None:
         if isinstance(node, Split):
             if levels is not None and depth >= levels:
                 return
             found[node.axis] += len(node.parts) - 1
             depth += 1
-        for child in children(node):  # type: ignore[arg-type]
+        for child in children(node):
             follow(child, depth)
 
     follow(split_tree(layout), 0)
@@ -79,8 +79,8 @@ def test_each_rule_has_its_parts_once_and_its_text_to_read(house: Layout) -> Non
     assert {title for title in titles if "-->" not in title} >= named
 
 
-def _leaf(node: object) -> Shape | None:
-    found = [child for child in children(node) if isinstance(child, Shape)]  # type: ignore[arg-type]
+def _leaf(node: Node) -> Shape | None:
+    found = [child for child in children(node) if isinstance(child, Shape)]
     return found[0] if found else None
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,13 +23,29 @@ _DEPTHS = {"MultiSurface": 0, "CompositeSurface": 0, "Solid": 1, "MultiSolid": 2
 def objects_of(document: Mapping[str, Any], faults: Faults) -> Iterator[Object]:
     """The buildings of a document, and its parts; what is wrong is noted with its place."""
     vertices = _vertices(document, faults)
-    templates = faults.mapping(document.get("geometry-templates", {}), "geometry-templates")
+    templates = _templates(document, faults)
     objects = faults.mapping(document.get("CityObjects", {}), "CityObjects", "an object with city objects")
     for name, value in objects.items():
         place = f"CityObjects.{name}"
         own = faults.mapping(value, place)
         if own.get("type") in _BUILDINGS:
             yield _object(str(name), own, place, vertices, templates, faults)
+
+
+@dataclass(frozen=True, slots=True)
+class _Templates:
+    """Geometries that stand at many places, and their vertices, which no transform moves."""
+
+    geometries: Sequence[Any]
+    vertices: Points
+
+
+def _templates(document: Mapping[str, Any], faults: Faults) -> _Templates:
+    place = "geometry-templates"
+    given = faults.mapping(document.get(place, {}), place)
+    geometries = faults.sequence(given.get("templates", []), f"{place}.templates", "a list of geometries")
+    vertices = {"vertices": given.get("vertices-templates", [])}
+    return _Templates(geometries, _vertices(vertices, faults, f"{place}.vertices-templates"))
 
 
 def _vertices(document: Mapping[str, Any], faults: Faults, place: str = "vertices") -> Points:
@@ -71,7 +88,7 @@ def _object(
     own: Mapping[str, Any],
     place: str,
     vertices: Points,
-    templates: Mapping[str, Any],
+    templates: _Templates,
     faults: Faults,
 ) -> Object:
     """The most detailed of an object's geometries that has openings, with all templates of that level."""
@@ -111,13 +128,11 @@ def _instance(
     geometry: Mapping[str, Any],
     place: str,
     vertices: Points,
-    templates: Mapping[str, Any],
+    templates: _Templates,
     faults: Faults,
 ) -> tuple[str, Object] | None:
     """A template, turned by a matrix and put at a vertex: its level of detail, and what it is made of."""
-    known = faults.sequence(
-        templates.get("templates", []), "geometry-templates.templates", "a list of geometries"
-    )
+    known = templates.geometries
     number = geometry.get("template")
     if not isinstance(number, int) or isinstance(number, bool) or not 0 <= number < len(known):
         faults.expected(f"{place}.template", f"the number of a template, 0 to {len(known) - 1}", number)
@@ -136,10 +151,7 @@ def _instance(
         faults.expected(f"{place}.transformationMatrix", "16 numbers, row by row", given)
         return None
     matrix = np.array(given, float).reshape(4, 4)
-    own = _vertices(
-        {"vertices": templates.get("vertices-templates", [])}, faults, "geometry-templates.vertices-templates"
-    )
-    placed = own @ matrix[:3, :3].T + matrix[:3, 3] + vertices[spot]
+    placed = templates.vertices @ matrix[:3, :3].T + matrix[:3, 3] + vertices[spot]
     made = _geometry(name, template, where, placed, faults)
     if np.linalg.det(matrix[:3, :3]) < 0:  # a mirror turns corners around
         holes = [*made.loose, *(hole for surface in made.surfaces for hole in surface.holes)]
