@@ -1,8 +1,4 @@
-"""Before real houses, of which no street is known: a paved place with a car, hedges, lamps, people.
-
-Streets are not guessed. What stands there follows from the walls that look out (`openness`) and from how much room
-there is before them.
-"""
+"""Before real houses: the way from the street to the door, a place for a car, hedges along the street."""
 
 from __future__ import annotations
 
@@ -14,56 +10,65 @@ import shapely
 from numpy.typing import NDArray
 
 from .chance import Floats, chance, length, millimetres
-from .neighbours import Cut
-from .rings import Ints, after, ring_numbers
+from .openness import roads_before
+from .rings import Ints, ring_numbers
+from .roads import HALF, WALK, Roads
 from .roles import STREET
-from .street_life import Cars, Hedges, cars_like, ways_of
-from .things import LAMP, PEOPLE, PERSON, Things
+from .street_life import Cars, Hedges, cars_like
+from .things import Things
 
 if TYPE_CHECKING:
     from .plan import Plan
 
-__all__ = ["Forecourts", "cars_before", "forecourts_of", "hedges_before", "lamps_before", "people_before"]
+__all__ = ["Forecourts", "cars_before", "forecourts_of", "hedges_before"]
 
-_BESIDE, _LONG, _DEEP, _AXIS = 1.9, 5.8, 4.0, 2.75
-"""From the front's middle, where its door may be, to the place; how long and deep that is; from wall to car, metres."""
+_BESIDE, _WIDE, _AXIS = 1.6, 3.0, 3.6
+"""From the front's middle, where its door may be, to a place for a car; its width; from wall to car, metres."""
 
-_ROOM = 8.5
-"""Free metres before a wall that has a place for a car."""
+_NEAR, _FURTHER = 8.6, 24.0
+"""A wall that has a place for a car is so far from the middle of its street, metres."""
 
-_CARS, _PEOPLE, _HEDGES, _LAMPS = 0.3, 0.16, 0.4, 0.2
+_WAY, _LONGEST = 0.65, 90.0
+"""Half the width of a way to a door, and how long it is at the most, metres."""
+
+_CARS, _HEDGES = 0.3, 0.4
 """So many of each there are at the most for each house."""
-
-_APART = 26.0
-"""From one lamp to the next, metres."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Fronts:
-    """The widest wall of each building that looks out: middle, unit vectors along and outwards, span, gap, building."""
+    """The wall of each building that has its door, else its widest on the street.
+
+    Middle, unit vectors along and outwards, span, building; metres to the middle of the road before it (`inf`: none is
+    seen) and to its edge.
+    """
 
     middle: Floats
     unit: Floats
     out: Floats
     span: Floats
-    gap: Floats
     building: Ints
+    road: Floats
+    kerb: Floats
 
     @classmethod
-    def of(
-        cls, corners: Floats, following: Ints, building: Ints, roles: NDArray[np.uint8], gaps: Floats
-    ) -> _Fronts:
-        way = corners[following] - corners
+    def of(cls, plan: Plan, gaps: Floats, roads: Roads) -> _Fronts:
+        way = plan.corners[plan.following] - plan.corners
         span = np.round(length(way), 3)
-        edge = np.flatnonzero((roles == STREET) & (span >= 4.0) & (gaps >= 4.0))
-        order = edge[np.lexsort((edge, -span[edge], building[edge]))]
-        first = (
-            np.append(True, building[order][1:] != building[order][:-1]) if len(order) else np.zeros(0, bool)
-        )
+        door = np.zeros(len(span), bool)
+        door[plan.entrance[plan.entrance >= 0]] = True
+        edge = np.flatnonzero((plan.role == STREET) & (span >= 1.5) & (gaps >= 1.5))
+        building = plan.building[edge]
+        order = edge[np.lexsort((edge, -span[edge], ~door[edge], building))]
+        building = plan.building[order]
+        first = np.append(True, building[1:] != building[:-1]) if len(order) else np.zeros(0, bool)
         own = order[first]
         unit = way[own] / span[own, None]
         out = np.column_stack([unit[:, 1], -unit[:, 0]])
-        return cls(corners[own] + way[own] / 2, unit, out, span[own], gaps[own], building[own])
+        middle = plan.corners[own] + way[own] / 2
+        road, which = roads_before(middle, out, gaps[own], roads)
+        wide = np.where(which >= 0, (HALF + WALK)[roads.kind[which]] if len(roads) else 0.0, 0.0)
+        return cls(middle, unit, out, span[own], plan.building[own], road, road - wide)
 
     def at(self, which: Ints, along: Floats, out: Floats | float) -> Floats:
         """Points so far along some fronts from their middles, and so far before them."""
@@ -75,137 +80,168 @@ class _Fronts:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Forecourts:
-    """Fronts, and the paved places before some of them: corners (p, 4, 2), which front, on which side of its middle."""
+    """Fronts, and what is paved before them.
+
+    Places for cars: corners (p, 4, 2), which front, on which side of its middle. Lines of the ways from doors to
+    streets; buildings with a door from which no street is reached.
+    """
 
     fronts: _Fronts
     corners: Floats
     front: Ints
     side: Floats
+    ways: NDArray[np.object_]
+    lost: Ints
+
+    def paved(self) -> NDArray[np.object_]:
+        """All of it, as polygons."""
+        strips = shapely.buffer(self.ways, _WAY, cap_style="flat", join_style="mitre")
+        return np.concatenate([np.asarray(strips, object), self.places()])
+
+    def places(self) -> NDArray[np.object_]:
+        """Places for cars, as polygons."""
+        return np.asarray(shapely.polygons(self.corners), object).reshape(-1)
 
 
 def forecourts_of(
-    cut: Cut, building: Ints, roles: NDArray[np.uint8], gaps: Floats, houses: NDArray[np.object_], seed: int
+    plan: Plan, gaps: Floats, roads: Roads, houses: NDArray[np.object_], seed: int
 ) -> Forecourts:
-    """Places for cars where there is room for one.
+    """Ways to doors, and places for cars where a street is not too near and not too far.
 
     Parameters
     ----------
-    building
-        (n,) of each edge.
+    gaps
+        (n,) of each edge of the plan.
     houses
         All footprints, as polygons.
     """
-    fronts = _Fronts.of(cut.corners, after(cut.offsets), building, roles, gaps)
+    fronts = _Fronts.of(plan, gaps, roads)
+    ways, lost = _ways(plan, roads, houses)
     wish, side = chance(seed, 80).random((2, len(fronts.span)))
-    own = np.flatnonzero((fronts.gap >= _ROOM) & (wish < 0.62))
-    sign = np.where(side[own] < 0.5, -1.0, 1.0)
-    near, far = sign * _BESIDE, sign * (_BESIDE + _LONG)
-    low, high = np.minimum(near, far), np.maximum(near, far)
-    spots = [(low, 0.0), (high, 0.0), (high, _DEEP), (low, _DEEP)]
-    corners = millimetres(np.stack([fronts.at(own, *spot) for spot in spots], axis=1)[:, ::-1])
-    clear = shapely.polygons(
-        np.stack([fronts.at(own, along, max(out, 0.35)) for along, out in spots], axis=1)
+    own = np.flatnonzero(
+        (fronts.road >= _NEAR) & (fronts.road <= _FURTHER) & (fronts.span >= 4.0) & (wish < 0.62)
     )
+    sign = np.where(side[own] < 0.5, -1.0, 1.0)
+    near, far = sign * _BESIDE, sign * (_BESIDE + _WIDE)
+    low, high = np.minimum(near, far), np.maximum(near, far)
+    deep = fronts.road[own]
+    none, least = np.zeros(len(own)), np.full(len(own), 0.35)
+
+    def boxes(near: Floats) -> Floats:
+        spots = [(low, near), (high, near), (high, deep), (low, deep)]
+        return np.stack([fronts.at(own, along, out) for along, out in spots], axis=1)
+
+    corners = millimetres(boxes(none)[:, ::-1])
+    clear = np.asarray(shapely.polygons(boxes(least)), object).reshape(-1)
     good = np.ones(len(own), bool)
     if len(own):
         tree = shapely.STRtree(clear)
         good[tree.query(houses, predicate="dwithin", distance=0.3)[1]] = False
+        good[tree.query(ways, predicate="dwithin", distance=_WAY)[1]] = False
         one, other = tree.query(clear, predicate="dwithin", distance=0.4)
         good[np.maximum(one, other)[(one != other) & good[one] & good[other]]] = False
     kept = np.flatnonzero(good)
     kept = np.sort(kept[np.lexsort((kept, np.round(wish[own[kept]], 6)))][: int(_CARS * len(houses)) + 6])
-    return Forecourts(fronts, corners[kept], own[kept], sign[kept])
+    return Forecourts(fronts, corners[kept], own[kept], sign[kept], ways, lost)
+
+
+def _ways(plan: Plan, roads: Roads, houses: NDArray[np.object_]) -> tuple[NDArray[np.object_], Ints]:
+    """From doors to the middle of a street: straight on, else the shortest way that no house stands in."""
+    building = np.flatnonzero(plan.entrance >= 0)
+    edge = plan.entrance[building]
+    a, b = plan.corners[edge], plan.corners[plan.following[edge]]
+    way = b - a
+    out = np.column_stack([way[:, 1], -way[:, 0]]) / np.maximum(length(way), 1e-9)[:, None]
+    middle = millimetres((a + b) / 2)
+    found = np.full(len(building), None, object)
+    if not len(roads) or not len(building):
+        return np.zeros(0, object), building
+    lines, tree = roads.lines(), shapely.STRtree(houses)
+    net = shapely.STRtree(lines)
+    straight = shapely.linestrings(np.stack([middle, middle + 30.0 * out], axis=1))
+    ray, line = net.query(straight, predicate="intersects")
+    meets = shapely.intersection(straight[ray], lines[line])
+    apart = np.full(len(building), np.inf)
+    np.minimum.at(apart, ray, np.round(shapely.distance(shapely.points(middle[ray]), meets), 3))
+    ahead = np.flatnonzero(np.isfinite(apart))
+    _take(
+        found,
+        ahead,
+        np.stack([middle[ahead], middle[ahead] + out[ahead] * apart[ahead, None]], axis=1),
+        building,
+        tree,
+    )
+    step = millimetres(middle + 1.1 * out)
+    for start in (shapely.points(step), houses[building]):
+        open_ = np.flatnonzero(shapely.is_missing(found))
+        (which, line) = net.query_nearest(start[open_], max_distance=_LONGEST, all_matches=False)
+        ends = shapely.get_coordinates(shapely.shortest_line(start[open_[which]], lines[line])).reshape(
+            -1, 2, 2
+        )
+        _take(found, open_[which], ends, building, tree)
+    good = ~shapely.is_missing(found)
+    return found[good], building[~good]
+
+
+def _take(
+    found: NDArray[np.object_], which: Ints, ends: Floats, building: Ints, houses: shapely.STRtree
+) -> None:
+    """Note those lines that no other house stands in."""
+    lines = np.asarray(shapely.linestrings(millimetres(ends)), object)
+    line, house = houses.query(lines, predicate="dwithin", distance=0.3)
+    # The own house is met where the way begins; elsewhere it is in the way as others are.
+    own = house == building[which[line]]
+    shared = shapely.length(shapely.intersection(lines[line], houses.geometries[house]))
+    blocked = np.zeros(len(which), bool)
+    blocked[line[~own | (shared > 0.05)]] = True
+    good = ~blocked & (shapely.length(lines) > 0.01)
+    found[which[good]] = lines[good]
 
 
 def cars_before(plan: Plan, courts: Forecourts, seed: int) -> Cars:
-    """A car on each place, but for those before a door that is not where one would look for it."""
+    """A car on each place, its front to the house or to the street."""
     random = chance(seed, 81)
     jitter, turned = random.random((2, len(courts.front)))
-    along = courts.side * (_BESIDE + _LONG / 2) + 0.5 * (jitter - 0.5)
-    way = courts.fronts.unit[courts.front] * np.where(turned < 0.5, -1.0, 1.0)[:, None]
-    at = millimetres(courts.fronts.at(courts.front, along, _AXIS))
-    good = np.ones(len(at), bool)
-    if len(at):
-        axes = shapely.linestrings(np.stack([at - 2.4 * way, at + 2.4 * way], axis=1))
-        good[shapely.STRtree(axes).query(ways_of(plan), predicate="dwithin", distance=1.5)[1]] = False
-    return cars_like(at[good], way[good], random)
+    along = courts.side * (_BESIDE + _WIDE / 2) + 0.3 * (jitter - 0.5)
+    way = courts.fronts.out[courts.front] * np.where(turned < 0.3, 1.0, -1.0)[:, None]
+    return cars_like(millimetres(courts.fronts.at(courts.front, along, _AXIS)), way, random)
 
 
 def hedges_before(
-    plan: Plan, courts: Forecourts, gardens: NDArray[np.bool_], things: Things, seed: int
+    plan: Plan, courts: Forecourts, gardens: NDArray[np.bool_], things: Things, roads: Roads, seed: int
 ) -> Hedges:
-    """Hedges across the gardens (b,) before houses, on both sides of the way to the door, clear of all else."""
+    """Hedges between the gardens (b,) before houses and the street, clear of ways, cars and all else."""
     fronts = courts.fronts
     random = chance(seed, 82)
-    wish, aside, size = random.random((3, len(fronts.span)))
-    own = np.flatnonzero(gardens[fronts.building] & (fronts.gap >= 11.0) & (wish < 0.6))
-    out = np.round(np.minimum(0.42 * fronts.gap[own], 5.2 + 2.4 * aside[own]), 2)
-    half = 0.5 * fronts.span[own] + 1.5 + 2.0 * size[own]
-    start = np.concatenate([fronts.at(own, np.full(len(own), sign * 1.5), out) for sign in (-1, 1)])
-    end = np.concatenate([fronts.at(own, sign * half, out) for sign in (-1, 1)])
-    start, end = millimetres(start), millimetres(end)
-    tall = np.round(np.tile(0.85 + 0.55 * aside[own], 2), 2)
-    lines = shapely.linestrings(np.stack([start, end], axis=1))
-    good = length(end - start) > 1.5
+    wish, size = random.random((2, len(fronts.span)))
+    own = np.flatnonzero(
+        gardens[fronts.building] & (fronts.kerb >= 3.5) & (fronts.kerb <= 22.0) & (wish < 0.62)
+    )
+    out = np.round(fronts.kerb[own] - 0.55, 2)
+    half = np.round(0.5 * fronts.span[own] + 1.0 + 2.5 * size[own], 2)
+    cells = []
+    for sign in (-1, 1):
+        # In pieces, so that one gives way to a drive and others stay.
+        for part in (0, 1):
+            low, high = (1.3 + (half - 1.3) * share for share in (0.5 * part, 0.5 * part + 0.5))
+            cells.append(np.stack([fronts.at(own, sign * along, out) for along in (low, high)], axis=1))
+    ends = millimetres(np.concatenate(cells)) if len(own) else np.zeros((0, 2, 2))
+    tall = np.round(np.tile(0.85 + 0.55 * size[own], 4), 2)
+    lines = shapely.linestrings(ends)
+    good = length(ends[:, 1] - ends[:, 0]) > 0.9
     if len(lines):
         tree = shapely.STRtree(lines)
-        good[tree.query(_houses(plan), predicate="dwithin", distance=0.7)[1]] = False
-        good[tree.query(ways_of(plan), predicate="dwithin", distance=0.9)[1]] = False
-        good[tree.query(shapely.polygons(courts.corners), predicate="dwithin", distance=0.6)[1]] = False
-        good[
-            tree.query(shapely.points(things.at[things.foot == 0]), predicate="dwithin", distance=0.8)[1]
-        ] = False
-        one, other = tree.query(lines, predicate="dwithin", distance=0.6)
-        good[np.maximum(one, other)[one != other]] = False
+        near = [(_houses(plan), 0.7), (courts.ways, _WAY + 0.35), (courts.places(), 0.35)]
+        near.append((shapely.points(things.at[things.foot == 0]), 0.8))
+        for others, distance in near:
+            good[tree.query(others, predicate="dwithin", distance=distance)[1]] = False
+        net = roads.lines()
+        good[tree.query(net, predicate="dwithin", distance=(HALF + WALK)[roads.kind] + 0.3)[1]] = False
+        one, other = tree.query(lines, predicate="dwithin", distance=0.5)
+        crossing = (one != other) & (np.abs(one - other) % len(own) != 0)
+        good[np.maximum(one, other)[crossing]] = False
     most = np.flatnonzero(good)[: int(_HEDGES * len(plan)) + 12]
-    return Hedges(start[most], end[most], millimetres(tall[most]), np.full(len(most), 0.5))
-
-
-def lamps_before(plan: Plan, courts: Forecourts, seed: int) -> Things:
-    """Lamps on the strips before houses, at one end of the front, none near another."""
-    fronts = courts.fronts
-    side = np.where(chance(seed, 83).random(len(fronts.span)) < 0.5, -1.0, 1.0)
-    own = np.flatnonzero(fronts.gap >= 6.0)
-    at = millimetres(fronts.at(own, side[own] * (0.5 * fronts.span[own] - 0.4), 1.25))
-    # One in each cell of a net, and none of two across its lines that are near.
-    cell = np.floor(at / _APART).astype(np.int64)
-    _, first = np.unique(cell, axis=0, return_index=True)
-    at = at[np.sort(first)]
-    good = np.ones(len(at), bool)
-    if len(at):
-        points = shapely.points(at)
-        one, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=0.6 * _APART)
-        good[np.maximum(one, other)[one != other]] = False
-        good[shapely.STRtree(_houses(plan)).query(points, predicate="dwithin", distance=0.7)[0]] = False
-        if len(courts.corners):
-            places = shapely.STRtree(shapely.polygons(courts.corners))
-            good[places.query(points, predicate="dwithin", distance=0.2)[0]] = False
-    return Things.of(at[good][: int(_LAMPS * len(plan)) + 6], LAMP, 4.4, 0.8)
-
-
-def people_before(plan: Plan, courts: Forecourts, cars: Cars, things: Things, seed: int) -> Things:
-    """People on the strips before houses and beside cars."""
-    fronts = courts.fronts
-    random = chance(seed, 84)
-    wish, along, out = random.random((3, len(fronts.span)))
-    own = np.flatnonzero(wish < 0.4)
-    at = millimetres(
-        fronts.at(own, (along[own] - 0.5) * np.minimum(fronts.span[own], 12.0), 0.7 + 0.7 * out[own])
-    )
-    points = shapely.points(at)
-    good = np.ones(len(at), bool)
-    if len(at):
-        stems = shapely.points(things.at[(things.foot == 0) & (things.kind <= LAMP)])
-        # Cars are two metres wide: what keeps away from their middles that far keeps away from them.
-        ends = cars.way * (cars.long / 2)[:, None]
-        axes = shapely.linestrings(np.stack([cars.at - ends, cars.at + ends], axis=1))
-        for others, distance in ((_houses(plan), 0.45), (stems, 0.75), (axes, 1.25)):
-            good[shapely.STRtree(others).query(points, predicate="dwithin", distance=distance)[0]] = False
-    kept = np.flatnonzero(good)
-    kept = np.sort(kept[np.lexsort((kept, np.round(wish[own[kept]], 6)))][: int(_PEOPLE * len(plan)) + 6])
-    kind = random.integers(0, PEOPLE, len(kept))
-    tall = 1.60 + 0.02 * random.integers(0, 14, len(kept))
-    return Things.of(at[kept], PERSON + kind, tall, 0.7 * tall / 1.86)
+    return Hedges(ends[most, 0], ends[most, 1], millimetres(tall[most]), np.full(len(most), 0.5))
 
 
 def _houses(plan: Plan) -> NDArray[np.object_]:

@@ -33,6 +33,7 @@ MOST = 200_000
 
 _TYPES = ("FeatureCollection", "Feature", "GeometryCollection", "Polygon", "MultiPolygon")
 _OTHERS = ("Point", "MultiPoint", "LineString", "MultiLineString")
+_LINES = ("LineString", "MultiLineString")
 _WORLD = ("crs84", "epsg:4326", "epsg::4326", "wgs84")
 
 
@@ -54,6 +55,8 @@ class Outlines:
         Longitude and latitude of the origin.
     left_out
         Why others were left out, and how many.
+    roads
+        Streets that are told: a line (p, 2) each in whole millimetres, and the value of its `highway`.
     """
 
     offsets: Ints
@@ -63,6 +66,7 @@ class Outlines:
     tags: tuple[Mapping[str, Any], ...]
     centre: tuple[float, float]
     left_out: Mapping[str, int]
+    roads: tuple[tuple[Floats, str], ...] = ()
 
     def polygons(self) -> NDArray[np.object_]:
         """As shapely's polygons."""
@@ -71,11 +75,12 @@ class Outlines:
 
 @dataclass(slots=True)
 class _Found:
-    """Polygons as they are read: rings of longitude and latitude, with their tags."""
+    """Polygons as they are read: rings of longitude and latitude, with their tags; and lines of streets."""
 
     polygons: list[list[Any]] = field(default_factory=list)
     tags: list[Mapping[str, Any]] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
+    roads: list[tuple[Floats, str]] = field(default_factory=list)
 
 
 def read_outlines(source: Mapping[str, Any] | str | Path) -> Outlines:
@@ -96,7 +101,10 @@ def read_outlines(source: Mapping[str, Any] | str | Path) -> Outlines:
     _check(document, place)
     found = _Found()
     for geometry, tags in _geometries(document, {}, found.left_out):
-        _take(geometry, tags, found)
+        if geometry["type"] in _LINES:
+            _take_road(geometry, str(tags["highway"]), found)
+        else:
+            _take(geometry, tags, found)
         if len(found.polygons) > MOST:
             raise DesignError(Fault(place, f"expected at most {MOST:,} footprints; there are more"))
     _buildings_only(found)
@@ -195,7 +203,7 @@ def _geometries(
         geometries = value.get("geometries")
         for geometry in geometries if isinstance(geometries, list) else []:
             yield from _geometries(geometry, tags, left_out, depth + 1)
-    elif kind in ("Polygon", "MultiPolygon"):
+    elif kind in ("Polygon", "MultiPolygon") or (kind in _LINES and tags.get("highway")):
         yield value, tags
     else:
         left_out[_NO_POLYGON if kind in _OTHERS else _NO_FEATURE] += 1
@@ -235,6 +243,20 @@ def _take(geometry: Mapping[str, Any], tags: Mapping[str, Any], found: _Found) -
             found.tags.append(tags)
     if geometry["type"] == "MultiPolygon" and not coordinates:
         found.left_out[_EMPTY] += 1
+
+
+def _take_road(geometry: Mapping[str, Any], kind: str, found: _Found) -> None:
+    """Note the lines of a street."""
+    coordinates = geometry.get("coordinates")
+    lines = _rings([coordinates] if geometry["type"] == "LineString" else coordinates)
+    if lines is None:
+        found.left_out[_MALFORMED] += 1
+        return
+    for line in lines:
+        if (np.abs(line) > (180.0, 90.0)).any():
+            found.left_out[_RANGE] += 1
+        elif len(line) > 1:
+            found.roads.append((line, kind))
 
 
 def _rings(polygon: Any) -> list[Floats] | None:
@@ -310,7 +332,10 @@ def _usable(found: _Found) -> Outlines:
     number = np.cumsum(kept) - 1
     tags = tuple(own for own, good in zip(found.tags, kept.tolist(), strict=True) if good)
     told = {why: count for why, count in left_out.items() if count}
-    return Outlines(new, corners[index], number[ring_of[rings_kept]], holes[rings_kept], tags, centre, told)
+    roads = ((millimetres(to_metres(line, centre)), kind) for line, kind in found.roads)
+    near = tuple((line, kind) for line, kind in roads if (np.abs(line) <= FARTHEST).all())
+    number = number[ring_of[rings_kept]]
+    return Outlines(new, corners[index], number, holes[rings_kept], tags, centre, told, near)
 
 
 def _nothing(left_out: Counter[str]) -> Outlines:

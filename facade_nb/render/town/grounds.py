@@ -14,7 +14,7 @@ from .rings import Ints, after, ring_numbers, take_rings
 from .roofing import triangulated
 from .streets import AVENUE, WALKS, WIDTHS, Cells
 
-__all__ = ["Pieces", "ground_of"]
+__all__ = ["ASPHALT", "COURT", "GRASS", "PAVEMENT", "Pieces", "ground_of"]
 
 ASPHALT, PAVEMENT, COURT, GRASS, LINE = range(5)
 

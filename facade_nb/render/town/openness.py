@@ -1,4 +1,4 @@
-"""Which way a building looks where no street is known: towards the open."""
+"""Which way a building looks: towards the street that it sees, else towards the open."""
 
 from __future__ import annotations
 
@@ -9,12 +9,16 @@ from numpy.typing import NDArray
 from .chance import Floats, length
 from .neighbours import Cut
 from .rings import Ints, after, ring_numbers
+from .roads import Roads
 from .roles import COURT, PARTY, SIDE, STREET
 
-__all__ = ["gaps_of", "look_out"]
+__all__ = ["SIGHT", "gaps_of", "look_out", "roads_before"]
 
 SIGHT = 40.0
 """Nothing further away matters, metres."""
+
+_ALLEY = 3.0
+"""A road whose middle is nearer to a wall is an alley, metres: a house looks elsewhere, if it can."""
 
 
 def gaps_of(cut: Cut) -> Floats:
@@ -29,27 +33,67 @@ def gaps_of(cut: Cut) -> Floats:
     edge = np.flatnonzero(free & (span > 0))
     first = middle[edge] + 0.05 * out[edge]
     rays = shapely.linestrings(np.stack([first, middle[edge] + SIGHT * out[edge]], axis=1))
-    lines = shapely.linestrings(np.stack([start, end], axis=1))
-    ray, wall = shapely.STRtree(lines).query(rays, predicate="intersects")
-    # Where a ray meets a wall: by the wall's line; where they run along each other, at its nearer end.
-    a, d, u = first[ray], out[edge][ray], way[wall]
-    to = start[wall] - a
-    cross = d[:, 0] * u[:, 1] - d[:, 1] * u[:, 0]
-    level = np.abs(cross) < 1e-9 * np.maximum(span[wall], 1e-9)
-    t = (to[:, 0] * u[:, 1] - to[:, 1] * u[:, 0]) / np.where(level, 1, cross)
-    ends = np.minimum((to * d).sum(axis=1), ((to + u) * d).sum(axis=1))
-    t = np.round(np.where(level, ends, t), 3)
+    ray, t = _hits(first, out[edge], rays, start, way)
     gaps = np.full(len(start), SIGHT)
     np.minimum.at(gaps, edge[ray], np.clip(t, 0, SIGHT))
     gaps[~free] = 0
     return gaps
 
 
-def look_out(cut: Cut, ring_of: Ints, holes: NDArray[np.bool_], gaps: Floats) -> NDArray[np.uint8]:
-    """Roles of walls.
+def _hits(
+    first: Floats, out: Floats, rays: NDArray[np.object_], start: Floats, way: Floats
+) -> tuple[Ints, Floats]:
+    """Rays (n) that meet lines from `start` on by `way`, and how far from their `first` points, metres.
 
-    The front is where the longest walls look furthest. What looks the same way is on the street, also around the corner
-    of a house between neighbours; what looks away from it is behind, the rest beside.
+    Where they run along each other they meet at the line's nearer end.
+    """
+    lines = shapely.linestrings(np.stack([start, start + way], axis=1))
+    ray, line = shapely.STRtree(lines).query(rays, predicate="intersects")
+    a, d, u = first[ray], out[ray], way[line]
+    to = start[line] - a
+    cross = d[:, 0] * u[:, 1] - d[:, 1] * u[:, 0]
+    level = np.abs(cross) < 1e-9 * np.maximum(length(u), 1e-9)
+    t = (to[:, 0] * u[:, 1] - to[:, 1] * u[:, 0]) / np.where(level, 1, cross)
+    ends = np.minimum((to * d).sum(axis=1), ((to + u) * d).sum(axis=1))
+    return ray, np.round(np.where(level, ends, t), 3)
+
+
+def roads_before(middle: Floats, out: Floats, gaps: Floats, roads: Roads) -> tuple[Floats, Ints]:
+    """How far roads' middles are, straight out from places (n, 2) of walls, and which roads; `inf` and -1: none.
+
+    Parameters
+    ----------
+    out
+        (n, 2) unit vectors out of the walls.
+    gaps
+        (n,) to the next building: what lies behind is not seen.
+    """
+    apart, which = np.full(len(middle), np.inf), np.full(len(middle), -1)
+    some = np.flatnonzero(gaps > 1.0)
+    if not len(roads) or not len(some):
+        return apart, which
+    inner = np.ones(len(roads.points), bool)
+    inner[roads.offsets[1:] - 1] = False
+    start = np.flatnonzero(inner)
+    way = roads.points[start + 1] - roads.points[start]
+    rays = shapely.linestrings(np.stack([middle[some], middle[some] + out[some] * gaps[some, None]], axis=1))
+    ray, t = _hits(middle[some], out[some], rays, roads.points[start], way)
+    np.minimum.at(apart, some[ray], np.maximum(t, 0))
+    spot = shapely.points(middle + out * np.where(np.isfinite(apart), apart, 0.0)[:, None])
+    seen = np.flatnonzero(np.isfinite(apart))
+    if len(seen):
+        which[seen] = shapely.STRtree(roads.lines()).nearest(spot[seen])
+    return apart, which
+
+
+def look_out(
+    cut: Cut, ring_of: Ints, holes: NDArray[np.bool_], gaps: Floats, apart: Floats
+) -> NDArray[np.uint8]:
+    """Roles of walls. `apart`: how far a road is before each (`roads_before`).
+
+    The front is where the longest walls see a road that is no mere alley, the nearest; where none does, where they look
+    furthest. What looks the same way is on the street, also around the corner of a house between neighbours; what looks
+    away from it is behind, the rest beside.
     """
     ring = ring_numbers(cut.offsets)
     building = np.asarray(ring_of)[ring]
@@ -58,7 +102,9 @@ def look_out(cut: Cut, ring_of: Ints, holes: NDArray[np.bool_], gaps: Floats) ->
     out = np.stack([way[:, 1], -way[:, 0]], axis=1) / np.maximum(span, 1e-9)[:, None]
     party = np.zeros(len(span), bool)
     party[cut.wall] = True
-    worth = np.where(party | holes[ring], 0, np.round(np.minimum(span, 16) * (gaps + 2), 1))
+    seen = np.isfinite(apart) & (apart >= _ALLEY)
+    free = np.where(seen, 20 * (SIGHT + 12 - np.minimum(apart, SIGHT)), gaps + 2)
+    worth = np.where(party | holes[ring], 0, np.round(np.minimum(span, 16) * free, 1))
     begin = np.searchsorted(building, np.arange(int(building.max()) + 2))
     count = np.diff(begin)[building]
     one = np.repeat(np.arange(len(span)), count)

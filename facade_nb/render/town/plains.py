@@ -1,71 +1,139 @@
-"""The ground under real footprints: a paved strip around each building, paved places, and a plain."""
+"""The ground under real footprints: streets with pavements, what is paved about houses, and a plain."""
 
 from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from .chance import Floats, millimetres
-from .grounds import Pieces
+from .grounds import ASPHALT, COURT, GRASS, PAVEMENT, Pieces
 from .plan import Ground
 from .rings import Ints, line_offsets, offsets_of, ring_numbers
+from .roads import HALF, LANE, WALK, Roads
 from .roofing import triangulated
 
-__all__ = ["plain_of"]
+__all__ = ["APRON", "plain_of"]
 
-APRON = 1.5
-"""How wide the paved strip is, metres."""
+APRON = 0.6
+"""How wide the strip of gravel around a house is, and so near to it no street comes, metres."""
 
 TILE = 240.0
 """The plain is made in squares of so many metres."""
 
-_PAVEMENT, _GRASS = 1, 3
+_THREADS = 1 if sys.platform == "emscripten" else 2
+"""Shapely lets other threads run: on two processors two take half the time."""
+
+_ROUND = 0.4142135623730951
+_ENDS = np.array(
+    [(1, _ROUND), (_ROUND, 1), (-_ROUND, 1), (-1, _ROUND), (-1, -_ROUND), (-_ROUND, -1), (_ROUND, -1), (1, -_ROUND)]
+)  # fmt: skip
+"""Streets end and meet as such an octagon; lanes have no ends of their own."""
 
 
-def plain_of(offsets: Ints, corners: Floats, paved: Floats) -> Ground:
-    """Strips and plain.
+def plain_of(
+    offsets: Ints, corners: Floats, paved: Floats, roads: Roads, ways: NDArray[np.object_]
+) -> Ground:
+    """Ground.
 
     Parameters
     ----------
     offsets, corners
         The buildings' outer rings.
     paved
-        Corners (p, 4, 2) of places that are paved, too.
+        (b,) how wide the pavement around each is, metres; 0: there is only a strip of gravel.
+    roads
+        Streets.
+    ways
+        Polygons of ways to doors and of places for cars.
     """
-    rings = shapely.linearrings(corners, indices=ring_numbers(offsets))
-    houses = np.asarray(shapely.polygons(rings), object)
-    moved = millimetres(line_offsets(corners, offsets, -APRON))
-    wide = np.asarray(shapely.polygons(shapely.linearrings(moved, indices=ring_numbers(offsets))), object)
-    # Where a mitre is long or edges turn over, the strip is made with care, which takes longer.
-    good = shapely.is_valid(wide) & (shapely.area(wide) > shapely.area(houses))
-    reach = shapely.bounds(wide) - shapely.bounds(houses)
-    good &= (np.abs(reach) < 3 * APRON).all(axis=1)
-    aprons = wide
-    aprons[~good] = shapely.buffer(houses[~good], APRON, join_style="mitre", mitre_limit=2.0)
-    if len(paved):
-        aprons = np.concatenate([aprons, shapely.polygons(paved)])
+    broad = paved > APRON
+    narrow = _aprons(offsets, corners, np.full(len(paved), APRON))
+    wide = _aprons(offsets, corners, np.maximum(paved, APRON))[broad]
+    roadway = _laid(roads, HALF[roads.kind])
+    walked = roads.take(np.flatnonzero(WALK[roads.kind] > 0))
+    walks = _laid(walked, (HALF + WALK)[walked.kind])
+    every = [roadway, walks, wide, narrow, np.asarray(ways, object)]
     low = np.floor(corners.min(axis=0) / TILE) - 2
     high = np.ceil(corners.max(axis=0) / TILE) + 2
     columns, rows = (high - low).astype(int).tolist()
     x, y = (low[k] * TILE + np.arange(n) * TILE for k, n in ((0, columns), (1, rows)))
     xs, ys = (v.ravel() for v in np.meshgrid(x, y))
     tiles = np.asarray(shapely.box(xs, ys, xs + TILE, ys + TILE), object)
-    tile, apron = shapely.STRtree(aprons).query(tiles, predicate="intersects")
-    order = np.lexsort((apron, tile))
-    tile, apron = tile[order], apron[order]
-    built, first = np.unique(tile, return_index=True)
-    joined = [
-        shapely.union_all(part) for part in np.split(aprons[apron], first[1:])
-    ] if len(built) else []  # fmt: skip
-    strips = shapely.intersection(tiles[built], joined)
-    green = shapely.difference(tiles[built], joined)
-    empty = np.delete(tiles, built)
+    built = np.unique(shapely.STRtree(np.concatenate(every)).query(tiles, predicate="intersects")[0])
+    own = tiles[built]
+    covers = _in_threads(own, every)
     pieces = Pieces()
-    _triangles(pieces, shapely.get_parts(strips), _PAVEMENT)
-    for parts in (shapely.get_parts(green), empty, _frame(x, y)):
-        _triangles(pieces, parts, _GRASS)
+    for parts, kind in zip(covers, (ASPHALT, PAVEMENT, COURT, GRASS), strict=True):
+        _triangles(pieces, shapely.get_parts(parts), kind)
+    for parts in (np.delete(tiles, built), _frame(x, y)):
+        _triangles(pieces, parts, GRASS)
     return pieces.ground()
+
+
+def _in_threads(
+    tiles: NDArray[np.object_], layers: Sequence[NDArray[np.object_]]
+) -> list[NDArray[np.object_]]:
+    """The covers of all tiles, kind by kind."""
+    if _THREADS == 1:
+        return _covers(tiles, layers)
+    shares = [tiles[part::_THREADS] for part in range(_THREADS)]
+    with ThreadPoolExecutor(_THREADS) as pool:
+        found = pool.map(lambda share: _covers(share, layers), shares)
+        return [np.concatenate(parts) for parts in zip(*found, strict=True)]
+
+
+def _covers(tiles: NDArray[np.object_], layers: Sequence[NDArray[np.object_]]) -> list[NDArray[np.object_]]:
+    """What of each tile is asphalt, pavement, court and grass."""
+    road, walk, stones, strips, drives = (_within(tiles, layer) for layer in layers)
+    stone, soft = shapely.union(walk, stones), shapely.union(strips, drives)
+    asphalt = shapely.difference(road, strips)
+    hard = shapely.union(asphalt, stone)
+    pavement, court = shapely.difference(stone, asphalt), shapely.difference(soft, hard)
+    return [asphalt, pavement, court, shapely.difference(tiles, shapely.union(hard, soft))]
+
+
+def _aprons(offsets: Ints, corners: Floats, wide: Floats) -> NDArray[np.object_]:
+    """Outer rings with so much around them each."""
+    rings = shapely.linearrings(corners, indices=ring_numbers(offsets))
+    houses = np.asarray(shapely.polygons(rings), object)
+    moved = millimetres(line_offsets(corners, offsets, -wide[ring_numbers(offsets)]))
+    found = np.asarray(shapely.polygons(shapely.linearrings(moved, indices=ring_numbers(offsets))), object)
+    # Where a mitre is long or edges turn over, the strip is made with care, which takes longer.
+    good = shapely.is_valid(found) & (shapely.area(found) > shapely.area(houses))
+    reach = shapely.bounds(found) - shapely.bounds(houses)
+    good &= (np.abs(reach) < 3 * wide[:, None]).all(axis=1)
+    found[~good] = shapely.buffer(houses[~good], wide[~good], join_style="mitre", mitre_limit=2.0)
+    return found
+
+
+def _laid(roads: Roads, half: Floats) -> NDArray[np.object_]:
+    """Roads so wide on each side of their lines, and what closes them at both ends."""
+    if not len(roads):
+        return np.zeros(0, object)
+    strips = shapely.buffer(roads.lines(), half, cap_style="flat", join_style="mitre", mitre_limit=2.0)
+    wide = np.flatnonzero(roads.kind < LANE)
+    ends = roads.points[np.concatenate([roads.offsets[:-1][wide], roads.offsets[1:][wide] - 1])]
+    caps = shapely.polygons(millimetres(ends[:, None] + _ENDS * np.tile(half[wide], 2)[:, None, None]))
+    return np.concatenate([np.asarray(strips, object), np.asarray(caps, object)])
+
+
+def _within(tiles: NDArray[np.object_], layer: NDArray[np.object_]) -> NDArray[np.object_]:
+    """What of a layer lies in each tile, as one."""
+    found = np.full(len(tiles), shapely.Polygon(), object)
+    if not len(layer):
+        return found
+    tile, piece = shapely.STRtree(layer).query(tiles, predicate="intersects")
+    order = np.lexsort((piece, tile))
+    tile, piece = tile[order], piece[order]
+    some, first = np.unique(tile, return_index=True)
+    joined = [shapely.union_all(part) for part in np.split(layer[piece], first[1:])] if len(some) else []
+    found[some] = shapely.intersection(tiles[some], joined)
+    return found
 
 
 def _frame(x: Floats, y: Floats) -> np.ndarray:
@@ -90,8 +158,8 @@ def _frame(x: Floats, y: Floats) -> np.ndarray:
 
 
 def _triangles(pieces: Pieces, polygons: NDArray[np.object_], kind: int) -> None:
-    """Add polygons; lines and points among them are passed over."""
-    polygons = polygons[shapely.get_type_id(polygons) == 3]
+    """Add polygons; lines, points and nothing among them are passed over."""
+    polygons = polygons[(shapely.get_type_id(polygons) == 3) & ~shapely.is_empty(polygons)]
     if not len(polygons):
         return
     rings, polygon = shapely.get_rings(polygons, return_index=True)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from .chance import Floats
 from .rings import Ints, after, ring_numbers
+from .roads import NO_ROADS, Roads
 from .roles import COURT, PARTY, ROLES, SIDE, STREET
 from .street_life import NO_CARS, NO_HEDGES, Cars, Hedges
 from .things import NOTHING, Things
@@ -130,6 +131,8 @@ class Plan:
         Trees, lamps, people and what else turns to whoever looks.
     cars, hedges
         What else stands in streets and before gardens.
+    roads
+        Streets of a real town.
     """
 
     corners: Floats
@@ -156,6 +159,7 @@ class Plan:
     things: Things = NOTHING
     cars: Cars = NO_CARS
     hedges: Hedges = NO_HEDGES
+    roads: Roads = NO_ROADS
 
     def __len__(self) -> int:
         return len(self.eaves)

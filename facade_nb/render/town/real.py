@@ -16,14 +16,17 @@ from .characters import eaves_of, storeys_of, table_of
 from .chimneys import chimneys_of
 from .finishing import Characters, Pairs, finish, pairs_of, walls_of
 from .fitting import fit_fronts, single_fronts
-from .forecourts import cars_before, forecourts_of, hedges_before, lamps_before, people_before
+from .forecourts import cars_before, forecourts_of, hedges_before
 from .geojson import Outlines, read_outlines
 from .greenery import trees_of
 from .neighbours import Cut, cut_walls, with_hidden
-from .openness import gaps_of, look_out
+from .openness import gaps_of, look_out, roads_before
+from .passages import passages_of
 from .plains import plain_of
-from .plan import FLAT, GABLE, INDUSTRIAL, OUTBUILDING, PUBLIC, RESIDENTIAL, SHOP, Plan
+from .plan import FLAT, GABLE, INDUSTRIAL, OUTBUILDING, PUBLIC, RESIDENTIAL, SHOP, Ground, Plan
 from .rings import Ints, after, areas, ring_numbers, take_rings
+from .roads import Roads, laid_out, told
+from .roadside import cars_along, lamps_along, people_along, trees_along
 from .roles import PARTY, STREET
 from .stages import Stages
 from .styles import Style
@@ -31,10 +34,21 @@ from .tags import Use, has_shop, levels_of, metres_of, roof_of, use_of
 
 __all__ = ["real_plan"]
 
-_TREES = 3.0
+_TREES = 2.2
 """Trees for each house, at the most."""
 
-_GARDENS = frozenset({"detached", "half-timbered"})
+_SHED = 45.0
+"""Smaller buildings are sheds and garages, for which no street is laid, square metres."""
+
+_NO_GROUND = Ground(
+    np.zeros((0, 2)),
+    np.zeros((0, 3), np.int64),
+    np.zeros(0, np.uint8),
+    np.zeros(0, np.int64),
+    np.zeros(0, bool),
+)
+
+_GARDENS = ("detached", "half-timbered")
 """Styles of houses that stand in gardens."""
 
 _WANTED: Mapping[int, Mapping[str, float]] = {
@@ -63,8 +77,16 @@ def real_plan(
     cut = cut_walls(outlines.offsets, outlines.corners, building)
     owner = np.asarray(outlines.ring_of)[ring_numbers(cut.offsets)]
     cut = with_hidden(cut, owner, outlines.polygons())
+    houses = np.asarray(outlines.polygons(), object)
+    index, offsets = take_rings(outlines.offsets, np.flatnonzero(~outlines.holes))
+    outer = outlines.corners[index]
+    sizes = _sizes(outlines)
+    stages.at(0.25, "streets")
+    roads = told(outlines.roads, houses)
+    if not len(roads):
+        roads = laid_out(passages_of(offsets, outer), offsets, outer, houses, sizes >= _SHED)
     gaps = gaps_of(cut)
-    roles = look_out(cut, outlines.ring_of, outlines.holes, gaps)
+    roles = look_out(cut, outlines.ring_of, outlines.holes, gaps, _apart(cut, gaps, roads))
     # Roles are found for walls that are cut already; where none is cut they hold for the whole.
     before = np.zeros(len(outlines.corners), np.uint8)
     before[cut.source[::-1]] = roles[::-1]
@@ -73,27 +95,39 @@ def real_plan(
     stages.at(0.3, "heights")
     pairs = pairs_of(walls)
     characters, tops = _characters(outlines, cut, roles, pairs, styles, seed)
-    outer = np.flatnonzero(~outlines.holes)
-    index, offsets = take_rings(outlines.offsets, outer)
     given = np.array([roof_of(tags) for tags in outlines.tags])
     out = characters.kind == OUTBUILDING
-    given = np.where((given < 0) & out, np.where(_sizes(outlines) < 60, FLAT, GABLE), given)
-    stages.at(0.4, "ground")
-    courts = forecourts_of(cut, owner, roles, gaps, np.asarray(outlines.polygons(), object), seed)
-    ground = plain_of(offsets, outlines.corners[index], courts.corners)
-    stages.at(0.55, "roofs")
-    plan = finish(walls, pairs, characters, styles, ground, seed, given, tops, outlines.left_out, stages)
+    given = np.where((given < 0) & out, np.where(sizes < 60, FLAT, GABLE), given)
+    stages.at(0.4, "roofs")
+    plan = finish(walls, pairs, characters, styles, _NO_GROUND, seed, given, tops, outlines.left_out, stages)
+    stages.at(0.62, "ground")
+    courts = forecourts_of(plan, gaps, roads, houses, seed)
+    names = np.array([one.name for one in styles])[characters.style]
+    gardens = np.isin(names, _GARDENS) & ~out
+    wide = np.where(gardens | out, 0.0, np.where(characters.kind == RESIDENTIAL, 2.2, 5.0))
+    wide = np.where(_density(outlines, sizes) > 0.33, np.maximum(wide, 2.2), wide)
+    plan = replace(plan, ground=plain_of(offsets, outer, wide, roads, courts.paved()))
     stages.at(0.68, "trees")
-    things = trees_of(plan, seed, _TREES) + chimneys_of(plan, seed) + lamps_before(plan, courts, seed)
+    lamps = lamps_along(plan, courts, roads, seed)
+    rows = trees_along(plan, courts, roads, lamps, seed)
+    things = trees_of(plan, seed, _TREES) + chimneys_of(plan, seed) + rows + lamps
     stages.at(0.71, "street life")
-    cars = cars_before(plan, courts, seed)
-    gardens = np.isin(characters.style, [k for k, one in enumerate(styles) if one.name in _GARDENS])
+    cars = cars_before(plan, courts, seed) + cars_along(plan, courts, roads, seed)
     return replace(
         plan,
-        things=things + people_before(plan, courts, cars, things, seed),
+        things=things + people_along(plan, courts, roads, cars, things, seed),
         cars=cars,
-        hedges=hedges_before(plan, courts, gardens & ~out, things, seed),
+        roads=roads,
+        hedges=hedges_before(plan, courts, gardens, things, roads, seed),
     )
+
+
+def _apart(cut: Cut, gaps: Floats, roads: Roads) -> Floats:
+    """How far a road is straight before each wall, metres; `inf` where none is seen."""
+    start, end = cut.corners, cut.corners[after(cut.offsets)]
+    way = end - start
+    out = np.column_stack([way[:, 1], -way[:, 0]]) / np.maximum(length(way), 1e-9)[:, None]
+    return roads_before((start + end) / 2, out, gaps, roads)[0]
 
 
 def _sizes(outlines: Outlines) -> Floats:
@@ -119,12 +153,12 @@ def _characters(
     dense = _density(outlines, size)
     joined = _joined(cut, outlines, roles)
     use = np.array([use_of(tags) for tags in outlines.tags])
-    told = use != Use.UNKNOWN
+    known = use != Use.UNKNOWN
     # What is not told: sheds and garages are small, halls large. Where it is dense, and between neighbours, stand
     # townhouses.
     guess = np.select(
         [
-            size < 45,
+            size < _SHED,
             (size > 1400) & (dense < 0.4),
             (dense > 0.3) & (size < 1400) & (joined > 0.08),
             (joined > 0.25) & (size < 600) & (dense > 0.2),
@@ -134,9 +168,9 @@ def _characters(
         [Use.OUTBUILDING, Use.INDUSTRY, Use.TOWNHOUSE, Use.TOWNHOUSE, Use.HOUSE, Use.APARTMENTS],
         Use.COMMERCE,
     )
-    use = np.where(told, use, guess)
+    use = np.where(known, use, guess)
     shop = np.array([has_shop(tags) for tags in outlines.tags]) | (
-        ~told & (use == Use.TOWNHOUSE) & (own < 0.3 * np.clip(dense / 0.4, 0, 1))
+        ~known & (use == Use.TOWNHOUSE) & (own < 0.3 * np.clip(dense / 0.4, 0, 1))
     )
     style = pick(choice, table_of(_WANTED, styles)[np.where(shop, Use.COMMERCE, use)]).astype(np.int32)
     wanted = np.select(

@@ -66,6 +66,10 @@ class Cars:
     def __len__(self) -> int:
         return len(self.at)
 
+    def __add__(self, other: Cars) -> Cars:
+        pairs = ((getattr(self, name), getattr(other, name)) for name in self.__slots__)
+        return Cars(*(np.concatenate(pair) for pair in pairs))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hedges:

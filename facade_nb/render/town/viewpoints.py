@@ -11,6 +11,7 @@ import shapely
 
 from ..pipeline.viewpoint import Viewpoint
 from .plan import STREET, Plan
+from .roads import HALF, LANE
 from .things import PERSON
 
 __all__ = ["VIEWS", "View", "viewpoint"]
@@ -46,6 +47,8 @@ def viewpoint(plan: Plan, view: View) -> Viewpoint:
         away = max(reach, 90.0)
         eye = (spot[0] - 0.75 * away, 12.0 + 0.42 * away, -spot[1] + 0.95 * away)
         return Viewpoint.towards(eye, (float(spot[0]), 0.0, float(-spot[1]) - 0.15 * away), 52.0)
+    if view == "street" and (found := _on_road(plan, spot)) is not None:
+        return found
     corner, along, out, free, across = _street(plan, spot)
     if view == "street":
         wide = min(0.45 * across, 5.5)
@@ -134,6 +137,44 @@ def _street(plan: Plan, spot: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
         along = (b - a) / max(hypot(*(b - a)), 1e-9)
         return a, along, np.array([along[1], -along[0]]), 20.0, 12.0
     return best[1]
+
+
+def _on_road(plan: Plan, spot: np.ndarray) -> Viewpoint | None:
+    """On the right side of a street near a spot, looking along it: where it goes on furthest, most houses beside it.
+
+    None: there is no street, or none as long as that.
+    """
+    lines = plan.roads.lines()
+    some = np.flatnonzero((plan.roads.kind < LANE) & (shapely.length(lines) > 45.0))
+    if not len(some):
+        return None
+    far = np.rint(shapely.distance(shapely.Point(*spot), lines[some]))
+    some = some[np.lexsort((some, far))][:_CANDIDATES]
+    tree = shapely.STRtree(_outlines(plan))
+    best: tuple[float, np.ndarray, np.ndarray] | None = None
+    for road in some.tolist():
+        for line in (lines[road], shapely.reverse(lines[road])):
+            here, there = (
+                shapely.get_coordinates(shapely.line_interpolate_point(line, at))[0] for at in (9.0, 42.0)
+            )
+            along = (there - here) / max(hypot(*(there - here)), 1e-9)
+            right = np.array([along[1], -along[0]])
+            eye = here + right * (HALF[plan.roads.kind[road]] - 0.9)
+            free = _free(tree, eye, along, 120.0)
+            ahead = shapely.LineString([here, here + 55.0 * along])
+            beside = len(tree.query(ahead, predicate="dwithin", distance=20.0))
+            sunny = 10.0 * max(-float(along[1]), 0.0)  # what looks south is beside one's back
+            worth = round(min(free, 90.0) + 7.0 * min(beside, 12) - sunny, 1)
+            if free > 12.0 and (best is None or worth > best[0]):
+                best = worth, eye, along
+    if best is None:
+        return None
+    _, eye, along = best
+    right = np.array([along[1], -along[0]])
+    choice = [(aside, back) for back in (0.0, 4.0, -4.0) for aside in (0.0, -0.8, 1.4, -1.8)]
+    aside, back = _clear(plan, choice, eye, right, -along, along * 9.0)
+    eye = eye + right * aside - along * back
+    return Viewpoint((float(eye[0]), _EYE, float(-eye[1])), degrees(atan2(*along)), 4.0, 66.0)
 
 
 def _fronts(plan: Plan, spot: np.ndarray) -> Iterator[tuple[int, int]]:

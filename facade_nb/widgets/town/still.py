@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from io import BytesIO
+from typing import Any
 
 from ...render.pipeline.frame import Frame, Looks
 from ...render.pipeline.renderer import renderer_of
@@ -13,10 +15,13 @@ from ..shared.pictured import picture_html
 from .model import TownModel
 from .tiles import coarse_tiles
 
-__all__ = ["SIZE", "painter", "still", "told"]
+__all__ = ["SIZE", "awaited", "painter", "still", "still_of_cell", "told"]
 
 SIZE = (720, 405)
 """Pixels of it."""
+
+_SOON = (480, 270)
+"""Pixels where somebody waits for it."""
 
 _QUALITY = 82
 
@@ -26,10 +31,12 @@ def painter() -> GlPainter | None:
     return next((own for own in (OSMESA, EGL) if own.available), None)
 
 
-def still(model: TownModel, pixels: tuple[int, int] = SIZE, hasty: bool = False) -> bytes:
+def still(
+    model: TownModel, pixels: tuple[int, int] = SIZE, hasty: bool = False, shadow: bool = True
+) -> bytes:
     """What is seen from the viewpoint in the light of the hour, as JPEG; empty where no OpenGL can be had.
 
-    `hasty`: where tiles have not been drawn yet, small ones are drawn instead.
+    `hasty`: where tiles have not been drawn yet, small ones are drawn instead. `shadow`: whether there are the sun's.
     """
     from PIL import Image
 
@@ -39,12 +46,31 @@ def still(model: TownModel, pixels: tuple[int, int] = SIZE, hasty: bool = False)
     scene = model.scene
     if hasty and (small := coarse_tiles(scene.grammar)) is not None:
         scene = replace(scene, grammar=replace(scene.grammar, tiles=small))
-    frame = Frame(scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, Looks(relief=False))
+    looks = Looks(relief=False, shadow=shadow)
+    frame = Frame(scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, looks)
     with renderer_of(frame.scene, by, tile_bytes=int(model.tile_megabytes * 1e6)) as renderer:
         drawn = renderer.draw(frame)["picture"]
     out = BytesIO()
     Image.fromarray(drawn[..., :3]).save(out, "JPEG", quality=_QUALITY, optimize=True)
     return out.getvalue()
+
+
+def still_of_cell(model: TownModel) -> bytes:
+    """The picture that a cell's output carries: the live view waits until it is drawn.
+
+    So it is smaller and without shadows where somebody waits for the cell, and a whole one where nobody does, as when
+    notebooks are run to be kept.
+    """
+    if awaited():
+        return still(model, _SOON, hasty=True, shadow=False)
+    return still(model, hasty=True)
+
+
+def awaited() -> bool:
+    """Whether somebody waits for the cell that runs: a front end that can be asked for input says so."""
+    shell: Any = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    parent: Any = getattr(getattr(shell, "kernel", None), "get_parent", dict)()
+    return bool((parent or {}).get("content", {}).get("allow_stdin"))
 
 
 def told(model: TownModel) -> str:

@@ -13,7 +13,7 @@ from ...render.town import Town
 from ..shared.pictured import PartView
 from .channel import TownChannel
 from .model import TownModel
-from .still import image, still
+from .still import image, still_of_cell
 
 __all__ = ["PipelineView", "TownView"]
 
@@ -122,7 +122,7 @@ class _TownWidget(PartView):
 
     def to_html(self) -> str:
         """The static form: a picture for pages where no widget can run; empty where there is none."""
-        return image(self.model, still(self.model, hasty=True))
+        return image(self.model, still_of_cell(self.model))
 
 
 class TownView(_TownWidget):

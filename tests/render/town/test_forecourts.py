@@ -46,7 +46,9 @@ def test_there_is_life(town: Town) -> None:
 
 def test_cars_stand_on_paved_places_and_on_nothing_else(town: Town) -> None:
     bodies = rectangles(town)
-    off = shapely.area(shapely.difference(bodies, shapely.union_all(paved(town, "pavement").geometries)))
+    off = shapely.area(
+        shapely.difference(bodies, shapely.union_all(paved(town, "asphalt", "pavement", "court").geometries))
+    )
     assert off.max() < 0.02
     one, other = shapely.STRtree(bodies).query(bodies, predicate="intersects")
     assert (one == other).all()

@@ -1,0 +1,204 @@
+"""Where one can go between buildings: halfway between two of them, as Voronoi's cells of their walls meet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import Delaunay, QhullError
+
+from .chance import Floats, length, millimetres
+from .rings import Ints, after, offsets_of, ragged, ring_numbers
+
+__all__ = ["NO_PASSAGES", "Passages", "passages_of", "runs_of"]
+
+_STEP = 5.0
+"""Walls are points so far apart, metres."""
+
+_ROOM, _FAR = 2.55, 400.0
+"""No passage is nearer to a building, or further from it, metres. Nearer than half of `_STEP` it may be indoors."""
+
+_JOINED = 3.0
+"""Shorter passages are a place where others meet, metres."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Passages:
+    """Passages (m) between two buildings each; they meet at joints (j).
+
+    Attributes
+    ----------
+    joints
+        (j, 2) whole millimetres.
+    offsets, points
+        The line of passage k: ``points[offsets[k]:offsets[k + 1]]``, from one joint to another.
+    ends
+        (m, 2) joints.
+    sides
+        (m, 2) buildings on both sides.
+    room
+        (m,) the least distance to them, metres.
+    span
+        (m,) metres.
+    """
+
+    joints: Floats
+    offsets: Ints
+    points: Floats
+    ends: Ints
+    sides: Ints
+    room: Floats
+    span: Floats
+
+    def __len__(self) -> int:
+        return len(self.room)
+
+    def line(self, number: int, back: bool = False) -> Floats:
+        """The points of a passage, from its first end or from its second one."""
+        own = self.points[self.offsets[number] : self.offsets[number + 1]]
+        return own[::-1] if back else own
+
+
+_NONE = np.zeros(0, np.int64)
+NO_PASSAGES = Passages(
+    np.zeros((0, 2)), np.zeros(1, np.int64), np.zeros((0, 2)), np.zeros((0, 2), np.int64),
+    np.zeros((0, 2), np.int64), np.zeros(0), np.zeros(0),
+)  # fmt: skip
+"""None."""
+
+
+def passages_of(offsets: Ints, corners: Floats) -> Passages:
+    """Passages between buildings, given their outer rings."""
+    points, building = _samples(offsets, corners)
+    try:
+        net = Delaunay(points)
+    except (QhullError, ValueError):  # fewer than three points, or all in a line
+        return NO_PASSAGES
+    centre, radius = _circles(points[net.simplices])
+    tri, k = np.nonzero(net.neighbors > np.arange(len(centre))[:, None])
+    other = net.neighbors[tri, k]
+    a, b = (net.simplices[tri, (k + step) % 3] for step in (1, 2))
+    apart = building[a] != building[b]
+    tri, other, a, b = tri[apart], other[apart], a[apart], b[apart]
+    middle = (points[a] + points[b]) / 2
+    here, there = centre[tri] - middle, centre[other] - middle
+    between = (here * there).sum(axis=1) <= 0
+    least = np.where(between, length(points[a] - points[b]) / 2, np.minimum(radius[tri], radius[other]))
+    room = np.round(least, 3)
+    kept = (room >= _ROOM) & (np.maximum(radius[tri], radius[other]) <= _FAR)
+    cells = np.stack([tri, other], axis=1)[kept]
+    pair = np.sort(np.stack([building[a], building[b]], axis=1)[kept], axis=1)
+    return _joined(centre, cells, pair, room[kept])
+
+
+def _samples(offsets: Ints, corners: Floats) -> tuple[Floats, Ints]:
+    """Points along walls, whole millimetres, and the building of each: the first where two have one."""
+    way = corners[after(offsets)] - corners
+    count = np.maximum(np.ceil(np.round(length(way) / _STEP, 3)), 1).astype(np.int64)
+    edge = np.repeat(np.arange(len(corners)), count)
+    part = ragged(np.zeros(len(corners), np.int64), count) / count[edge]
+    points = millimetres(corners[edge] + way[edge] * part[:, None])
+    _, first = np.unique(np.rint(points * 1000).astype(np.int64), axis=0, return_index=True)
+    first.sort()
+    return points[first], ring_numbers(offsets)[edge[first]]
+
+
+def _circles(corners: Floats) -> tuple[Floats, Floats]:
+    """Middles (whole millimetres) and radii of the circles through the corners (t, 3, 2) of triangles."""
+    a = corners[:, 0]
+    b, c = corners[:, 1] - a, corners[:, 2] - a
+    twice = 2 * (b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0])
+    flat = np.abs(twice) < 1e-6
+    bb, cc = (b * b).sum(axis=1), (c * c).sum(axis=1)
+    x = c[:, 1] * bb - b[:, 1] * cc
+    y = b[:, 0] * cc - c[:, 0] * bb
+    to = np.stack([x, y], axis=1) / np.where(flat, 1.0, twice)[:, None]
+    radius = np.where(flat, np.inf, np.round(length(to), 3))
+    return millimetres(np.where((radius < 1e5)[:, None], a + to, a)), radius
+
+
+def _joined(centre: Floats, cells: Ints, pair: Ints, room: Floats) -> Passages:
+    """Pieces between two cells each, put together where they go on between the same two buildings."""
+    if not len(cells):
+        return NO_PASSAGES
+    count = len(cells)
+    piece, end = np.tile(np.arange(count), 2), np.repeat([0, 1], count)
+    at = cells.T.ravel()
+    name = pair[:, 0] * (int(pair.max()) + 1) + pair[:, 1]
+    order = np.lexsort((piece, name[piece], at))
+    same = (at[order][1:] == at[order][:-1]) & (name[piece[order]][1:] == name[piece[order]][:-1])
+    one, two = order[:-1][same], order[1:][same]
+    links = np.full((count, 2), -1)
+    links[piece[one], end[one]] = 2 * piece[two] + end[two]
+    links[piece[two], end[two]] = 2 * piece[one] + end[one]
+    runs = runs_of(links)
+    lines, ends = [], []
+    for run in runs:
+        first, last = int(cells[run[0]]), int(cells[run[-1][0], 1 - run[-1][1]])
+        ends.append((first, last))
+        lines.append([first, *(int(cells[number, 1 - back]) for number, back in run)])
+    offsets = offsets_of(np.array([len(line) for line in lines]))
+    points = centre[np.concatenate(lines)]
+    steps = length(np.diff(points, axis=0))
+    steps[offsets[1:-1] - 1] = 0.0
+    sums = np.concatenate([[0.0], np.cumsum(np.round(steps, 3))])
+    span = np.round(sums[offsets[1:] - 1] - sums[offsets[:-1]], 3)
+    owner = np.repeat(np.arange(len(runs)), [len(run) for run in runs])
+    every = np.array([number for run in runs for number, _ in run])
+    least = np.full(len(runs), np.inf)
+    np.minimum.at(least, owner, room[every])
+    sides = pair[[run[0][0] for run in runs]]
+    return _met(offsets, points, np.array(ends), sides, least, span)
+
+
+def _met(offsets: Ints, points: Floats, ends: Ints, sides: Ints, room: Floats, span: Floats) -> Passages:
+    """Passages without those that are so short that others meet there."""
+    names, ends = np.unique(ends, return_inverse=True)
+    ends = ends.reshape(-1, 2)
+    short = span < _JOINED
+    link = coo_matrix((np.ones(short.sum(), np.int8), ends[short].T), (len(names), len(names)))
+    count, label = connected_components(link, directed=False)
+    joint = np.zeros((count, 2))
+    seen = np.zeros(count, np.int64)
+    first = np.stack([points[offsets[:-1]], points[offsets[1:] - 1]], axis=1)
+    np.add.at(joint, label[ends], np.rint(first * 1000))
+    np.add.at(seen, label[ends], 1)
+    joint = millimetres(joint / np.maximum(seen, 1)[:, None] / 1000)
+    kept = np.flatnonzero(~short)
+    index = ragged(offsets[kept], np.diff(offsets)[kept])
+    new = offsets_of(np.diff(offsets)[kept])
+    moved = points[index].copy()
+    ends = label[ends[kept]]
+    moved[new[:-1]], moved[new[1:] - 1] = joint[ends[:, 0]], joint[ends[:, 1]]
+    return Passages(joint, new, moved, ends, sides[kept], room[kept], span[kept])
+
+
+def runs_of(links: NDArray[np.integer]) -> list[list[tuple[int, int]]]:
+    """Pieces one after the other, each with 1 where it is gone through from its second end.
+
+    Parameters
+    ----------
+    links
+        (n, 2) what goes on at each end: twice a piece's number, 1 more where it is met at its second end; -1: nothing.
+        Of pieces in a ring the first comes first.
+    """
+    table = links.tolist()
+    seen = [False] * len(table)
+    found = []
+    for start in sorted(range(len(table)), key=lambda k: (min(table[k]) >= 0, k)):
+        if seen[start]:
+            continue
+        piece, back = start, int(table[start][0] >= 0 > table[start][1])
+        run = []
+        while not seen[piece]:
+            seen[piece] = True
+            run.append((piece, back))
+            following = table[piece][1 - back]
+            if following < 0:
+                break
+            piece, back = divmod(following, 2)
+        found.append(run)
+    return found
