@@ -20,7 +20,7 @@ from .roofing import triangulated
 __all__ = ["APRON", "plain_of"]
 
 APRON = 0.6
-"""How wide the strip of gravel around a house is, and so near to it no street comes, metres."""
+"""How wide a strip of gravel around a house is, and so near to any no street comes, metres."""
 
 TILE = 240.0
 """The plain is made in squares of so many metres."""
@@ -45,19 +45,19 @@ def plain_of(
     offsets, corners
         The buildings' outer rings.
     paved
-        (b,) how wide the pavement around each is, metres; 0: there is only a strip of gravel.
+        (b,) how wide the strip around each is, metres: up to `APRON` gravel, pavement where it is wider; 0: none.
     roads
         Streets.
     ways
         Polygons of ways to doors and of places for cars.
     """
-    broad = paved > APRON
     narrow = _aprons(offsets, corners, np.full(len(paved), APRON))
-    wide = _aprons(offsets, corners, np.maximum(paved, APRON))[broad]
+    wide = _aprons(offsets, corners, np.maximum(paved, APRON))
     roadway = _laid(roads, HALF[roads.kind])
     walked = roads.take(np.flatnonzero(WALK[roads.kind] > 0))
     walks = _laid(walked, (HALF + WALK)[walked.kind])
-    every = [roadway, walks, wide, narrow, np.asarray(ways, object)]
+    gravel = np.concatenate([narrow[(paved > 0) & (paved <= APRON)], np.asarray(ways, object)])
+    every = [roadway, walks, wide[paved > APRON], narrow, gravel]
     low = np.floor(corners.min(axis=0) / TILE) - 2
     high = np.ceil(corners.max(axis=0) / TILE) + 2
     columns, rows = (high - low).astype(int).tolist()
@@ -89,9 +89,9 @@ def _in_threads(
 
 def _covers(tiles: NDArray[np.object_], layers: Sequence[NDArray[np.object_]]) -> list[NDArray[np.object_]]:
     """What of each tile is asphalt, pavement, court and grass."""
-    road, walk, stones, strips, drives = (_within(tiles, layer) for layer in layers)
-    stone, soft = shapely.union(walk, stones), shapely.union(strips, drives)
-    asphalt = shapely.difference(road, strips)
+    road, walk, stones, houses, soft = (_within(tiles, layer) for layer in layers)
+    stone = shapely.union(walk, stones)
+    asphalt = shapely.difference(road, houses)
     hard = shapely.union(asphalt, stone)
     pavement, court = shapely.difference(stone, asphalt), shapely.difference(soft, hard)
     return [asphalt, pavement, court, shapely.difference(tiles, shapely.union(hard, soft))]

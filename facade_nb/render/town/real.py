@@ -22,7 +22,7 @@ from .greenery import trees_of
 from .neighbours import Cut, cut_walls, with_hidden
 from .openness import gaps_of, look_out, roads_before
 from .passages import passages_of
-from .plains import plain_of
+from .plains import APRON, plain_of
 from .plan import FLAT, GABLE, INDUSTRIAL, OUTBUILDING, PUBLIC, RESIDENTIAL, SHOP, Ground, Plan
 from .rings import Ints, after, areas, ring_numbers, take_rings
 from .roads import Roads, laid_out, told
@@ -34,7 +34,7 @@ from .tags import Use, has_shop, levels_of, metres_of, roof_of, use_of
 
 __all__ = ["real_plan"]
 
-_TREES = 2.2
+_TREES = 1.5
 """Trees for each house, at the most."""
 
 _SHED = 45.0
@@ -104,8 +104,8 @@ def real_plan(
     courts = forecourts_of(plan, gaps, roads, houses, seed)
     names = np.array([one.name for one in styles])[characters.style]
     gardens = np.isin(names, _GARDENS) & ~out
-    wide = np.where(gardens | out, 0.0, np.where(characters.kind == RESIDENTIAL, 2.2, 5.0))
-    wide = np.where(_density(outlines, sizes) > 0.33, np.maximum(wide, 2.2), wide)
+    wide = np.where(gardens, APRON, np.where(characters.kind == RESIDENTIAL, 2.2, 5.0))
+    wide = np.where(_density(outlines, sizes) > 0.33, np.maximum(wide, 2.2), np.where(out, 0.0, wide))
     plan = replace(plan, ground=plain_of(offsets, outer, wide, roads, courts.paved()))
     stages.at(0.68, "trees")
     lamps = lamps_along(plan, courts, roads, seed)

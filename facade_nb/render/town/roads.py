@@ -357,14 +357,18 @@ def _joint(passages: Passages, run: list[tuple[int, int]], which: int) -> int:
 
 
 def _straightened(lines: list[Floats], kinds: Ints, houses: NDArray[np.object_]) -> Roads:
-    """Lines as straight as houses allow, their bends rounded. One that comes too near to a house stays as it was."""
+    """Lines as straight as houses allow, bends of streets rounded. One that comes too near to a house stays."""
     rough = np.asarray([shapely.LineString(line) for line in lines], object)
     tree = shapely.STRtree(houses)
     need = HALF[kinds] + 0.4
     chosen = list(lines)
     waiting = np.arange(len(rough))
     for tolerance in _TOLERANCES:
-        smooth = [_rounded(points) for points in _coordinates(shapely.simplify(rough[waiting], tolerance))]
+        plain = _coordinates(shapely.simplify(rough[waiting], tolerance))
+        smooth = [
+            millimetres(line) if lane else _rounded(line)
+            for line, lane in zip(plain, (kinds[waiting] == LANE).tolist(), strict=True)
+        ]
         shapes = np.asarray([shapely.LineString(line) for line in smooth], object)
         near = np.zeros(len(waiting), bool)
         room = need[waiting] if tolerance > _TOLERANCES[-1] else 0.5

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["cars_along", "lamps_along", "people_along", "trees_along"]
 
-_CARS, _PEOPLE, _LAMPS, _TREES = 0.14, 0.16, 0.25, 0.25
+_CARS, _PEOPLE, _LAMPS, _TREES = 0.09, 0.16, 0.25, 0.2
 """So many of each there are at the most for each house."""
 
 _SLOT, _APART, _ROW = 7.0, 32.0, 11.0

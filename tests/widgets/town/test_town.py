@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import json
 import zlib
+from base64 import b64decode
+from io import BytesIO
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
+import IPython
 import numpy as np
 import pytest
+from PIL import Image
 from traitlets import TraitError
 
 from facade_nb import gallery
@@ -292,6 +297,17 @@ def test_the_static_form_is_small(town: Town) -> None:
     assert 5_000 < len(view.to_html()) < 150_000
     assert "60 buildings at 11:00" in view.to_html()
     assert repr(view) == "TownView(60 buildings)"
+
+
+@pytest.mark.parametrize(("asked", "size"), [(True, (480, 270)), (False, (720, 405)), (None, (720, 405))])
+def test_the_picture_of_a_cell_is_whole_where_nobody_waits_for_it(
+    town: Town, asked: bool | None, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    message = {} if asked is None else {"content": {"allow_stdin": asked}}
+    shell = SimpleNamespace(kernel=SimpleNamespace(get_parent=lambda: message))
+    monkeypatch.setattr(IPython, "get_ipython", lambda: shell)
+    encoded = TownView(town).to_html().split("base64,")[1].split('"')[0]
+    assert Image.open(BytesIO(b64decode(encoded))).size == size
 
 
 def test_what_is_no_town_is_refused() -> None:
