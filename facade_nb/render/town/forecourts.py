@@ -31,7 +31,7 @@ _NEAR, _FURTHER = 8.6, 24.0
 _WAY, _LONGEST = 0.65, 90.0
 """Half the width of a way to a door, and how long it is at the most, metres."""
 
-_CARS, _HEDGES = 0.19, 0.38
+_CARS, _HEDGES = 0.19, 0.34
 """So many of each there are at the most for each house."""
 
 

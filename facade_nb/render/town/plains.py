@@ -57,14 +57,18 @@ def plain_of(
     walked = roads.take(np.flatnonzero(WALK[roads.kind] > 0))
     walks = _laid(walked, (HALF + WALK)[walked.kind])
     gravel = np.concatenate([narrow[(paved > 0) & (paved <= APRON)], np.asarray(ways, object)])
-    every = [roadway, walks, wide[paved > APRON], narrow, gravel]
+    # Only houses that a roadway comes near to take something from it.
+    near = np.unique(shapely.STRtree(roadway).query(narrow, predicate="intersects")[0])
+    every = [roadway, walks, wide[paved > APRON], narrow[near], gravel]
     low = np.floor(corners.min(axis=0) / TILE) - 2
     high = np.ceil(corners.max(axis=0) / TILE) + 2
     columns, rows = (high - low).astype(int).tolist()
     x, y = (low[k] * TILE + np.arange(n) * TILE for k, n in ((0, columns), (1, rows)))
     xs, ys = (v.ravel() for v in np.meshgrid(x, y))
     tiles = np.asarray(shapely.box(xs, ys, xs + TILE, ys + TILE), object)
-    built = np.unique(shapely.STRtree(np.concatenate(every)).query(tiles, predicate="intersects")[0])
+    built = np.unique(
+        shapely.STRtree(np.concatenate([*every, narrow])).query(tiles, predicate="intersects")[0]
+    )
     own = tiles[built]
     covers = _in_threads(own, every)
     pieces = Pieces()

@@ -34,7 +34,7 @@ from .tags import Use, has_shop, levels_of, metres_of, roof_of, use_of
 
 __all__ = ["real_plan"]
 
-_TREES = 1.5
+_TREES = 1.4
 """Trees for each house, at the most."""
 
 _SHED = 45.0
