@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 from ..render.materials import DEFAULT_MATERIAL
 from ..render.meshing import Mesh, mesh_parts
 from ..render.parts import Block, Part
-from ..render.ruled import is_rule, library_of, material_of
+from ..render.ruled import library_of
 from ..render.scene import Solid, build_scene
 from .layout import BuildingLayout, SolvedFace
 from .roofline import is_dormer
+from .rules import Rules
 
 __all__ = ["Body", "Frame", "bodies_of", "deepest", "drawn_by", "rules_of"]
 
@@ -82,9 +83,9 @@ class Body:
     library: str = ""
 
 
-def rules_of(layout: BuildingLayout) -> str:
-    """The texture grammar whose rules are drawn on a building: that of the first face that has one."""
-    return next(filter(None, (library_of(own.shown) for own in layout.faces)), "")
+def rules_of(layout: BuildingLayout) -> Rules:
+    """The texture grammars of all faces, as one."""
+    return Rules.of(library_of(own.shown) for own in layout.faces)
 
 
 def deepest(layout: BuildingLayout) -> float:
@@ -117,14 +118,9 @@ def bodies_of(layout: BuildingLayout, own: SolvedFace, back: float) -> list[Body
     ]
 
 
-def drawn_by(body: Body, drawn: str) -> Mapping[str, str]:
-    """The materials of a body; rules of another grammar than the one that is drawn are of their mean colour."""
-    if body.library == drawn:
-        return body.materials
-    return {
-        slot: material_of(body.library, name).fill if is_rule(name) else name
-        for slot, name in body.materials.items()
-    }
+def drawn_by(body: Body, rules: Rules) -> Mapping[str, str]:
+    """The materials of a body, as they are called where the rules of all faces are."""
+    return {slot: rules.material(body.library, name) for slot, name in body.materials.items()}
 
 
 def _filling(layout: BuildingLayout, solids: tuple[Solid, ...], back: float) -> Iterator[Body]:

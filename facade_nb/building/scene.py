@@ -105,18 +105,18 @@ def solids_of_building(
     before
         A face that is to be in the plane z = 0, its lower left corner the origin.
     """
-    back, library = deepest(layout), rules_of(layout)
+    back, rules = deepest(layout), rules_of(layout)
     parts: list[tuple[Triangles, list[Rect], Frame | None, int]] = []
     first = 0
     for own in layout.faces:
         bodies = bodies_of(layout, own, back)
         triangles = triangles_of(
-            [(body.index, body.mesh, drawn_by(body, library)) for body in bodies], library
+            [(body.index, body.mesh, drawn_by(body, rules)) for body in bodies], rules.text
         )
         parts.append((triangles, [shape.rect for shape in own.shown.shapes], Frame.of(own), first))
         first += len(own.shown.shapes)
     rest = [(-1, mesh, {"body": material}) for _, mesh, material in over_all(layout, back)]
-    parts.append((triangles_of(rest, library), [], None, 0))
+    parts.append((triangles_of(rest, rules.text), [], None, 0))
     names = tuple(dict.fromkeys(name for some, *_ in parts for name in some.material_names))
     made = []
     for triangles, rects, frame, start in parts:
@@ -128,7 +128,7 @@ def solids_of_building(
     if before is not None:
         place = Frame.of(before)
         made = [part.moved(-place.origin @ place.axes.T, place.axes.T) for part in made]
-    return combined(made, names, library, ground=ground)
+    return combined(made, names, rules.text, ground=ground)
 
 
 def _renamed(triangles: Triangles, names: tuple[str, ...]) -> Triangles:

@@ -35,6 +35,7 @@ def test_a_click_on_another_wall_chooses_it(show: Callable[[str], Notebook], out
     page = notebook.page
     canvas = page.locator(".fnb-building-canvas")
     expect(canvas).to_have_attribute("data-state", "sharp")
+    canvas.scroll_into_view_if_needed()
     frames(page)
     box = canvas.bounding_box()
     assert box
@@ -56,6 +57,7 @@ def test_the_strip_has_the_theme_of_the_page(show: Callable[[str], Notebook], ou
     strip = page.locator(".facade-nb-around")
     expect(strip.locator("svg")).to_be_visible()
     before = strip.locator("svg").inner_html()
+    strip.scroll_into_view_if_needed()
     page.screenshot(path=out / "walls-light.png")
     notebook.theme("JupyterLab Dark")
     try:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from secrets import token_hex
 from typing import Any
 
 from ipywidgets import HTML, ToggleButton, ToggleButtons, VBox
@@ -67,6 +68,7 @@ class BuildingStudio(VBox):
         self._models: dict[str, FacadeModel] = {}
         self._found: tuple[Building, BuildingLayout, str] | None = None
         self._theme = "light"
+        self._prefix = f"walls{token_hex(4)}"
         self._strip = HTML(layout={"width": "100%"})
         self._choice = ToggleButtons(description="", style={"button_width": "auto"})
         self._choice.add_class("facade-nb-walls")
@@ -227,7 +229,7 @@ class BuildingStudio(VBox):
         ) -> Layout:
             building = self._with(wall, design)
             layout = building.solve(time_limit=time_limit, should_stop=should_stop)
-            self._found = building, layout, strip_of(layout, wall, self._theme)
+            self._found = building, layout, strip_of(layout, wall, self._theme, self._prefix)
             own = _own(layout, wall, design)
             self._wholes[wall] = own, layout
             return own
@@ -270,7 +272,7 @@ class BuildingStudio(VBox):
             self._theme = theme
             if self._found is not None:
                 building, layout, _ = self._found
-                self._found = building, layout, strip_of(layout, self.wall, theme)
+                self._found = building, layout, strip_of(layout, self.wall, theme, self._prefix)
                 self._follow(self.wall)
 
     def _replaced(self, change: Any) -> None:

@@ -16,7 +16,7 @@ _TALL = 240
 """Pixels that the strip is high at most."""
 
 
-def strip_of(layout: BuildingLayout, wall: str, theme: str) -> str:
+def strip_of(layout: BuildingLayout, wall: str, theme: str, prefix: str) -> str:
     """All walls side by side, the lines at which they meet, and what there is to say.
 
     Parameters
@@ -25,8 +25,10 @@ def strip_of(layout: BuildingLayout, wall: str, theme: str) -> str:
         The name of the one that is marked.
     theme
         ``light`` or ``dark``.
+    prefix
+        Of the ids in it, which no other drawing of the page may have.
     """
-    svg = elevation_svg(layout.developed, theme=theme, ids=False, background=False)
+    svg = elevation_svg(layout.developed, theme=theme, ids=False, background=False, prefix=prefix)
     scale, (origin, _), (width, height) = _scale(svg)
     svg = svg.replace("<svg ", '<svg style="width:100%;height:auto;display:block" ', 1)
     at, marks = 0.0, []

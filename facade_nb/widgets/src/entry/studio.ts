@@ -2,6 +2,7 @@
 // notices and errors.
 
 import "../styles/base.css";
+import "../styles/around.css";
 import "../styles/fields.css";
 import "../styles/editors.css";
 import "../styles/views.css";
@@ -9,7 +10,6 @@ import "../styles/stage.css";
 import "../styles/panel.css";
 import "../styles/patterns.css";
 import "../styles/building.css";
-import "../styles/around.css";
 import { building } from "../building/view.ts";
 import { absence } from "../shared/absence.ts";
 import { h, mark } from "../shared/dom.ts";
