@@ -13,8 +13,9 @@ from ..render.scene import Triangles, triangles_of
 from ..solver.model.layout import Rect
 from .bodies import Frame, bodies_of, deepest, drawn_by, rules_of
 from .layout import BuildingLayout, SolvedFace
+from .openings import opened, openings
 from .roofline import wall_material
-from .roofs import outline, roofing
+from .roofs import outline
 
 __all__ = ["over_all", "solids_of_building"]
 
@@ -24,7 +25,7 @@ Floats = NDArray[np.float64]
 def over_all(layout: BuildingLayout, back: float) -> list[tuple[str, Mesh, str]]:
     """The roof's parts and the body within the walls, in space: name, mesh, material."""
     building = layout.building
-    roof = roofing(layout)
+    roof, rooms = layout.roofing, openings(layout)
     materials = {
         "roof": building.roof.material,
         "flat": "concrete" if building.roof.kind == "flat" else "metal",
@@ -32,7 +33,7 @@ def over_all(layout: BuildingLayout, back: float) -> list[tuple[str, Mesh, str]]
     }
     found = []
     for k, name in enumerate(roof.names):
-        own = roof.positions[roof.parts == k]
+        own = opened(roof.positions[roof.parts == k], rooms)
         if name == "gable":
             for material, some in _gables(layout, own).items():
                 found.append((f"roof/{name}", _mesh_of(own[some]), material))

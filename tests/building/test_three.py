@@ -29,9 +29,7 @@ def by_hand(designs: list[Design], height: float) -> float:
         own = []
         for value in range(9):
             (name,) = design.patterns["floors"].parsed.counters
-            pinned = replace(
-                design, canvas=Canvas(4.2, height), counters={name: Counter(name, value=value)}
-            )
+            pinned = replace(design, canvas=Canvas(4.2, height), counters={name: Counter(name, value=value)})
             try:
                 solved = solve(pinned).y
             except NoLayout:
