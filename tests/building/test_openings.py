@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from facade_nb import Building
 from facade_nb.building import Roof
 from facade_nb.building.bodies import Frame
-from facade_nb.building.openings import opened
+from facade_nb.building.openings import Opening, opened
 from facade_nb.building.roofs import roofing
 from facade_nb.building.scene import over_all
 from facade_nb.design import Design
@@ -58,7 +56,7 @@ def test_no_tiles_are_where_a_dormer_stands(geometry):
     building = Building.rectangle(8.0, 7.0, [design, None, None, None], roof=Roof("hip", 3.0, overhang=0.4))
     layout = building.solve()
     (shape,) = (own for own in layout.faces[0].shown.shapes if own.kind == "dormer")
-    left, bottom, right, top = shape.rect
+    left, bottom, right, _ = shape.rect
     assert layout.eaves == bottom == 4.5
 
     def before(triangles: np.ndarray) -> int:
@@ -74,17 +72,10 @@ def test_no_tiles_are_where_a_dormer_stands(geometry):
     )
     assert before(whole) > 100
     assert before(cut) == 0
-    plain = replace(layout, faces=tuple(replace(own, shown=own.layout) for own in layout.faces[1:]))
-    uncut = np.concatenate(
-        [mesh.vertices[mesh.faces] for name, mesh, _ in over_all(plain, 0.3) if name != "body"]
-    )
     assert area(whole) - 12.0 < area(cut) < area(whole) - 1.0
-    assert area(uncut) == pytest.approx(area(whole))
 
 
 def test_what_is_outside_of_a_room_stays():
-    from facade_nb.building.openings import Opening
-
     rng = np.random.default_rng(8)
     normals = np.concatenate([np.eye(3), -np.eye(3)])
     room = Opening(normals, np.full(6, 0.5), np.full(3, -0.5), np.full(3, 0.5))
