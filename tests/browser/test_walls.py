@@ -1,4 +1,4 @@
-"""A building's studio in JupyterLab: another wall is chosen by a click in its 3D, and the strip has the page's theme."""
+"""A building's studio in JupyterLab: a click in its 3D chooses another wall; the strip has the theme of the page."""
 
 from __future__ import annotations
 
