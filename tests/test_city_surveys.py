@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -90,6 +91,40 @@ def written(tmp_path: Path) -> Any:
         return path
 
     return write
+
+
+def test_a_file_as_a_building_model_is_exported(tmp_path: Path) -> None:
+    """CityGML 1 of an IFC model: no names, its own encoding, last corners given twice, walls with two faces each."""
+
+    def twice(text: str) -> str:  # the last corner of each ring
+        return re.sub(r"(\S+ \S+ \S+)</gml:posList>", r"\1 \1</gml:posList>", text)
+
+    def face(depth: float, turn: int) -> str:
+        return "".join(
+            wall(
+                "", east(0.0 + depth, 0, 12.0 - depth, 2.7, depth)[::turn],
+                *(opening(kind, "", east(*rect, depth)[::turn]) for kind, rect in openings),
+            )
+            for openings in ((("Window", (1, 0.8, 3, 2)), ("Door", (8, 0, 9, 2.01))),)
+        )  # fmt: skip
+
+    sill = [(30.0, 8.0, 0.0), (30.0, 9.0, 0.0), (29.7, 9.0, 0.0), (29.7, 8.0, 0.0)]
+    threshold = wall("", sill, opening("Door", "", sill))
+    text = model("<gml:name>Haus für alle</gml:name>", face(0.0, 1), face(0.3, -1), threshold)
+    text = twice(text).replace(' gml:id=""', "").replace(' gml:id="b7"', "").replace("/2.0", "/1.0")
+    path = tmp_path / "house.gml"
+    path.write_bytes(text.replace("UTF-8", "windows-1252").encode("windows-1252"))
+    assert buildings(path) == ("building 1/1", "building 1/2")  # from the street, and from the room
+    outside, inside = (load_survey(name, path) for name in buildings(path))
+    assert (outside.width, outside.height) == (12.0, 2.7)
+    assert [(own["kind"], own["rect"]) for own in outside.openings] == [
+        ("window", [1.0, 0.8, 3.0, 2.0]),
+        ("door", [8.0, 0.0, 9.0, 2.01]),
+    ]
+    assert [own["rect"][0] for own in inside.openings] == [pytest.approx(8.7), pytest.approx(2.7)]
+    path.write_bytes(text.replace("UTF-8", "klingon").encode("windows-1252"))
+    with pytest.raises(SurveyError, match="it cannot be read as klingon, which it declares to be in"):
+        buildings(path)
 
 
 def test_openings_stand_where_one_sees_them_from_the_street(written: Any) -> None:

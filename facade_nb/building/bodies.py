@@ -17,18 +17,21 @@ from numpy.typing import NDArray
 from ..render.materials import DEFAULT_MATERIAL
 from ..render.meshing import Mesh, mesh_parts
 from ..render.parts import Block, Part
-from ..render.ruled import is_rule, library_of, material_of
+from ..render.ruled import library_of
 from ..render.scene import Solid, build_scene
 from .layout import BuildingLayout, SolvedFace
 from .roofline import is_dormer
+from .rules import Rules
 
-__all__ = ["Body", "Frame", "bodies_of", "deepest", "drawn_by", "rules_of"]
+__all__ = ["Body", "Frame", "bodies_of", "deepest", "drawn_by", "house_end", "rules_of"]
 
 _END = 1e-4
 """Metres: so near its end a thing ends with the wall."""
 
-_DORMER = 6.0
+_DORMER = 12.0
 """How far a dormer goes back at most, metres."""
+
+_STEP = 0.1
 
 Floats = NDArray[np.float64]
 
@@ -82,9 +85,9 @@ class Body:
     library: str = ""
 
 
-def rules_of(layout: BuildingLayout) -> str:
-    """The texture grammar whose rules are drawn on a building: that of the first face that has one."""
-    return next(filter(None, (library_of(own.shown) for own in layout.faces)), "")
+def rules_of(layout: BuildingLayout) -> Rules:
+    """The texture grammars of all faces, as one."""
+    return Rules.of(library_of(own.shown) for own in layout.faces)
 
 
 def deepest(layout: BuildingLayout) -> float:
@@ -109,7 +112,7 @@ def bodies_of(layout: BuildingLayout, own: SolvedFace, back: float) -> list[Body
     scene = build_scene(own.shown)
     made = [Body(solid, solid.index, solid.mesh(), solid.materials) for solid in scene.solids]
     made += _filling(layout, scene.solids, back)
-    made += _dormers(layout, scene.solids)
+    made += _dormers(layout, own, scene.solids)
     return [
         replace(body, mesh=_mitred(body.mesh, own), library=scene.library)
         for body in made
@@ -117,14 +120,9 @@ def bodies_of(layout: BuildingLayout, own: SolvedFace, back: float) -> list[Body
     ]
 
 
-def drawn_by(body: Body, drawn: str) -> Mapping[str, str]:
-    """The materials of a body; rules of another grammar than the one that is drawn are of their mean colour."""
-    if body.library == drawn:
-        return body.materials
-    return {
-        slot: material_of(body.library, name).fill if is_rule(name) else name
-        for slot, name in body.materials.items()
-    }
+def drawn_by(body: Body, rules: Rules) -> Mapping[str, str]:
+    """The materials of a body, as they are called where the rules of all faces are."""
+    return {slot: rules.material(body.library, name) for slot, name in body.materials.items()}
 
 
 def _filling(layout: BuildingLayout, solids: tuple[Solid, ...], back: float) -> Iterator[Body]:
@@ -143,15 +141,48 @@ def _filling(layout: BuildingLayout, solids: tuple[Solid, ...], back: float) -> 
         yield Body(None, -1, mesh_parts(parts), {"body": name})
 
 
-def _dormers(layout: BuildingLayout, solids: tuple[Solid, ...]) -> Iterator[Body]:
+def _dormers(layout: BuildingLayout, own: SolvedFace, solids: tuple[Solid, ...]) -> Iterator[Body]:
     """The houses of dormers, which go back into the roof."""
     wall = layout.building.material
     for solid in solids:
         if is_dormer(solid.shape, layout.eaves) and solid.geometry.full:
             left, bottom, right, top = solid.rect
             behind = solid.face - solid.depth
-            block = Block(left, bottom, right, top, behind - _DORMER, behind)
+            block = Block(left, bottom, right, top, house_end(layout, own, solid), behind)
             yield Body(None, -1, mesh_parts([block]), {"body": wall})
+
+
+def house_end(layout: BuildingLayout, own: SolvedFace, solid: Solid) -> float:
+    """Where the house of a dormer ends, z in the face's frame: where all of its top is within the roof.
+
+    A dormer that is higher than the roof behind it ends where that is highest.
+    """
+    left, _, right, top = solid.rect
+    behind = solid.face - solid.depth
+    steps: Floats = behind - _STEP * np.arange(1.0, round(_DORMER / _STEP) + 1)
+    frame = Frame.of(own)
+    triangles = (layout.roofing.positions - frame.origin) @ frame.axes.T
+    ends = []
+    for x in (left + _END, (left + right) / 2, right - _END):
+        heights = _heights(triangles, x, steps)
+        reached = np.flatnonzero(heights >= top)
+        ends.append(steps[reached[0] if len(reached) else int(heights.argmax())])
+    return float(min(ends))
+
+
+def _heights(triangles: Floats, x: float, depths: Floats) -> Floats:
+    """How high the highest of some triangles (t, 3, 3) is above places (x, z); without any, as low as can be."""
+    flat = triangles[:, :, [0, 2]]
+    a, ab, ac = flat[:, 0], flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    size = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+    lying = np.abs(size) > 1e-9
+    a, ab, ac, size, y = a[lying], ab[lying], ac[lying], size[lying], triangles[lying, :, 1]
+    off = np.stack([np.full_like(depths, x), depths], axis=1)[:, None] - a
+    u = (off[..., 0] * ac[:, 1] - off[..., 1] * ac[:, 0]) / size
+    v = (ab[:, 0] * off[..., 1] - ab[:, 1] * off[..., 0]) / size
+    above = y[:, 0] + u * (y[:, 1] - y[:, 0]) + v * (y[:, 2] - y[:, 0])
+    within = (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1 + 1e-9)
+    return np.where(within, above, -np.inf).max(axis=1, initial=-np.inf)
 
 
 def _mitred(mesh: Mesh, own: SolvedFace) -> Mesh:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..design.model import Canvas, Design
-from ..render.ruled import is_rule, library_of, material_of
+from ..render.ruled import library_of
 from ..solver.model.layout import AxisLayout, GroupLayout, Layout, PlacedShape, Rect
 from .bodies import rules_of
 from .layout import BuildingLayout
@@ -25,15 +25,15 @@ def developed(layout: BuildingLayout) -> Layout:
     shapes: list[PlacedShape] = []
     holes: list[Rect] = []
     stops: list[float] = []
-    at, drawn = 0.0, rules_of(layout)
+    at, rules = 0.0, rules_of(layout)
     for own in layout.faces:
         library = library_of(own.shown)
         for shape in own.shown.shapes:
-            if library != drawn and is_rule(shape.material):  # one grammar is drawn
-                shape = replace(shape, material=material_of(library, shape.material).fill)
             left, bottom, right, top = shape.rect
             rect = (left + at, bottom, right + at, top)
-            shapes.append(replace(shape, rect=rect, layer=f"{own.face.name}/{shape.layer}"))
+            material = rules.material(library, shape.material)
+            layer = f"{own.face.name}/{shape.layer}"
+            shapes.append(replace(shape, rect=rect, layer=layer, material=material))
         for left, bottom, right, top in own.shown.holes:
             if bottom < layout.eaves - 1e-6:
                 holes.append((left + at, bottom, right + at, min(top, layout.eaves)))
@@ -54,7 +54,7 @@ def developed(layout: BuildingLayout) -> Layout:
         holes=tuple(holes),
         warnings=layout.warnings,
         complete=layout.complete,
-        design=Design(grammar=drawn) if drawn else None,
+        design=Design(grammar=rules.text) if rules.text else None,
     )
 
 

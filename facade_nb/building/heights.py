@@ -11,9 +11,9 @@ which loose letters are dear (`LOOSE`), as walls that meet are seen together.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from heapq import heappop, heappush
+from itertools import combinations
 from math import inf
 
 from ..design.errors import NoLayout
@@ -24,14 +24,18 @@ from ..solver.assembly.axes import axis_layout
 from ..solver.budget import Clock, Stopped
 from ..solver.candidates.stream import Candidate
 from ..solver.model.layout import AxisLayout
-from ..solver.model.letters import Word
+from ..solver.model.letters import Letter, Word
 from ..solver.model.objective import Objective
 from ..solver.model.problem import axis_problem
 from ..solver.selection.axis import Best, Solved
 from ..solver.sizing.system import size_axis
 from ..solver.solution import TOLERANCES, AxisAnswer
 from ..solver.words.enumeration import words
-from .spines import aligned
+from .choices import Case, Choices, Option
+from .cuts import Ways
+from .pairs import PairTable, Spine, fitting, pair_table, part_of
+from .reaches import Reach
+from .spines import quickly
 from .vertical import SPINES, Joint, spine_of
 
 __all__ = ["LOOSE", "Heights"]
@@ -45,16 +49,10 @@ _MISS = 0.25
 _SQUEEZED = 0.7
 """No symbol gets smaller by meeting others than so much of what it would be, and would like to be."""
 
+_EPS = 1e-9
+
 Values = Mapping[str, int]
 """Counters under their joint names."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Option:
-    """Counter values of one design's spine, and what the design costs with them at least."""
-
-    values: tuple[tuple[str, int], ...]
-    floor: float
 
 
 @dataclass
@@ -74,6 +72,10 @@ class Heights:
     solve_one: Callable[[Design, str], AxisAnswer]
     clock: Clock
     _known: dict[tuple[str, tuple[tuple[str, int], ...]], AxisAnswer | NoLayout] = field(
+        default_factory=dict, init=False
+    )
+    _known_spines: dict[int, Spine] = field(default_factory=dict, init=False)
+    _known_pairs: dict[tuple[int, int, float, float], tuple[PairTable, tuple[Spine, Spine]]] = field(
         default_factory=dict, init=False
     )
 
@@ -98,37 +100,59 @@ class Heights:
     def solve(self, held: Values) -> AxisAnswer:
         """The best heights with some counters held. Raises `NoLayout`."""
         spines = self.spines(held)
-        options = [self._options(key, spines.get(key), held) for key in self.joint.designs]
+        choices = Choices([self._options(key, spines.get(key), held) for key in self.joint.designs])
         best: _Found | None = None
-        complete = sure = True
-        floor = 0.0
+        complete, floor, unseen = True, 0.0, inf
         try:
-            for floor, chosen in _by_floor(options):
-                if best is not None and floor >= best.cost - 1e-9:
-                    break
-                values = _joined(held, chosen)
-                if values is None:
-                    continue
+            while (floor := choices.floor) < self._enough(best):
                 self.clock.check()
-                answers = [self._one(key, values) for key in self.joint.designs]
-                if any(isinstance(own, NoLayout) for own in answers):
-                    continue
-                whole = [own for own in answers if isinstance(own, AxisAnswer)]
-                own_cost = sum(own.layout.cost for own in whole)
-                if best is not None and own_cost >= best.cost - 1e-9:
-                    continue
-                most = inf if best is None else best.cost - own_cost
-                found, own_sure = self._together(spines, whole, most)
-                sure = sure and own_sure
-                if found is not None and (best is None or found.beats(best)):
-                    best = found
+                case = choices.take()
+                found: list[_Found] = []
+                if not case.answers:
+                    opened = self._opened(case, held, spines)
+                    if opened is not None:
+                        choices.back(opened)
+                        if best is None and opened.ways is not None:
+                            found = self._quick(opened, opened.ways)
+                elif case.ways is not None and case.ways.limit == -inf:
+                    if best is None or best.quick:
+                        found = self._quick(case, case.ways)
+                    enough = min([own.cost for own in (best, *found) if own is not None], default=inf)
+                    if case.ways.open(enough - case.cost + _EPS):
+                        choices.back(case)
+                    else:
+                        unseen = min(unseen, case.floor)
+                else:
+                    found = self._together(case, min(choices.floor, self._enough(best)))
+                    if not found and case.ways is not None:
+                        choices.back(case)
+                for own in found:
+                    best = own if best is None or own.beats(best) else best
         except Stopped as stop:
             if stop.asked and best is None:
                 raise
             complete = False
         if best is None:
             raise self._none(complete)
-        return self._answer(spines, best, complete, sure, floor)
+        return self._answer(spines, best, complete, min(floor, unseen))
+
+    @staticmethod
+    def _enough(best: _Found | None) -> float:
+        """Cases that cost so much are of no use. What was made quickly gives way to what is as cheap."""
+        if best is None:
+            return inf
+        return best.cost + (_EPS if best.quick else -_EPS)
+
+    def _opened(self, case: Case, held: Values, spines: Mapping[str, Layer]) -> Case | None:
+        """The case with the designs solved by its values; None: they have no answer."""
+        values = case.values(held)
+        if values is None:
+            return None
+        answers = [self._one(key, values) for key in self.joint.designs]
+        whole = [own for own in answers if isinstance(own, AxisAnswer)]
+        if len(whole) < len(answers):
+            return None
+        return Case(case.options, tuple(whole), self._ways(spines, whole) if spines else None)
 
     def _none(self, complete: bool) -> NoLayout:
         failure = next((own for own in self._known.values() if isinstance(own, NoLayout)), None)
@@ -168,12 +192,12 @@ class Heights:
                 self._known[key, pinned] = answer
         return self._known[key, pinned]
 
-    def _options(self, key: str, spine: Layer | None, held: Values) -> list[_Option]:
+    def _options(self, key: str, spine: Layer | None, held: Values) -> list[Option]:
         """The values that the counters of a design's spine may have, the least costly first."""
         alone = self._alone(key, held)
-        least = alone.layout.cost if alone.layout.proven else 0.0
+        least = alone.layout.cost - alone.layout.gap
         if spine is None:
-            return [_Option((), least)]
+            return [Option((), least)]
         design, canvas = self.joint.own(key), self.joint.building.height
         pattern = design.patterns[self.joint.tagged(key, spine)]
         used = pattern.parsed.counters
@@ -186,31 +210,56 @@ class Heights:
             values = tuple((name, word.counters[name]) for name in used)
             floors[values] = min(floors.get(values, inf), max(miss, least))
         floors[tuple((name, alone.counters[name]) for name in used)] = least
-        return sorted((_Option(values, floor) for values, floor in floors.items()), key=lambda own: own.floor)
+        return sorted((Option(values, floor) for values, floor in floors.items()), key=lambda own: own.floor)
 
-    def _together(
-        self, spines: Mapping[str, Layer], answers: Sequence[AxisAnswer], most: float
-    ) -> tuple[_Found | None, bool]:
-        """Spines aligned with each other at no more than a cost, everything sized; and whether that is sure."""
-        solved = [_solved(answer) for answer in answers]
-        if not spines:
-            found = self._sized(solved, None)
-            return found, True
-        by_key = dict(zip(self.joint.designs, solved, strict=True))
-        rows = [
-            by_key[key].candidate.words[self.joint.tagged(key, spine)].letters
-            for key, spine in reversed(list(spines.items()))
-        ]
+    def _ways(self, spines: Mapping[str, Layer], answers: Sequence[AxisAnswer]) -> Ways:
+        """All ways to align the spines of some answers."""
+        by_key = dict(zip(self.joint.designs, map(_solved, answers), strict=True))
+        up = list(reversed(list(spines.items())))
+        rows = [by_key[key].candidate.words[self.joint.tagged(key, spine)].letters for key, spine in up]
         canvas = self.joint.building.height
         objective = replace(self.objective, loose=max(LOOSE, self.objective.loose))
         group = make_group(rows, canvas, TOLERANCES[-1] * canvas, objective, check=self.clock.check)
-        taken, sure = aligned(
-            group, lambda priced: self._sized(solved, (group, priced)), self.clock.check, most
-        )
-        best: _Found | None = None
-        for own in taken:
-            best = own if best is None or own.beats(best) else best
-        return best, sure
+        own = [self._spine(by_key[key], row) for (key, _), row in zip(up, rows, strict=True)]
+        bands = [Spine.all([own[i] for i in band.rows]) for band in group.bands]
+        return Ways(group, bands, self._tables(group, bands), self.clock.check)
+
+    def _spine(self, solved: Solved, letters: Sequence[Letter]) -> Spine:
+        """The spine of an answer, and how high its letters may be as its design allows."""
+        if id(solved) not in self._known_spines:
+            floors = {name: own.min or 0.0 for name, own in self._bounded([solved]).items()}
+            reach = Reach.of(solved.sized.system, [a.symbol for a in letters], floors)
+            self._known_spines[id(solved)] = Spine.of([a.size or 0.0 for a in letters], reach)
+        return self._known_spines[id(solved)]
+
+    def _tables(self, group: Group, spines: Sequence[Spine]) -> dict[tuple[int, int], PairTable]:
+        """What each two spines cost together."""
+        omega = fitting(group, spines)[1]
+        loose = group.by_loose / (part_of(len(spines)) * (len(spines) - 1)) if len(spines) > 1 else 0.0
+        found = {}
+        for i, j in combinations(range(len(spines)), 2):
+            key = id(spines[i]), id(spines[j]), omega, loose
+            if key not in self._known_pairs:
+                self.clock.check()
+                table = pair_table(spines[i], spines[j], omega, loose, group.tolerance)
+                self._known_pairs[key] = table, (spines[i], spines[j])
+            found[i, j] = self._known_pairs[key][0]
+        return found
+
+    def _quick(self, case: Case, ways: Ways) -> list[_Found]:
+        """A good way to align the spines, made at once."""
+        solved = [_solved(own) for own in case.answers]
+        found = quickly(ways, lambda priced: self._sized(solved, (ways.group, priced)), self.clock.check)
+        return [] if found is None else [replace(found, quick=True)]
+
+    def _together(self, case: Case, limit: float) -> list[_Found]:
+        """The best ways to align the spines, everything sized; none yet, where they cost more than a limit."""
+        solved, ways = [_solved(own) for own in case.answers], case.ways
+        if ways is None:
+            found = self._sized(solved, None)
+            return [] if found is None else [found]
+        limit = max(limit - case.cost, ways.floor) + 2 * _EPS
+        return ways.advance(lambda priced: self._sized(solved, (ways.group, priced)), limit)
 
     def _sized(self, solved: Sequence[Solved], spines: tuple[Group, Priced] | None) -> _Found | None:
         """All groups of all designs sized together; None: they cannot be."""
@@ -247,9 +296,7 @@ class Heights:
                     found[name] = replace(symbol, min=least if symbol.min is None else max(least, symbol.min))
         return found
 
-    def _answer(
-        self, spines: Mapping[str, Layer], found: _Found, complete: bool, sure: bool, floor: float
-    ) -> AxisAnswer:
+    def _answer(self, spines: Mapping[str, Layer], found: _Found, complete: bool, floor: float) -> AxisAnswer:
         """The layout of all heights."""
         design = self.joint.all(spines)
         problem = axis_problem(design, "y")
@@ -270,6 +317,7 @@ class Heights:
         )
         values = solved.candidate.counters
         answers = [self._alone_with(key, values) for key in self.joint.designs]
+        sure = floor >= found.cost - _EPS
         proven = complete and sure and all(own.layout.proven for own in answers)
         best = Best(whole, solved.cost if proven else min(floor, solved.cost), complete, whole=proven)
         layout: AxisLayout = axis_layout(design, problem, best, whole)
@@ -277,7 +325,9 @@ class Heights:
         if not complete:
             warnings += ("The search was cut short, as the time was over: the walls may meet better.",)
         elif not sure:
-            warnings += ("There may be a better way for the walls to meet: more than two designs differ.",)
+            warnings += (
+                "There may be a better way for the walls to meet: there are too many to look at all of them.",
+            )
         done = complete and all(own.complete for own in answers)
         return AxisAnswer(layout, dict(values), whole.columns, warnings, done)
 
@@ -303,6 +353,8 @@ class _Found:
 
     cost: float
     solved: Solved
+    quick: bool = False
+    """Maybe not the best way to align these spines."""
 
     def beats(self, other: _Found) -> bool:
         """Least cost, then most columns, then least deviation."""
@@ -321,28 +373,3 @@ def _solved(answer: AxisAnswer) -> Solved:
 def _range(counter: Counter, held: int | None) -> tuple[int, int | None]:
     value = held if held is not None else counter.value
     return (counter.min, counter.max) if value is None else (value, value)
-
-
-def _joined(held: Values, chosen: Sequence[_Option]) -> dict[str, int] | None:
-    """The values of all options; None where they contradict each other."""
-    found = dict(held)
-    for option in chosen:
-        for name, value in option.values:
-            if found.setdefault(name, value) != value:
-                return None
-    return found
-
-
-def _by_floor(options: Sequence[Sequence[_Option]]) -> Iterator[tuple[float, tuple[_Option, ...]]]:
-    """One option of each list, in all ways, by the sum of their floors."""
-    start = (0,) * len(options)
-    ahead = [(sum(own[0].floor for own in options), start)]
-    seen = {start}
-    while ahead:
-        floor, at = heappop(ahead)
-        yield floor, tuple(own[k] for own, k in zip(options, at, strict=True))
-        for n, k in enumerate(at):
-            following = (*at[:n], k + 1, *at[n + 1 :])
-            if k + 1 < len(options[n]) and following not in seen:
-                seen.add(following)
-                heappush(ahead, (floor - options[n][k].floor + options[n][k + 1].floor, following))

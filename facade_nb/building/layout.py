@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..render.camera import Camera
     from ..render.exchange.chains import Units
     from ..render.pipeline.solids import Solids
+    from .roofs import Roofing
 
 __all__ = ["BuildingLayout", "SolvedFace"]
 
@@ -107,6 +108,13 @@ class BuildingLayout:
         from .developed import developed
 
         return developed(self)
+
+    @cached_property
+    def roofing(self) -> Roofing:
+        """The roof over all, as triangles."""
+        from .roofs import roofing
+
+        return roofing(self)
 
     def solids(self, *, ground: bool = True) -> Solids:
         """The scene that pictures are drawn of: x east, y up, z south."""

@@ -13,8 +13,9 @@ from ..render.scene import Triangles, triangles_of
 from ..solver.model.layout import Rect
 from .bodies import Frame, bodies_of, deepest, drawn_by, rules_of
 from .layout import BuildingLayout, SolvedFace
+from .openings import opened, openings
 from .roofline import wall_material
-from .roofs import outline, roofing
+from .roofs import outline
 
 __all__ = ["over_all", "solids_of_building"]
 
@@ -24,7 +25,7 @@ Floats = NDArray[np.float64]
 def over_all(layout: BuildingLayout, back: float) -> list[tuple[str, Mesh, str]]:
     """The roof's parts and the body within the walls, in space: name, mesh, material."""
     building = layout.building
-    roof = roofing(layout)
+    roof, rooms = layout.roofing, openings(layout)
     materials = {
         "roof": building.roof.material,
         "flat": "concrete" if building.roof.kind == "flat" else "metal",
@@ -32,7 +33,7 @@ def over_all(layout: BuildingLayout, back: float) -> list[tuple[str, Mesh, str]]
     }
     found = []
     for k, name in enumerate(roof.names):
-        own = roof.positions[roof.parts == k]
+        own = opened(roof.positions[roof.parts == k], rooms)
         if name == "gable":
             for material, some in _gables(layout, own).items():
                 found.append((f"roof/{name}", _mesh_of(own[some]), material))
@@ -105,18 +106,18 @@ def solids_of_building(
     before
         A face that is to be in the plane z = 0, its lower left corner the origin.
     """
-    back, library = deepest(layout), rules_of(layout)
+    back, rules = deepest(layout), rules_of(layout)
     parts: list[tuple[Triangles, list[Rect], Frame | None, int]] = []
     first = 0
     for own in layout.faces:
         bodies = bodies_of(layout, own, back)
         triangles = triangles_of(
-            [(body.index, body.mesh, drawn_by(body, library)) for body in bodies], library
+            [(body.index, body.mesh, drawn_by(body, rules)) for body in bodies], rules.text
         )
         parts.append((triangles, [shape.rect for shape in own.shown.shapes], Frame.of(own), first))
         first += len(own.shown.shapes)
     rest = [(-1, mesh, {"body": material}) for _, mesh, material in over_all(layout, back)]
-    parts.append((triangles_of(rest, library), [], None, 0))
+    parts.append((triangles_of(rest, rules.text), [], None, 0))
     names = tuple(dict.fromkeys(name for some, *_ in parts for name in some.material_names))
     made = []
     for triangles, rects, frame, start in parts:
@@ -128,7 +129,7 @@ def solids_of_building(
     if before is not None:
         place = Frame.of(before)
         made = [part.moved(-place.origin @ place.axes.T, place.axes.T) for part in made]
-    return combined(made, names, library, ground=ground)
+    return combined(made, names, rules.text, ground=ground)
 
 
 def _renamed(triangles: Triangles, names: tuple[str, ...]) -> Triangles:

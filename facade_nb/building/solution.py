@@ -25,6 +25,9 @@ from .vertical import Joint, names_up
 
 __all__ = ["solve"]
 
+_HEIGHTS = 0.7
+"""What part of the time the heights may take: they are one problem, and each wall across is soon done."""
+
 _Width = tuple[str, float]
 """A design, and how wide it stands, to the micrometre."""
 
@@ -126,8 +129,8 @@ class _Run:
     def __post_init__(self) -> None:
         self.joint = Joint(self.building)
         self._end = None if self.time_limit is None else monotonic() + self.time_limit
-        half = None if self.time_limit is None else self.time_limit / 2
-        clock = Clock(half, self.should_stop)
+        own = None if self.time_limit is None else self.time_limit * _HEIGHTS
+        clock = Clock(own, self.should_stop)
         self.heights = Heights(self.joint, self.objective or Objective(), self._one, clock)
 
     def answers(self) -> tuple[AxisAnswer, dict[_Width, AxisAnswer]]:

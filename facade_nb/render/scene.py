@@ -24,7 +24,16 @@ if TYPE_CHECKING:
 
     from .meshing import Mesh
 
-__all__ = ["DrawingWarning", "Scene", "Solid", "Triangles", "build_scene", "drawing_faults", "without"]
+__all__ = [
+    "DrawingWarning",
+    "Scene",
+    "Solid",
+    "Triangles",
+    "build_scene",
+    "drawing_faults",
+    "room_of",
+    "without",
+]
 
 _EPS = 1e-9
 _LEAST = 1e-4
@@ -384,19 +393,27 @@ def _deepest(solid: Solid) -> float:
 
 
 def _room_of(solid: Solid, roof: Solid) -> Iterator[Cut]:
-    """What a shape opens in a roof: as far back as it is itself, and all that would stand before it.
+    """What a shape opens in a roof, in the roof's frame."""
+    dx, dy = roof.rect[:2]
+    for cut in room_of(solid):
+        outline = tuple((round(x - dx, 6), round(y - dy, 6)) for x, y in cut.outline)
+        yield Cut(outline, round(cut.back - roof.face, 6))
+
+
+def room_of(solid: Solid) -> Iterator[Cut]:
+    """What a shape opens in a roof, in the façade's frame: as far back as it is itself, and all before it.
 
     A dormer opens what is between its cheeks and below its own roof, which goes on into the slope.
     """
-    deep = round(_deepest(solid) - roof.face, 6)
+    deep = _deepest(solid)
+    left, bottom, right, top = solid.rect
     if solid.geometry.full:
-        yield replace(_hole(solid.rect, roof), back=deep)
+        yield Cut(((left, bottom), (right, bottom), (right, top), (left, top)), deep)
         return
     house = tuple(part for part in solid.parts if part.slot in ("body", "cheek"))
     parts = house if solid.geometry.name == "dormer" and house else solid.parts
-    dx, dy = solid.rect[0] - roof.rect[0], solid.rect[1] - roof.rect[1]
     for outline in _outlines(parts):
-        yield Cut(tuple((round(x + dx, 6), round(y + dy, 6)) for x, y in outline), deep)
+        yield Cut(tuple((x + left, y + bottom) for x, y in outline), deep)
 
 
 def _hole(rect: Rect, wall: Solid) -> Cut:

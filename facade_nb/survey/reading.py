@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import codecs
 import os
+import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import islice
@@ -21,6 +23,7 @@ __all__ = ["Survey", "buildings", "load_survey", "survey_text"]
 
 _VARIABLE = "FACADE_NB_DATA"
 _FILE = "ingolstadt.json"
+_DECLARED = re.compile(rb"<\?xml\s[^>]{0,200}?encoding\s*=\s*[\"']([A-Za-z][\w.\-]{0,40})[\"']")
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,10 +122,28 @@ def _read_file(path: str | Path | None) -> _Found:
     """Read a data file: its reader, the file, and place and members of each building; or a city model."""
     file = _data_file(path)
     try:
-        text = read_text(file, "a survey")
+        text = _as_declared(file) or read_text(file, "a survey")
     except DesignError as error:
         raise SurveyError(f"expected a survey; {error}") from None
     return _read(text, file)
+
+
+def _as_declared(file: Path) -> str:
+    """The text of an XML file that declares to be in something else than UTF-8, as CityGML may; else nothing."""
+    try:
+        data = file.read_bytes()
+    except (OSError, ValueError):
+        return ""  # reading it as text tells what is wrong
+    found = _DECLARED.match(data)
+    name = found[1].decode("ascii") if found else "utf-8"
+    try:
+        if codecs.lookup(name).name == "utf-8":
+            return ""
+        return data.decode(name)
+    except (LookupError, ValueError):
+        raise SurveyError(
+            f"expected a survey; {file}: it cannot be read as {cut(name)}, which it declares to be in"
+        ) from None
 
 
 def _read(text: str, file: Path) -> _Found:

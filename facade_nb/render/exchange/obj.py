@@ -5,7 +5,7 @@ A material that is a rule of the design's grammar has a picture beside the MTL, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -16,6 +16,7 @@ from ..baked import baked_png, drawable, face_places, face_size
 from ..materials import rgb
 from ..ruled import is_rule, library_of, material_of
 from ..scene import Solid, build_scene
+from .beside import HEAD, Beside
 
 if TYPE_CHECKING:
     import numpy as np
@@ -78,7 +79,10 @@ def to_obj(layout: Layout, materials: str = "") -> tuple[str, str]:
 
 
 def obj_of(
-    pieces: Iterable[Piece], materials: str = "", library: str = "", pictures: str = ""
+    pieces: Iterable[Piece],
+    materials: str = "",
+    library: str = "",
+    pictures: Callable[[int], str] | None = None,
 ) -> tuple[str, str, dict[str, bytes]]:
     """Meshes as OBJ, their materials as MTL (see `to_obj`), and the pictures of rules by the names of their files.
 
@@ -87,17 +91,14 @@ def obj_of(
     library
         The grammar of materials that are rules, where a piece has none of its own.
     pictures
-        What the names of pictures begin with; empty: rules have their mean colours.
+        The name of each picture's file, by its number; None: rules have their mean colours.
     """
     head = ["# facade_nb; metres, y up"]
     if materials:
         head.append(f"mtllib {materials}")
     paints: dict[_Paint, str] = {}
-    body = list(_bodies(pieces, paints, library, pictured=bool(pictures)))
-    files = {
-        own: f"{_blankless(pictures)}-rule-{k}.png"
-        for k, own in enumerate((own for own in paints if own.size), 1)
-    }
+    body = list(_bodies(pieces, paints, library, pictured=pictures is not None))
+    files = {own: pictures(k) for k, own in enumerate((own for own in paints if own.size), 1) if pictures}
     content = {
         file: baked_png(own.library, own.material, own.size or (1.0, 1.0)) for own, file in files.items()
     }
@@ -107,8 +108,8 @@ def obj_of(
 def obj_files(layout: Layout, path: str | Path | None) -> dict[Path, str | bytes]:
     """What a layout is as OBJ, by the paths of the files: the OBJ, its MTL, and the pictures of its rules.
 
-    They are `house.obj`, `house.mtl`, `house-rule-1.png` and so on. Nothing is written. Into a stream (a
-    path that is one, or None) goes the OBJ alone.
+    They are `house.obj`, `house.mtl`, `house-rule-1.png` and so on. Where a file of somebody else's has such a name, it
+    is `house~2.mtl` (see `Beside`). Nothing is written. Into a stream (a path that is one, or None) goes the OBJ alone.
 
     Raises
     ------
@@ -120,15 +121,16 @@ def obj_files(layout: Layout, path: str | Path | None) -> dict[Path, str | bytes
 
 def files_of(pieces: Iterable[Piece], path: str | Path | None) -> dict[Path, str | bytes]:
     """The same of meshes."""
-    beside = materials_beside(path) if path is not None else None
-    text, materials, pictures = obj_of(
-        pieces, beside.name if beside else "", pictures=Path(path or "").stem if beside else ""
-    )
-    files: dict[Path, str | bytes] = {Path("-" if path is None else path): text}
-    if beside:
-        files[beside] = materials
-        files |= {beside.with_name(name): data for name, data in pictures.items()}
-    return files
+    materials = materials_beside(path) if path is not None else None
+    if path is None or materials is None:
+        return {Path("-" if path is None else path): obj_of(pieces)[0]}
+    beside = Beside(materials, _blankless(Path(path).stem))
+    text, told, pictures = obj_of(pieces, beside.materials.name, pictures=beside.picture)
+    return {
+        Path(path): text,
+        beside.materials: told,
+        **{beside.materials.with_name(name): data for name, data in pictures.items()},
+    }
 
 
 def materials_beside(path: str | Path) -> Path | None:
@@ -217,7 +219,7 @@ def _bodies(
 
 
 def _written(paints: Mapping[_Paint, str], files: Mapping[_Paint, str]) -> Iterator[str]:
-    yield "# facade_nb"
+    yield HEAD
     for own, word in paints.items():
         material = material_of(own.library, own.material)
         red, green, blue = (value / 255 for value in rgb(material.base))

@@ -16,7 +16,7 @@ A statement that cannot be read is reported and left out, so that the faults of 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import isfinite
@@ -44,6 +44,7 @@ __all__ = [
     "Setting",
     "Tile",
     "read",
+    "tokens_of",
 ]
 
 _GRAMMAR = r"""
@@ -230,6 +231,12 @@ def _head() -> re.Pattern[str]:
 def _parsed(text: str) -> list[Statement]:
     found: list[Statement] = _parser().parse(text)  # type: ignore[assignment]  # by the transformer
     return found
+
+
+def tokens_of(text: str) -> Iterator[tuple[str, str, int]]:
+    """The kind, the text and the place of every token of a grammar that can be read."""
+    for token in _parser().lex(text):
+        yield token.type, str(token), token.start_pos or 0
 
 
 def read(text: str) -> Reading:

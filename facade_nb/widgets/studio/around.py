@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from html import escape
 from pathlib import Path
+from secrets import token_hex
 from typing import Any
 
 from ipywidgets import HTML, ToggleButton, ToggleButtons, VBox
@@ -21,14 +20,13 @@ from ...render.pipeline.solids import Solids
 from ...solver import Layout
 from .model import FacadeModel
 from .plan_panel import PlanPanel
+from .strip import strip_of
 from .studio import Studio
 from .whole import Whole, solids_around
 
 __all__ = ["BuildingStudio"]
 
 _NEAR = 1e-9
-_TALL = 240
-"""Pixels that the strip is high at most."""
 
 
 class BuildingStudio(VBox):
@@ -69,6 +67,8 @@ class BuildingStudio(VBox):
         self._studios: dict[str, Studio] = {}
         self._models: dict[str, FacadeModel] = {}
         self._found: tuple[Building, BuildingLayout, str] | None = None
+        self._theme = "light"
+        self._prefix = f"walls{token_hex(4)}"
         self._strip = HTML(layout={"width": "100%"})
         self._choice = ToggleButtons(description="", style={"button_width": "auto"})
         self._choice.add_class("facade-nb-walls")
@@ -204,6 +204,7 @@ class BuildingStudio(VBox):
             self._models[wall] = model
             model.whole = Whole(self._walls, partial(self._around, wall), self._choose_number)
             self._studios[wall] = Studio(model, **self._given)
+            self._studios[wall].channel.observe(lambda change: self._dress(change["new"]), "theme")
             model.observe(lambda _: self._follow(wall), "version")
         elif self._models[wall].design != design:  # it has changed on another wall of the same design
             self._models[wall].load(design)
@@ -228,7 +229,7 @@ class BuildingStudio(VBox):
         ) -> Layout:
             building = self._with(wall, design)
             layout = building.solve(time_limit=time_limit, should_stop=should_stop)
-            self._found = building, layout, _strip_of(layout, wall)
+            self._found = building, layout, strip_of(layout, wall, self._theme, self._prefix)
             own = _own(layout, wall, design)
             self._wholes[wall] = own, layout
             return own
@@ -265,6 +266,15 @@ class BuildingStudio(VBox):
             self.solved = self._found[1]
             self._strip.value = self._found[2]
 
+    def _dress(self, theme: str) -> None:
+        """Draw the strip in the theme that a browser has told the studio below it."""
+        if theme != self._theme:
+            self._theme = theme
+            if self._found is not None:
+                building, layout, _ = self._found
+                self._found = building, layout, strip_of(layout, self.wall, theme, self._prefix)
+                self._follow(self.wall)
+
     def _replaced(self, change: Any) -> None:
         """Another building was assigned."""
         for model in self._models.values():
@@ -295,51 +305,3 @@ def _own(layout: BuildingLayout, wall: str, design: Design) -> Layout:
     own = layout.face(wall).layout
     layers = {layer.name for layer in design.layers}
     return replace(own, shapes=tuple(shape for shape in own.shapes if shape.layer in layers), design=design)
-
-
-def _strip_of(layout: BuildingLayout, wall: str) -> str:
-    """All walls side by side, the lines at which they meet, and what there is to say."""
-    from ...building.developed import GAP
-    from ...building.vertical import SPINES
-
-    svg = layout.elevation_svg()
-    scale, (origin, _), (width, height) = _drawn(svg)
-    svg = svg.replace("<svg ", '<svg style="width:100%;height:auto;display:block" ', 1)
-    at, marks = 0.0, []
-    for own in layout.faces:
-        chosen = own.face.name == wall
-        left = 100 * (origin + at * scale) / width
-        wide = 100 * own.face.length * scale / width
-        style = (
-            "border-top:3px solid currentColor;font-weight:bold" if chosen else "border-top:1px solid #8888"
-        )
-        marks.append(
-            f'<div style="position:absolute;left:{left:.3f}%;width:{wide:.3f}%;text-align:center;{style}">'
-            f"{escape(own.face.name)}</div>"
-        )
-        at += own.face.length + GAP
-    shared = layout.heights.groups.get(SPINES)
-    told = "All walls are of one design."
-    if shared is not None:
-        told = f"Walls meet at {', '.join(f'{stop:.2f}' for stop in shared.columns)} m."
-    notes = "".join(f"<div>{escape(text)}</div>" for text in layout.warnings)
-    return (
-        f'<div class="facade-nb-around" style="max-width:{_TALL * width / height:.0f}px">{svg}'
-        f'<div style="position:relative;height:1.8em">{"".join(marks)}</div>'
-        f'<div style="font-size:smaller">{escape(told)}{notes}</div></div>'
-    )
-
-
-def _drawn(svg: str) -> tuple[float, tuple[float, float], tuple[float, float]]:
-    """Pixels per metre of an elevation, where its lower left corner is, and how large it is."""
-    head = svg[: svg.index(">")]
-
-    def numbers(name: str) -> list[float]:
-        return [float(value) for value in re.split(r"[ ,]+", head.split(f'{name}="', 1)[1].split('"', 1)[0])]
-
-    (scale,), (x, y), (_, _, width, height) = (
-        numbers("data-scale"),
-        numbers("data-origin"),
-        numbers("viewBox"),
-    )
-    return scale, (x, y), (width, height)

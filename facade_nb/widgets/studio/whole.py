@@ -55,12 +55,12 @@ def solids_around(layout: BuildingLayout, wall: str, own: Layout, walls: Sequenc
     for face in layout.faces:
         name = face.face.name
         quoins = {f"quoins {corner.design}" for _, corner in filter(None, face.face.quoins)}
-        if name == wall or wall in quoins:
+        mine = name == wall or wall in quoins
+        if mine:
             chosen.append(face)
         rest = OTHER - walls.index(name) if name in walls and name != wall else BODY
         for shape in face.shown.shapes:
             key = (shape.layer, shape.x, shape.y)
-            mine = name == wall or wall in quoins
             codes.append(number.get((*key, shape.number), alike.get(key, rest)) if mine else rest)
     solids = solids_of_building(layout, before=chosen[0] if chosen else None)
     every = np.array([*codes, GROUND, BODY], np.int64)  # of what is no shape's the number counts from the end

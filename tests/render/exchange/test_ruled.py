@@ -109,6 +109,21 @@ def test_pictures_are_refused_where_they_would_be_another_file(
     assert not (tmp_path / "b.obj").exists() and not (tmp_path / "b.mtl").exists()
 
 
+def test_files_of_others_beside_an_obj_are_left_alone(tmp_path: Path) -> None:
+    kept = {"a.mtl": "newmtl theirs\n", "a-rule-1.png": "theirs", "a-rule-2~2.png": "theirs"}
+    for name, text in kept.items():
+        (tmp_path / name).write_text(text)
+    write_obj(flags(), tmp_path / "a.obj")
+    ours = {"a.obj", "a~2.mtl", "a-rule-1~2.png", "a-rule-2.png"}
+    assert {path.name for path in tmp_path.iterdir()} == {*kept, *ours}
+    assert {name: (tmp_path / name).read_text() for name in kept} == kept
+    write_obj(flags(), tmp_path / "a.obj")  # ours are written anew
+    assert {path.name for path in tmp_path.iterdir()} == {*kept, *ours}
+    assert "mtllib a~2.mtl" in (tmp_path / "a.obj").read_text()
+    scene = trimesh.load_scene(tmp_path / "a.obj", split_objects=True, group_material=True)
+    assert seen(scene, (0.5, 1.0, 0.0), (0.0, 0.0, 1.0)) == RED
+
+
 def test_pdf_shows_the_pictures_pale() -> None:
     (page,) = pypdf.PdfReader(io.BytesIO(to_pdf(flags()))).pages
     pictures = [np.asarray(image.image.convert("RGB")).astype(int) for image in page.images]

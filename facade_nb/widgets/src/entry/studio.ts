@@ -2,6 +2,7 @@
 // notices and errors.
 
 import "../styles/base.css";
+import "../styles/around.css";
 import "../styles/fields.css";
 import "../styles/editors.css";
 import "../styles/views.css";
