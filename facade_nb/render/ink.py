@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -45,8 +45,11 @@ class Defs:
         self._paints: dict[tuple[str, str], str] = {}
         self._shapes: dict[tuple[object, ...], str] = {}
 
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._made.values())
+
     def __str__(self) -> str:
-        return "".join(self._made.values())
+        return "".join(self)
 
     def paint(self, material: Material) -> str:
         """A value for ``fill`` that covers a surface with the material."""
