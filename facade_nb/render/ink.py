@@ -501,6 +501,9 @@ def clip(points: Sequence[Point], box: tuple[float, float, float, float]) -> lis
     for axis, limit, sign in ((0, x0, 1), (0, x1, -1), (1, y0, 1), (1, y1, -1)):
         if not result:
             break
+        values = [point[axis] for point in result]
+        if min(values) >= limit if sign > 0 else max(values) <= limit:
+            continue  # all of it is on this side
         kept: list[Point] = []
         before = result[-1]
         was = sign * (before[axis] - limit)
