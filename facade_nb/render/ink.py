@@ -474,8 +474,7 @@ def polygon_path(points: Sequence[Point]) -> str:
     """A closed subpath, empty for fewer than three points."""
     if len(points) < 3:
         return ""
-    first, *rest = points
-    return f"M{num(first[0])} {num(first[1])}" + "".join(f"L{num(x)} {num(y)}" for x, y in rest) + "z"
+    return "M" + "L".join([f"{num(x)} {num(y)}" for x, y in points]) + "z"
 
 
 def _normal(spots: Sequence[tuple[float, float, float]]) -> tuple[float, float, float]:

@@ -10,6 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
@@ -128,28 +129,25 @@ class Relief:
             return result
         boxes = np.array([_bounds(caster.points) for caster in casters])
         near, far = np.array([c.z0 for c in casters]), np.array([c.z1 for c in casters])
-        planes = np.array([plane for _, plane, _, _ in receivers])[:, None]
-        rects = np.array([rect for _, _, rect, _ in receivers])[:, :, None]
-        reach = far - planes
-        dx, dy = np.maximum(reach, 0) * LIGHT[0], np.maximum(reach, 0) * LIGHT[1]
-        hit = (
-            (reach > 1e-4)
-            & (boxes[:, 0] < rects[:, 2])
-            & (boxes[:, 2] + dx > rects[:, 0])
-            & (boxes[:, 1] - dy < rects[:, 3])
-            & (boxes[:, 3] > rects[:, 1])
-        )
-        start = np.maximum(near - planes, 0.0)
-        found = np.nonzero(hit)
-        pairs = (own.tolist() for own in (*found, start[found], reach[found]))
-        for n, k, a, b in zip(*pairs, strict=True):
-            layer, _, rect, members = receivers[n]
-            caster = casters[k]
-            if caster.of in members:
-                continue
-            polygon = clip(_swept(caster, a, b), rect)
-            if len(polygon) > 2:
-                result[layer].append(polygon)
+        for plane, group in groupby(receivers, key=lambda own: own[1]):
+            own = list(group)
+            reach = far - plane
+            near_enough = np.flatnonzero(reach > 1e-4)
+            reach = reach[near_enough]
+            start = np.maximum(near[near_enough] - plane, 0.0).tolist()
+            left, low, right, high = boxes[near_enough].T
+            right, low = right + reach * LIGHT[0], low - reach * LIGHT[1]
+            x0, y0, x1, y1 = np.array([rect for _, _, rect, _ in own]).T[:, :, None]
+            hit = (left < x1) & (right > x0) & (low < y1) & (high > y0)
+            ends, number = reach.tolist(), near_enough.tolist()
+            for n, k in zip(*(found.tolist() for found in np.nonzero(hit)), strict=True):
+                layer, _, rect, members = own[n]
+                caster = casters[number[k]]
+                if caster.of in members:
+                    continue
+                polygon = clip(_swept(caster, start[k], ends[k]), rect)
+                if len(polygon) > 2:
+                    result[layer].append(polygon)
         return result
 
     @cached_property
