@@ -189,10 +189,21 @@ class LatestSolver:
 
 
 def _together(begun: Outcome | None, ended: Outcome) -> Outcome:
-    """What became of a search that was begun twice: where it was stopped before it had anything, what it had before."""
+    """What became of a search begun twice: what it had at first, where it was stopped before it had as good."""
     if begun is None:
         return ended
     seconds = begun.seconds + ended.seconds
-    if begun.layout is not None and isinstance(ended.error, NoLayout):
+    if begun.layout is not None and (
+        isinstance(ended.error, NoLayout)
+        or (
+            ended.layout is not None
+            and not ended.layout.complete
+            and _cost(begun.layout) < _cost(ended.layout)
+        )
+    ):
         return replace(begun, seconds=seconds)
     return replace(ended, seconds=seconds)
+
+
+def _cost(layout: Layout) -> float:
+    return layout.x.cost + layout.y.cost

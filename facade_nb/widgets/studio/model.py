@@ -73,6 +73,8 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         Seconds after which a solve ends with the best layout found so far.
     solve
         The function that solves; `facade_nb.solve` by default.
+    first
+        Seconds after which a search that takes longer is shown as it stands, while it goes on; None: never.
 
     Notes
     -----
@@ -107,10 +109,15 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
     version: int = Int(0, help="Goes up once after each consistent change of all of the above.")
 
     def __init__(
-        self, design: Design | str | FilePath | None = None, *, time_limit: float = 10.0, solve: Solve = solve
+        self,
+        design: Design | str | FilePath | None = None,
+        *,
+        time_limit: float = 10.0,
+        solve: Solve = solve,
+        first: float | None = FIRST,
     ) -> None:
         super().__init__(design=_read(design) if design is not None else Design())
-        self.time_limit = time_limit
+        self.time_limit, self._first = time_limit, first
         #: The layer that was shown alone last, and those that were shown before.
         self.alone: tuple[str, frozenset[str]] = ("", frozenset())
         #: The building that the façade is a wall of, for the 3D view; none for a façade by itself.
@@ -303,7 +310,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
             self._loop = asyncio.get_running_loop()
         except RuntimeError:
             self._loop = None
-        first = None if self._loop is None else FIRST
+        first = None if self._loop is None else self._first
         self._solver.submit(
             self._revision, newcomers.begun(self.design), self.time_limit, self._traced, first
         )
