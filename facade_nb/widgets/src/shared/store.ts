@@ -39,7 +39,7 @@ export class Store {
   private readonly waiters = new Set<() => void>();
   private readonly pauses = new Pauses();
   /** What is to be brought up to date once the elevation has been painted; null: the elevation is as it was. */
-  private behind: Set<() => void> | null = null;
+  private behind: Set<() => unknown> | null = null;
 
   readonly kernel: Kernel;
 
@@ -94,7 +94,7 @@ export class Store {
   /** Keep what waits until the next frame has been painted; a page that is not seen paints none, and waits a moment. */
   private letPaint(): void {
     if (this.behind) return;
-    const behind = new Set<() => void>();
+    const behind = new Set<() => unknown>();
     this.behind = behind;
     const end = () => {
       clearTimeout(timer);
@@ -114,7 +114,11 @@ export class Store {
 
   onReply(callback: (reply: Reply) => void): void {
     this.listen("msg:custom", (reply: Reply) => {
-      if (reply.client === this.client) callback(reply);
+      if (reply.client !== this.client) return;
+      // It is about what the message before has changed: the parts show that first.
+      const tell = () => this.signal.aborted || callback(reply);
+      if (this.behind) queueMicrotask(() => (this.behind ? this.behind.add(tell) : tell()));
+      else tell();
     });
   }
 
