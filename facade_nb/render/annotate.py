@@ -95,6 +95,8 @@ def draw_empty(width: float, height: float, frame: Frame, style: Style, *, layer
     yield (
         f'<rect {frame.box((0, 0, width, height))} fill="{style.faint}" fill-opacity=".05" stroke="{style.faint}" '
         f'stroke-width="1" stroke-dasharray="6 5"/>'
+    )
+    yield (
         f'<g {FONT} text-anchor="middle" fill="{style.faint}"><text x="{num(x)}" y="{num(y)}" font-size="18">'
         f"{width:g} × {height:g} m</text>"
         f'<text x="{num(x)}" y="{num(y + 22)}" font-size="12">{hint}</text></g>'

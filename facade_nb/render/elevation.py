@@ -15,7 +15,7 @@ from .relief import Edges, Relief, Segment
 from .scene import Scene, Solid, build_scene
 from .style import FINE, HEAVY, MEDIUM, Style, find_style, num
 
-__all__ = ["draw_facade", "elevation_svg"]
+__all__ = ["draw_facade", "elevation_pieces", "elevation_svg"]
 
 
 def elevation_svg(
@@ -66,6 +66,37 @@ def elevation_svg(
     ValueError
         For an unknown theme, or a width without room for the drawing.
     """
+    return "".join(
+        elevation_pieces(
+            layout,
+            width_px=width_px,
+            theme=theme,
+            survey=survey,
+            ids=ids,
+            dimensions=dimensions,
+            holes=holes,
+            background=background,
+            prefix=prefix,
+        )
+    )
+
+
+def elevation_pieces(
+    layout: Layout,
+    *,
+    width_px: float | None = None,
+    theme: str = "light",
+    survey: Sequence[Mapping[str, Any]] | None = None,
+    ids: bool = True,
+    dimensions: bool = False,
+    holes: bool = False,
+    background: bool = True,
+    prefix: str | None = None,
+) -> list[str]:
+    """The text of `elevation_svg` in pieces: each is a whole element, or a tag that opens or closes one around others.
+
+    A view that holds the drawing compares them with those that it has, and changes what differs.
+    """
     style = find_style(theme)
     scene = build_scene(layout)
     frame = Frame.fit(layout.canvas.width, layout.canvas.height, width_px, dimensions=dimensions)
@@ -89,11 +120,12 @@ def elevation_svg(
     label = escape(f"Elevation of {layout.name}, {layout.canvas.width:g} by {layout.canvas.height:g} metres")
     w, h = num(frame.width), num(frame.height)
     x, y = frame.at(0, 0)
-    return (
+    root = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" viewBox="0 0 {w} {h}" role="img" '
         f'aria-label="{label}" style="max-width:100%;height:auto" data-scale="{frame.scale:.6g}" '
-        f'data-origin="{num(x)} {num(y)}"><defs>{defs}</defs>{"".join(body)}</svg>'
+        f'data-origin="{num(x)} {num(y)}">'
     )
+    return [root, "<defs>", *defs, "</defs>", *body, "</svg>"]
 
 
 def draw_facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bool) -> Iterable[str]:
@@ -113,7 +145,7 @@ def draw_facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bo
                 f'<path class="shadow" d="{d}" fill="{style.shadow}" fill-opacity="{style.shade}" '
                 'pointer-events="none"/>'
             )
-        yield _lines(lines, frame, style)
+        yield from _lines(lines, frame, style)
         yield "</g>"
 
 
@@ -150,15 +182,13 @@ def _shape(solid: Solid, defs: Defs, frame: Frame, *, ids: bool) -> str:
     return f'{head}{cell}"none" pointer-events="all"/>{drawn}</g>'
 
 
-def _lines(edges: Edges, frame: Frame, style: Style) -> str:
-    text = ""
+def _lines(edges: Edges, frame: Frame, style: Style) -> Iterable[str]:
     for segments, weight in ((edges.joint, FINE), (edges.depth, MEDIUM), (edges.outline, HEAVY)):
         if segments:
-            text += (
+            yield (
                 f'<path d="{_segments(segments, frame)}" stroke="{style.ink}" stroke-width="{weight}" '
                 f'stroke-linecap="square" fill="none" pointer-events="none"/>'
             )
-    return text
 
 
 def _segments(segments: Iterable[Segment], frame: Frame) -> str:
@@ -176,7 +206,5 @@ def _ground(frame: Frame, style: Style) -> Iterable[str]:
     colour = style.ink if style.name == "light" else style.faint
     step = 6.0
     ticks = "".join(f"M{num(x0 + i * step + 5)} {num(y + 2)}l-5 5" for i in range(int((x1 - x0) / step)))
-    yield (
-        f'<path d="{ticks}" stroke="{colour}" stroke-width=".4" stroke-opacity=".45" fill="none"/>'
-        f'<path d="M{num(x0)} {num(y + 1)}H{num(x1)}" stroke="{colour}" stroke-width="2.2" stroke-linecap="round"/>'
-    )
+    yield (f'<path d="{ticks}" stroke="{colour}" stroke-width=".4" stroke-opacity=".45" fill="none"/>')
+    yield f'<path d="M{num(x0)} {num(y + 1)}H{num(x1)}" stroke="{colour}" stroke-width="2.2" stroke-linecap="round"/>'

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -45,8 +45,11 @@ class Defs:
         self._paints: dict[tuple[str, str], str] = {}
         self._shapes: dict[tuple[object, ...], str] = {}
 
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._made.values())
+
     def __str__(self) -> str:
-        return "".join(self._made.values())
+        return "".join(self)
 
     def paint(self, material: Material) -> str:
         """A value for ``fill`` that covers a surface with the material."""
@@ -471,8 +474,7 @@ def polygon_path(points: Sequence[Point]) -> str:
     """A closed subpath, empty for fewer than three points."""
     if len(points) < 3:
         return ""
-    first, *rest = points
-    return f"M{num(first[0])} {num(first[1])}" + "".join(f"L{num(x)} {num(y)}" for x, y in rest) + "z"
+    return "M" + "L".join([f"{num(x)} {num(y)}" for x, y in points]) + "z"
 
 
 def _normal(spots: Sequence[tuple[float, float, float]]) -> tuple[float, float, float]:
@@ -498,6 +500,9 @@ def clip(points: Sequence[Point], box: tuple[float, float, float, float]) -> lis
     for axis, limit, sign in ((0, x0, 1), (0, x1, -1), (1, y0, 1), (1, y1, -1)):
         if not result:
             break
+        values = [point[axis] for point in result]
+        if min(values) >= limit if sign > 0 else max(values) <= limit:
+            continue  # all of it is on this side
         kept: list[Point] = []
         before = result[-1]
         was = sign * (before[axis] - limit)

@@ -10,6 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
@@ -128,23 +129,23 @@ class Relief:
             return result
         boxes = np.array([_bounds(caster.points) for caster in casters])
         near, far = np.array([c.z0 for c in casters]), np.array([c.z1 for c in casters])
-        for layer, plane, rect, members in receivers:
+        for plane, group in groupby(receivers, key=lambda own: own[1]):
+            own = list(group)
             reach = far - plane
-            dx, dy = np.maximum(reach, 0) * LIGHT[0], np.maximum(reach, 0) * LIGHT[1]
-            hit = (
-                (reach > 1e-4)
-                & (boxes[:, 0] < rect[2])
-                & (boxes[:, 2] + dx > rect[0])
-                & (boxes[:, 1] - dy < rect[3])
-                & (boxes[:, 3] > rect[1])
-            )
-            start = np.maximum(near - plane, 0.0)
-            for k in np.flatnonzero(hit):
-                caster = casters[k]
+            near_enough = np.flatnonzero(reach > 1e-4)
+            reach = reach[near_enough]
+            start = np.maximum(near[near_enough] - plane, 0.0).tolist()
+            left, low, right, high = boxes[near_enough].T
+            right, low = right + reach * LIGHT[0], low - reach * LIGHT[1]
+            x0, y0, x1, y1 = np.array([rect for _, _, rect, _ in own]).T[:, :, None]
+            hit = (left < x1) & (right > x0) & (low < y1) & (high > y0)
+            ends, number = reach.tolist(), near_enough.tolist()
+            for n, k in zip(*(found.tolist() for found in np.nonzero(hit)), strict=True):
+                layer, _, rect, members = own[n]
+                caster = casters[number[k]]
                 if caster.of in members:
                     continue
-                a, b = float(start[k]), float(reach[k])
-                polygon = clip(_swept(caster, a, b), rect)
+                polygon = clip(_swept(caster, start[k], ends[k]), rect)
                 if len(polygon) > 2:
                     result[layer].append(polygon)
         return result
@@ -168,24 +169,43 @@ class Relief:
         stands = np.array([solid.geometry.name not in ("cornice", "ledge") for solid in self._skin] + [False])
         heights = np.where(stands, planes, np.nan)[self._top]
         levels = np.unique(heights[~np.isnan(heights)])
+        xs, ys = self._xs.tolist(), self._ys.tolist()
         for level in levels[1:]:  # nothing lies behind the lowest
             rects: list[tuple[Rect, list[int]]] = []
-            for row in range(len(heights)):
-                bottom, top = float(self._ys[row]), float(self._ys[row + 1])
-                for start, end, value in _runs(np.where(heights[row] == level, 0, -1)):
-                    del value
-                    rects.append(((float(self._xs[start]), bottom, float(self._xs[end]), top), []))
+            # Its runs along all rows, which end where the row does.
+            turns = np.diff(np.pad(heights == level, ((0, 0), (1, 1))).astype(np.int8), axis=1)
+            starts, ends = np.nonzero(turns > 0), np.nonzero(turns < 0)
+            for row, start, end in zip(*(own.tolist() for own in (*starts, ends[1])), strict=True):
+                rects.append(((xs[start], ys[row], xs[end], ys[row + 1]), []))
             casters += [_Caster(_corners(rect), float(levels[0]), float(level)) for rect, _ in _joined(rects)]
+        alike: dict[tuple[object, ...], list[_Caster]] = {}
         for solid in self.scene.solids:
-            casters += _of_parts(solid)
+            if solid.geometry.full and solid.geometry.name == "box":
+                continue
+            # Shapes of one kind and size have the very same parts.
+            key = (id(solid.parts), solid.geometry.name, solid.geometry.full, solid.face, solid.plane)
+            if key not in alike:
+                alike[key] = list(_of_parts(solid))
+            casters += [_moved(own, solid) for own in alike[key]]
         return casters
 
 
-def _of_parts(solid: Solid) -> Iterable[_Caster]:
-    full = solid.geometry.full
-    if full and solid.geometry.name == "box":
-        return
+def _moved(caster: _Caster, solid: Solid) -> _Caster:
+    """A caster of a solid's parts, which is told from the solid's corner, where it stands."""
     left, bottom = solid.rect[:2]
+    return _Caster(
+        tuple([(x + left, y + bottom) for x, y in caster.points]),
+        caster.z0,
+        caster.z1,
+        None if caster.of is None else solid.index,
+        caster.box,
+        tuple([(x + left, y + bottom, z) for x, y, z in caster.body]),
+    )
+
+
+def _of_parts(solid: Solid) -> Iterable[_Caster]:
+    """What throws shadow of a solid's parts, from the solid's lower left corner."""
+    full = solid.geometry.full
     least = solid.plane - solid.face + 0.03 if full else -1e9
     for part in solid.parts:
         if front(part) <= least and not isinstance(part, Moulding):
@@ -202,7 +222,7 @@ def _of_parts(solid: Solid) -> Iterable[_Caster]:
                 most = max(zs) - 0.15 * (max(zs) - min(zs)) - 1e-9
                 for (y0, za), (y1, zb) in zip(part.profile, part.profile[1:], strict=False):
                     if y1 > y0 and min(za, zb) >= most:
-                        band = _corners((left + part.x0, bottom + y0, left + part.x1, bottom + y1))
+                        band = _corners((part.x0, y0, part.x1, y1))
                         yield _Caster(band, solid.face + part.z0, solid.face + max(za, zb), solid.index)
                 continue
             case Turned():
@@ -213,26 +233,23 @@ def _of_parts(solid: Solid) -> Iterable[_Caster]:
                 )
             case Prism() if not full and part.slot in ("body", "gable"):
                 for piece in _convex(part.points):
-                    moved = tuple((x + left, y + bottom) for x, y in piece)
-                    yield _Caster(moved, solid.face + part.z0, solid.face + part.z1, None, False)
+                    yield _Caster(tuple(piece), solid.face + part.z0, solid.face + part.z1, None, False)
                 continue
             case Prism() if solid.geometry.modelled and part.slot in ("trim", "coping", "stripe", "roof"):
                 z0, z1, points = part.z0, part.z1, tuple(hull(part.points))
             case Polyhedron() if solid.geometry.modelled and not full and not solid.geometry.roof:
-                spots = tuple((x + left, y + bottom, z + solid.face) for x, y, z in part.points)
+                spots = tuple((x, y, z + solid.face) for x, y, z in part.points)
                 zs = [z for _, _, z in spots]
                 if len(part.faces) > _MANY:  # a body that may have hollows and holes
                     for piece in pieces([part]):
-                        moved = tuple((x + left, y + bottom) for x, y in piece)
-                        yield _Caster(moved, (min(zs) + max(zs)) / 2, max(zs), None, False)
+                        yield _Caster(tuple(piece), (min(zs) + max(zs)) / 2, max(zs), None, False)
                     continue
                 yield _Caster(tuple((x, y) for x, y, _ in spots), min(zs), max(zs), None, False, spots)
                 continue
             case _:
                 continue
-        moved = tuple((x + left, y + bottom) for x, y in points)
         yield _Caster(
-            moved,
+            tuple(points),
             solid.face + z0,
             solid.face + z1,
             solid.index if full else None,

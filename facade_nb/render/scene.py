@@ -238,19 +238,27 @@ def drawing_faults(layout: Layout) -> tuple[Fault, ...]:
     """What of a layout cannot be drawn as its design says, each with its shape and layer."""
     found: dict[str, Fault] = {}
     library = library_of(layout)
+    looks = {(shape.geometry, shape.material): shape for shape in layout.shapes}
+    suspect = {look for look, shape in looks.items() if any(_faults(shape, library))}
     for shape in layout.shapes:
-        if is_rule(shape.material):
-            fault = rule_fault(library, shape.material, f"{_place(shape)}: material")
-            if fault is not None:
-                found[str(fault)] = fault
-        if is_file(shape.geometry):
-            try:
-                file_geometry(shape.geometry, f"{_place(shape)}: geometry")
-            except DesignError as error:
-                found.update((str(fault), fault) for fault in error.faults)
-        else:
-            found.update((str(fault), fault) for fault in _blanks(shape))
+        if (shape.geometry, shape.material) in suspect:
+            found.update((str(fault), fault) for fault in _faults(shape, library))
     return tuple(found.values())
+
+
+def _faults(shape: PlacedShape, library: str) -> Iterator[Fault]:
+    """What of a shape cannot be drawn as its design says."""
+    if is_rule(shape.material):
+        fault = rule_fault(library, shape.material, f"{_place(shape)}: material")
+        if fault is not None:
+            yield fault
+    if is_file(shape.geometry):
+        try:
+            file_geometry(shape.geometry, f"{_place(shape)}: geometry")
+        except DesignError as error:
+            yield from error.faults
+    else:
+        yield from _blanks(shape)
 
 
 def _blanks(shape: PlacedShape) -> Iterator[Fault]:
@@ -276,11 +284,8 @@ def _place(shape: PlacedShape) -> str:
 def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
     faults: dict[str, Fault] = {}
     for index, shape in enumerate(layout.shapes):
-        place = _place(shape)
         try:
-            geometry = _geometry(shape)
-            own = geometry.material("body", shape.material)
-            find_material(shape.material, f"{place}: material")
+            geometry, own = _looks(shape)
         except DesignError as error:
             faults.update((str(fault), fault) for fault in error.faults)
             continue
@@ -302,12 +307,25 @@ def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
         raise DesignError(faults.values())
 
 
-def _geometry(shape: PlacedShape) -> Geometry:
-    """The geometry of a shape; that of a file which cannot be drawn is a plain block."""
-    if not is_file(shape.geometry):
-        return find_geometry(shape.geometry, f"{_place(shape)}: geometry")
+def _looks(shape: PlacedShape) -> tuple[Geometry, str]:
+    """The geometry of a shape, and the material of its body."""
     try:
-        return file_geometry(shape.geometry)
+        geometry = _geometry(shape.geometry)
+        find_material(shape.material)
+    except DesignError:  # told once more, with the place
+        place = _place(shape)
+        geometry = _geometry(shape.geometry, f"{place}: geometry")
+        find_material(shape.material, f"{place}: material")
+        raise
+    return geometry, geometry.material("body", shape.material)
+
+
+def _geometry(name: str, place: str = "geometry") -> Geometry:
+    """The geometry of that name; that of a file which cannot be drawn is a plain block."""
+    if not is_file(name):
+        return find_geometry(name, place)
+    try:
+        return file_geometry(name)
     except DesignError:  # `drawing_faults` tells it
         return find_geometry(DEFAULT_GEOMETRY)
 
@@ -340,26 +358,21 @@ def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
     if len(layers) < 2:  # the cells of one layer do not overlap
         return solids
     cutters = [solid for solid in solids if solid.geometry.full or solid.geometry.cuts]
-    # Of the many pairs only few overlap: all of a solid's are compared at once.
+    walls = [solid for solid in solids if solid.geometry.wall or solid.geometry.roof]
+    # Of the many pairs only few overlap: all are compared at once.
     lefts, bottoms, rights, tops = np.array([own.rect for own in cutters]).reshape(-1, 4).T
+    left, bottom, right, top = np.array([own.rect for own in walls]).reshape(-1, 4).T[:, :, None]
+    over = (lefts < right - _EPS) & (rights > left + _EPS)
+    over &= (bottoms < top - _EPS) & (tops > bottom + _EPS)
+    over &= np.array([own.index for own in cutters]) > np.array([own.index for own in walls])[:, None]
+    before: dict[int, list[Solid]] = {}
+    for n, k in zip(*(own.tolist() for own in np.nonzero(over)), strict=True):
+        wall, other = walls[n], cutters[k]
+        if other.shape.layer != wall.shape.layer and _stands_in(other, wall):
+            before.setdefault(wall.index, []).append(other)
     done: list[Solid] = []
     for solid in solids:
-        left, bottom, right, top = solid.rect
-        found: list[Solid] = []
-        if solid.geometry.wall or solid.geometry.roof:
-            over = (
-                (lefts < right - _EPS)
-                & (rights > left + _EPS)
-                & (bottoms < top - _EPS)
-                & (tops > bottom + _EPS)
-            )
-            found = [
-                other
-                for other in map(cutters.__getitem__, np.flatnonzero(over))
-                if other.index > solid.index
-                and other.shape.layer != solid.shape.layer
-                and _stands_in(other, solid)
-            ]
+        found = before.get(solid.index, [])
         if not found:
             done.append(solid)
             continue
@@ -372,7 +385,7 @@ def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
         if rest and solid.geometry.name != "box":
             cuts += [_hole(rect, solid) for rect in holes]
         elif holes:
-            d = solid.depth
+            d, (left, bottom) = solid.depth, solid.rect[:2]
             blocks = tuple(Block(r[0] - left, r[1] - bottom, r[2] - left, r[3] - bottom, -d, 0) for r in rest)
             solid = replace(solid, parts=blocks)
         done.append(replace(solid, cuts=tuple(cuts)))

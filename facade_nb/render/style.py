@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from math import ceil
 from types import MappingProxyType
 
@@ -63,6 +64,11 @@ def find_style(theme: str) -> Style:
 
 def num(value: float) -> str:
     """A coordinate in pixels, to a hundredth, as short as it gets."""
+    return _num(value) if value else f"{value:g}"  # to a cache both zeros are one
+
+
+@lru_cache(maxsize=1 << 14)
+def _num(value: float) -> str:
     return f"{round(value, 2):g}"
 
 

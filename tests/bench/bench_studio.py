@@ -68,15 +68,17 @@ TIMED = """([event, watched]) => {
         const timer = setTimeout(() => reject(new Error("nothing was repainted in 60 s")), 60000);
         let began = performance.now();
         if (event) window.addEventListener(event, () => { began = performance.now(); }, { capture: true, once: true });
-        const drawn = ({ type, addedNodes }) => type === "characterData" || [...addedNodes].some((node) =>
-            node.nodeType === Node.TEXT_NODE ? window.emptyOutput.contains(node) : node.matches("svg, :has(svg)"));
+        const facade = ".fnb-sheet > svg:not(.fnb-overlay)"; // made anew, or changed where it differs
+        const drawn = ({ type, target, addedNodes }) => type === "characterData" || target.closest?.(facade) ||
+            [...addedNodes].some((node) =>
+                node.nodeType === Node.TEXT_NODE ? window.emptyOutput.contains(node) : node.matches(facade));
         const observer = new MutationObserver((records) => {
             if (!records.some(drawn)) return; // such as a label beside the pointer
             observer.disconnect();
             clearTimeout(timer);
             requestAnimationFrame(() => resolve(performance.now() - began));
         });
-        observer.observe(eval(watched), { childList: true, characterData: true, subtree: true });
+        observer.observe(eval(watched), { attributes: true, childList: true, characterData: true, subtree: true });
     });
 }"""
 SHEET = "document.querySelector('.fnb-sheet')"
@@ -129,7 +131,7 @@ def _rows(lab: Notebook, design: str) -> tuple[dict[str, list[float]], dict[str,
             act(turn)
             milliseconds = float(page.evaluate("() => window.timed"))
             page.mouse.up()
-            lab.python("0")  # all that was under way has been answered
+            lab.python("studio.model.wait()")  # nothing is under way when the next turn begins
             solved = 0.0 if label == "empty widget" else 1000 * lab.python("studio.model.seconds")
             if turn >= 0:
                 rows[label].append(milliseconds)

@@ -11,6 +11,7 @@ import pytest
 from facade_nb.design.errors import DesignError
 from facade_nb.design.model import Canvas
 from facade_nb.render import elevation_svg, overlay_svg
+from facade_nb.render.elevation import elevation_pieces
 from facade_nb.render.relief import Relief
 from facade_nb.render.scene import build_scene
 from facade_nb.render.style import LIGHT
@@ -31,6 +32,26 @@ def two_boxes(low: float = 0.0, high: float = 0.5, **looks: object) -> Layout:
     wall = PlacedShape("wall", "A", "P", (0, 0, 4, 3), offset=low)
     box = PlacedShape("box", "B", "Q", (1.5, 1, 2.5, 2), offset=high, **looks)  # type: ignore[arg-type]
     return Layout("Two boxes", Canvas(4, 3), shapes=(wall, box))
+
+
+@pytest.mark.parametrize(
+    "layout", [apartment(), two_boxes(), Layout("Empty", Canvas(4, 3), holes=((0, 0, 4, 3),))]
+)
+def test_a_piece_is_one_element_or_a_tag_around_others(layout: Layout) -> None:
+    text = elevation_svg(layout, holes=True, prefix="f")
+    pieces = elevation_pieces(layout, holes=True, prefix="f")
+    assert "".join(pieces) == text
+    open_: list[str] = []
+    for piece in pieces:
+        tag = re.match(r"</?(\w+)", piece)
+        assert tag is not None
+        if piece.startswith("</"):
+            assert open_.pop() == tag[1]
+        elif "<" not in piece[1:] and not piece.endswith("/>"):
+            open_.append(tag[1])
+        else:
+            ET.fromstring(piece)
+    assert not open_
 
 
 @pytest.mark.parametrize("layout", [house(), apartment()], ids=["house", "apartment"])

@@ -200,7 +200,8 @@ class BuildingStudio(VBox):
         )
         before = self.wall
         if wall not in self._studios:
-            model = FacadeModel(design, time_limit=self._time_limit, solve=self._solver(wall))
+            # What stands around the wall is of one solve: nothing is shown before that has ended.
+            model = FacadeModel(design, time_limit=self._time_limit, solve=self._solver(wall), first=None)
             self._models[wall] = model
             model.whole = Whole(self._walls, partial(self._around, wall), self._choose_number)
             self._studios[wall] = Studio(model, **self._given)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...design import Design, NoLayout
 from ...solver import Layout, solve
 
-__all__ = ["LatestSolver", "Outcome", "Solve"]
+__all__ = ["FIRST", "LatestSolver", "Outcome", "Solve"]
 
 Solve = Callable[..., Layout]
 """What solves: ``solve(design, time_limit=…, should_stop=…) -> Layout``."""
@@ -30,6 +30,8 @@ class Outcome:
         `NoLayout` and other `FacadeError`s say why there is none; any other exception is a fault of ours.
     seconds
         How long the solve took.
+    proving
+        Whether the search goes on: the layout is the best of its first moment, and what comes of it is told next.
     """
 
     revision: int
@@ -37,12 +39,23 @@ class Outcome:
     layout: Layout | None
     error: Exception | None
     seconds: float
+    proving: bool = False
+
+
+FIRST = 0.06
+"""Seconds after which an edit is shown as the search has it by then, while it goes on."""
+
+_SHOWN = 0.25
+"""Seconds for which the search lets the first layout be drawn, at most, before it goes on."""
 
 
 class LatestSolver:
     """Solves in one worker thread; a newer submission stops the solve under way.
 
     The thread lives only while there is something to solve, so an idle solver holds no resources.
+
+    A search that takes long is begun twice: what it has after its first moment is delivered, and then it goes on to its
+    end. What is delivered last is the same as without: of the first moment the search knows a bound, and no more.
 
     Parameters
     ----------
@@ -56,13 +69,19 @@ class LatestSolver:
         self._deliver = deliver
         self._solve = solve
         self._condition = threading.Condition()
-        self._next: tuple[int, Design, float | None, bool] | None = None
+        self._next: tuple[int, Design, float | None, bool, float | None] | None = None
         self._latest = 0
         self._ended = 0
+        self._shown = 0
         self._thread: threading.Thread | None = None
 
     def submit(
-        self, revision: int, design: Design, time_limit: float | None = None, traced: bool = False
+        self,
+        revision: int,
+        design: Design,
+        time_limit: float | None = None,
+        traced: bool = False,
+        first: float | None = None,
     ) -> None:
         """Solve `design` next; whatever was waiting is forgotten, whatever is running is told to stop.
 
@@ -74,10 +93,13 @@ class LatestSolver:
             Seconds after which the best layout found so far is taken.
         traced
             Whether the solver is to tell what it does.
+        first
+            Seconds after which the best layout found so far is delivered, while the search goes on; None: never.
         """
         with self._condition:
             self._latest = revision
-            self._next = (revision, design, time_limit, traced)
+            self._next = (revision, design, time_limit, traced, first)
+            self._condition.notify_all()
             if self._thread is None:
                 self._thread = threading.Thread(target=self._work, name="facade_nb-solver", daemon=True)
                 self._thread.start()
@@ -87,15 +109,26 @@ class LatestSolver:
         with self._condition:
             self._latest = revision
             self._next = None
+            self._condition.notify_all()
 
     def stop(self) -> None:
         """End the solve under way; the best layout that it has found so far is delivered, and counts."""
         with self._condition:
             self._ended = self._latest
+            self._condition.notify_all()
+
+    def go_on(self, revision: int) -> None:
+        """What was delivered of a search that goes on has been shown."""
+        with self._condition:
+            self._shown = revision
+            self._condition.notify_all()
 
     def join(self, timeout: float | None = None) -> bool:
         """Wait until nothing is being solved; returns whether that came within `timeout` seconds."""
         with self._condition:
+            if timeout is None or timeout > _SHOWN:  # who waits for the end looks at nothing before
+                self._shown = self._latest
+                self._condition.notify_all()
             return self._condition.wait_for(lambda: self._thread is None, timeout)
 
     def _work(self) -> None:
@@ -105,9 +138,35 @@ class LatestSolver:
                     self._thread = None
                     self._condition.notify_all()
                     return
-                revision, design, time_limit, traced = self._next
+                revision, design, time_limit, traced, first = self._next
                 self._next = None
-            self._deliver(self._run(revision, design, time_limit, {"trace": True} if traced else {}))
+            more = {"trace": True} if traced else {}
+            begun: Outcome | None = None
+            if first is not None and not traced and (time_limit is None or time_limit > first):
+                begun = self._run(revision, design, first, more)
+                if not self._goes_on(begun, first):
+                    self._deliver(begun)
+                    continue
+                if begun.layout is not None:
+                    self._deliver(replace(begun, proving=True))
+                    self._let_show(revision)
+            self._deliver(_together(begun, self._run(revision, design, time_limit, more)))
+
+    def _superseded(self, revision: int) -> bool:
+        return self._latest != revision or self._ended >= revision
+
+    def _goes_on(self, begun: Outcome, first: float) -> bool:
+        """Whether a search was cut short by the end of its first moment, and is still wanted."""
+        if self._superseded(begun.revision):
+            return False
+        if begun.layout is not None:
+            return not begun.layout.complete
+        # Within half the moment no part of the search has come to its end: there is no layout.
+        return isinstance(begun.error, NoLayout) and begun.seconds > first / 2
+
+    def _let_show(self, revision: int) -> None:
+        with self._condition:
+            self._condition.wait_for(lambda: self._shown >= revision or self._superseded(revision), _SHOWN)
 
     def _run(
         self, revision: int, design: Design, time_limit: float | None, more: Mapping[str, bool]
@@ -119,7 +178,7 @@ class LatestSolver:
             layout = self._solve(
                 design,
                 time_limit=time_limit,
-                should_stop=lambda: self._latest != revision or self._ended >= revision,
+                should_stop=lambda: self._superseded(revision),
                 **more,
             )
         except NoLayout as none:
@@ -127,3 +186,24 @@ class LatestSolver:
         except Exception as unexpected:  # the edge of the thread: it must reach the user, not die here
             error = unexpected
         return Outcome(revision, design, layout, error, time.perf_counter() - began)
+
+
+def _together(begun: Outcome | None, ended: Outcome) -> Outcome:
+    """What became of a search begun twice: what it had at first, where it was stopped before it had as good."""
+    if begun is None:
+        return ended
+    seconds = begun.seconds + ended.seconds
+    if begun.layout is not None and (
+        isinstance(ended.error, NoLayout)
+        or (
+            ended.layout is not None
+            and not ended.layout.complete
+            and _cost(begun.layout) < _cost(ended.layout)
+        )
+    ):
+        return replace(begun, seconds=seconds)
+    return replace(ended, seconds=seconds)
+
+
+def _cost(layout: Layout) -> float:
+    return layout.x.cost + layout.y.cost

@@ -10,7 +10,8 @@ from traitlets import Dict, List, Unicode
 
 from ... import gallery
 from ...design import DesignError
-from ...render import GEOMETRIES, MATERIALS, elevation_svg
+from ...render import GEOMETRIES, MATERIALS
+from ...render.elevation import elevation_pieces
 from ...solver import Layout
 from ..shared.bundled import Message
 from .commands import COMMANDS
@@ -105,7 +106,7 @@ class Channel(Scenery):
     def _describe(self) -> None:
         layout = self.model.layout
         status = describe_status(self.model)
-        if self._drawn is None or self._drawn[0] is not layout or self._drawn[1] != self.theme:
+        if self._drawn is None or not _same(self._drawn[0], layout) or self._drawn[1] != self.theme:
             try:
                 self.svg = "" if layout is None else self._draw(layout)
                 self._drawn = (layout, self.theme)
@@ -119,10 +120,12 @@ class Channel(Scenery):
         self._describe_scenery()
 
     def _draw(self, layout: Layout) -> str:
+        """The elevation, a piece a line: views compare the lines, and change those that differ."""
         prefix = (
             f"f{self.model_id}"  # known to the browser, which gives each of its views a prefix of its own
         )
-        return elevation_svg(layout, theme=self.theme, holes=True, background=False, prefix=prefix)
+        pieces = elevation_pieces(layout, theme=self.theme, holes=True, background=False, prefix=prefix)
+        return "\n".join(piece.replace("\n", "&#10;") for piece in pieces)
 
     def _on_version(self, _: object) -> None:
         if not self._answering and not self._asleep:
@@ -130,7 +133,7 @@ class Channel(Scenery):
 
     def _publish_soon(self) -> None:
         """Publish now, or, where the layout may come at any moment, together with it."""
-        if not self.model.busy:
+        if not self.model.busy or self.model.proving:
             self.publish()
         elif self._later is None:
             self._later = asyncio.get_running_loop().call_later(_PATIENCE, self.publish)
@@ -172,3 +175,15 @@ class Channel(Scenery):
         self._publish_soon()
         if reply is not None:
             self.send({**reply, **tag})
+
+
+def _same(before: Layout | None, layout: Layout | None) -> bool:
+    """Whether two layouts look the same, such as the best of a search's first moment and what was proven to be best."""
+    if before is None or layout is None or before is layout:
+        return before is layout
+    return (
+        before.design is layout.design
+        and before.canvas == layout.canvas
+        and before.shapes == layout.shapes
+        and before.holes == layout.holes
+    )

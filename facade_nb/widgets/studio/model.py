@@ -18,7 +18,7 @@ from ...solver import Layout, Trace, solve
 from ..shared.history import History, Undoable
 from ..shared.turns import by_turns
 from . import newcomers
-from .background import LatestSolver, Outcome, Solve
+from .background import FIRST, LatestSolver, Outcome, Solve
 from .fields import Path
 from .handles import Linkable
 from .newcomers import Newcomers
@@ -73,6 +73,8 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         Seconds after which a solve ends with the best layout found so far.
     solve
         The function that solves; `facade_nb.solve` by default.
+    first
+        Seconds after which a search that takes longer is shown as it stands, while it goes on; None: never.
 
     Notes
     -----
@@ -96,6 +98,9 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         Trace, allow_none=True, help="What the last solve did, also one without a layout; see `follow`."
     )
     busy: bool = Bool(False, help="Whether a solve is under way.")
+    proving: bool = Bool(
+        False, help="Whether `layout` is the best so far, and the search goes on to prove or to better it."
+    )
     seconds: float = Float(0.0, help="How long the last solve took.")
     selection: Selection = Instance(Selection, ())
     trouble: Exception | None = Instance(
@@ -104,10 +109,15 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
     version: int = Int(0, help="Goes up once after each consistent change of all of the above.")
 
     def __init__(
-        self, design: Design | str | FilePath | None = None, *, time_limit: float = 10.0, solve: Solve = solve
+        self,
+        design: Design | str | FilePath | None = None,
+        *,
+        time_limit: float = 10.0,
+        solve: Solve = solve,
+        first: float | None = FIRST,
     ) -> None:
         super().__init__(design=_read(design) if design is not None else Design())
-        self.time_limit = time_limit
+        self.time_limit, self._first = time_limit, first
         #: The layer that was shown alone last, and those that were shown before.
         self.alone: tuple[str, frozenset[str]] = ("", frozenset())
         #: The building that the façade is a wall of, for the 3D view; none for a façade by itself.
@@ -279,7 +289,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         self._solver.cancel(self._revision)
         self._solver.join()
         self._outcomes.clear()
-        self.busy = False
+        self.busy = self.proving = False
 
     def _take(self, snapshot: _Snapshot, *, key: object) -> None:
         self._note(snapshot, key)
@@ -295,12 +305,15 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
 
     def _solve(self) -> None:
         self._revision += 1
-        self.busy = True
+        self.busy, self.proving = True, False
         try:
             self._loop = asyncio.get_running_loop()
         except RuntimeError:
             self._loop = None
-        self._solver.submit(self._revision, newcomers.begun(self.design), self.time_limit, self._traced)
+        first = None if self._loop is None else self._first
+        self._solver.submit(
+            self._revision, newcomers.begun(self.design), self.time_limit, self._traced, first
+        )
         if self._loop is None:  # nobody will call back later
             self._solver.join()
             self._collect()
@@ -316,6 +329,8 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
     def _arrive(self) -> None:
         if self._collect():
             self._changed()
+            if self.proving:
+                self._solver.go_on(self._revision)
 
     def _collect(self) -> bool:
         """Take over the outcomes that have come, drop those of superseded solves; whether one counted."""
@@ -328,7 +343,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         return fresh
 
     def _land(self, outcome: Outcome) -> None:
-        self.busy = False
+        self.busy = self.proving = outcome.proving
         self.seconds = outcome.seconds
         self.blame = outcome.error if isinstance(outcome.error, NoLayout) else None
         self.trouble = None if isinstance(outcome.error, FacadeError) else outcome.error
@@ -337,7 +352,8 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         if told is not None and told.trace is not None:
             self.trace = told.trace
         if outcome.layout is not None:
-            self.layout = outcome.layout
+            # That the search was cut short is no news while it goes on.
+            self.layout = replace(outcome.layout, warnings=()) if outcome.proving else outcome.layout
             self._reselect(outcome.layout)
         self._judge()
 

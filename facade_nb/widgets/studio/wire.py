@@ -52,6 +52,7 @@ def describe_status(model: FacadeModel) -> Json:
     layout, blame = model.layout, model.blame
     status: Json = {
         "busy": model.busy,
+        "proving": model.proving,
         "stale": model.stale,
         "message": model.message,
         "blame": {

@@ -1,5 +1,7 @@
 // The elevation's SVG text as a drawing: parsed, and measured in metres.
 
+import { Sheet } from "./patching.ts";
+
 export interface Drawing {
   svg: SVGSVGElement;
   width: number;
@@ -8,6 +10,11 @@ export interface Drawing {
   scale: number;
   /** Where the façade's lower left corner lies, in units of the drawing. */
   origin: { x: number; y: number };
+}
+
+/** A drawing that follows its text. */
+export interface LiveDrawing extends Drawing {
+  sheet: Sheet;
 }
 
 export interface Box {
@@ -20,13 +27,25 @@ export interface Box {
 /** Parse what `elevation_svg` wrote. It is read as XML, so nothing in it can act as HTML. */
 export function parseDrawing(text: string): Drawing {
   const root = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
+  const size = measured(root);
+  root.removeAttribute("style");
+  return { svg: document.importNode(root, true) as unknown as SVGSVGElement, ...size };
+}
+
+/** What a root says of itself. */
+function measured(root: Element): Omit<Drawing, "svg"> {
   const number = (name: string) => Number(root.getAttribute(name));
   const [x = 0, y = 0] = (root.getAttribute("data-origin") ?? "").split(" ").map(Number);
   if (root.localName !== "svg" || !number("data-scale"))
     throw new Error("facade_nb: the elevation is not readable SVG");
-  const drawing = { width: number("width"), height: number("height"), scale: number("data-scale"), origin: { x, y } };
-  root.removeAttribute("style");
-  return { svg: document.importNode(root, true) as unknown as SVGSVGElement, ...drawing };
+  return { width: number("width"), height: number("height"), scale: number("data-scale"), origin: { x, y } };
+}
+
+/** The drawing of a text: the same one, changed where the text differs, or, where that cannot be, a new one. */
+export function redraw(before: LiveDrawing | null, text: string): LiveDrawing {
+  if (before?.sheet.follow(text)) return Object.assign(before, measured(before.svg));
+  const drawing = parseDrawing(text.replaceAll("\n", ""));
+  return { ...drawing, sheet: new Sheet(text, drawing.svg) };
 }
 
 /** The shape an element of the drawing belongs to. */

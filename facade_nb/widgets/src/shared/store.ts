@@ -11,6 +11,9 @@ import type { Path, Reply, State, WidgetModel } from "./types.ts";
 export type Operation = { op: string; [argument: string]: unknown };
 type Key = keyof State;
 
+/** Milliseconds that what is beside the elevation waits for a frame at most. */
+const UNSEEN = 100;
+
 interface Queued {
   message: Operation;
   key: string;
@@ -35,6 +38,8 @@ export class Store {
   private renames: { section: "patterns" | "symbols" | "counters" | "layers"; name: string; to: string }[] = [];
   private readonly waiters = new Set<() => void>();
   private readonly pauses = new Pauses();
+  /** What is to be brought up to date once the elevation has been painted; null: the elevation is as it was. */
+  private behind: Set<() => unknown> | null = null;
 
   readonly kernel: Kernel;
 
@@ -44,6 +49,7 @@ export class Store {
   ) {
     this.kernel = Kernel.of(channel);
     this.listen("change:ack", () => this.answered());
+    this.listen("change:svg", () => this.letPaint());
     announce(channel, this.client, signal);
     this.kernel.watch(() => this.kernelChanged(), signal);
   }
@@ -62,20 +68,42 @@ export class Store {
     return `f${this.channel.model_id}`;
   }
 
-  /** Call back now, and after every message that changed one of `keys`. */
-  watch(keys: Key[], callback: () => void): void {
+  /**
+   * Call back now, and after every message that changed one of `keys`. Where the message brings another elevation, all
+   * but what is `first` waits until that has been painted.
+   */
+  watch(keys: Key[], callback: () => void, when: "first" | "in turn" = "in turn"): void {
     callback();
     let due = false;
+    const run = () => {
+      due = false;
+      if (!this.signal.aborted) callback();
+    };
     const changed = () => {
       // A message sets its traits one by one: wait for the last, but not for the next frame.
       if (due) return;
       due = true;
       queueMicrotask(() => {
-        due = false;
-        if (!this.signal.aborted) callback();
+        if (this.behind && when !== "first") this.behind.add(run);
+        else run();
       });
     };
     for (const key of keys) this.listen(`change:${key}`, changed);
+  }
+
+  /** Keep what waits until the next frame has been painted; a page that is not seen paints none, and waits a moment. */
+  private letPaint(): void {
+    if (this.behind) return;
+    const behind = new Set<() => unknown>();
+    this.behind = behind;
+    const end = () => {
+      clearTimeout(timer);
+      if (this.behind !== behind) return;
+      this.behind = null;
+      for (const run of behind) run();
+    };
+    const timer = window.setTimeout(end, UNSEEN);
+    requestAnimationFrame(() => setTimeout(end));
   }
 
   /** Call back when an edit is put under way or answered, and when the kernel has gone or come back. */
@@ -86,7 +114,11 @@ export class Store {
 
   onReply(callback: (reply: Reply) => void): void {
     this.listen("msg:custom", (reply: Reply) => {
-      if (reply.client === this.client) callback(reply);
+      if (reply.client !== this.client) return;
+      // It is about what the message before has changed: the parts show that first.
+      const tell = () => this.signal.aborted || callback(reply);
+      if (this.behind) queueMicrotask(() => (this.behind ? this.behind.add(tell) : tell()));
+      else tell();
     });
   }
 

@@ -88,6 +88,8 @@ export interface Solved {
 
 export interface StatusState {
   busy: boolean;
+  /** The layout that is shown is the best so far, and the search goes on. */
+  proving?: boolean;
   stale: boolean;
   message: string;
   blame: { patterns: string[]; symbols: string[]; counters: string[] };

@@ -1,5 +1,5 @@
 import { h, mark, setText, svg } from "../shared/dom.ts";
-import { type Box, boxOf, type Drawing, neighbour, parseDrawing, shapeAt } from "../shared/drawing.ts";
+import { type Box, boxOf, type LiveDrawing, neighbour, redraw, shapeAt } from "../shared/drawing.ts";
 import { button, formatNumber } from "../shared/fields.ts";
 import { type MakePart, resolveIn, tint } from "./common.ts";
 import { edge } from "./edge.ts";
@@ -76,7 +76,7 @@ export const elevation: MakePart = (context) => {
   const el = h("div", { class: "fnb-elevation" }, stage);
 
   const ids = `fnb-${Math.random().toString(36).slice(2)}`;
-  let drawing: Drawing | null = null;
+  let drawing: LiveDrawing | null = null;
   /** As it was zoomed and moved; null: fitted to the stage. */
   let free: Camera | null = null;
   const on = new Set<ViewOption>(["holes", "survey"]);
@@ -99,8 +99,9 @@ export const elevation: MakePart = (context) => {
       foot: naive.on ? Math.max(SLIDER, naive.el.offsetHeight + 16) : named ? LEGEND : 0,
     };
   };
+  /** How large the stage is. It is looked up when it has changed: to ask it after each change would lay out the page. */
+  let room = { width: 0, height: 0 };
   const camera = (): Camera | null => {
-    const room = { width: stage.clientWidth, height: stage.clientHeight };
     if (!drawing || !room.width || !room.height) return null;
     if (free) return free;
     return held ? clear(held, room, drawing) : fitted(room, drawing, extra());
@@ -188,25 +189,26 @@ export const elevation: MakePart = (context) => {
         : (layer !== "" && el.dataset.layer === layer) ||
           (x !== "" && el.dataset.x === x) ||
           (y !== "" && el.dataset.y === y);
+    const some = layer !== "" || x !== "" || y !== "";
     picks.replaceChildren(
-      ...shapes()
+      ...(some ? shapes() : [])
         .filter(alike)
         .map((el) => outline(boxOf(el), el.dataset.shape === String(shape) ? "fnb-pick" : "fnb-alike")),
     );
   };
 
   let shownText: string | null = null;
-  store.watch(["svg"], () => {
+  const show = () => {
     const text = store.get("svg");
     if (text === shownText) return;
     shownText = text;
     if (text) {
       // Two drawings on one page must not share ids: one of them may be hidden, and its patterns with it.
-      const next = parseDrawing(text.replaceAll(store.prefix, ids));
-      if (drawing) drawing.svg.replaceWith(next.svg);
-      else sheet.prepend(next.svg);
+      const next = redraw(drawing, text.replaceAll(store.prefix, ids));
+      if (!drawing) sheet.prepend(next.svg);
+      else if (drawing.svg !== next.svg) drawing.svg.replaceWith(next.svg);
       drawing = next;
-      overlay.setAttribute("viewBox", `0 0 ${next.width} ${next.height}`);
+      mark(overlay, "viewBox", `0 0 ${next.width} ${next.height}`);
     } else {
       drawing?.svg.remove();
       drawing = null;
@@ -215,11 +217,12 @@ export const elevation: MakePart = (context) => {
     sheet.hidden = !drawing;
     place();
     showPicks();
-  });
+  };
+  store.watch(["svg"], show, "first");
 
-  store.watch(["selection"], showPicks);
+  store.watch(["selection"], showPicks, "first");
 
-  store.watch(["status", "drafts"], () => {
+  const say = () => {
     const { stale, message, busy, solved } = store.get("status");
     mark(stage, "data-stale", stale);
     tag.hidden = !stale;
@@ -227,7 +230,8 @@ export const elevation: MakePart = (context) => {
     setText(empty, message || (busy ? "Solving…" : "Nothing to show yet."));
     if (solved)
       mark(stage, "aria-description", `${formatNumber(solved.width)} by ${formatNumber(solved.height)} metres`);
-  });
+  };
+  store.watch(["status", "drafts"], say, "first");
 
   const pick = (element: Element | null) => {
     const shape = element?.getAttribute("data-shape");
@@ -318,9 +322,12 @@ export const elevation: MakePart = (context) => {
     },
     signal,
   );
-  store.watch(["marks", "naive", "survey"], showMarks);
+  store.watch(["marks", "naive", "survey"], showMarks, "first");
 
-  const observer = new ResizeObserver(() => place());
+  const observer = new ResizeObserver(() => {
+    room = { width: stage.clientWidth, height: stage.clientHeight };
+    place();
+  });
   observer.observe(stage);
   signal.addEventListener("abort", () => observer.disconnect());
   return el;

@@ -91,6 +91,8 @@ export function naiveView(changed: () => void): NaiveView {
   let height = 0;
   const hidden = new Set<Flaw["kind"]>();
   const behind = behindOf();
+  /** Whether shapes stand elsewhere than where they were drawn. */
+  let moved = false;
 
   const draw = () => {
     const t = Number(slider.value) / 100;
@@ -103,7 +105,9 @@ export function naiveView(changed: () => void): NaiveView {
     mark(own, "data-naive", moves);
     // What is picked is outlined where it is aligned.
     if (flaws.ownerSVGElement) mark(flaws.ownerSVGElement, "data-naive", moves);
-    for (const shape of own.querySelectorAll<SVGGElement>("[data-shape]")) {
+    const shapes = moves || moved ? own.querySelectorAll<SVGGElement>("[data-shape]") : [];
+    moved = moves;
+    for (const shape of shapes) {
       const from = moves ? naive.shapes?.[Number(shape.dataset.shape)] : undefined;
       if (!from) {
         shape.removeAttribute("transform");

@@ -68,7 +68,7 @@ function describe(store: Store): [state: string, sentence: string] {
     return ["fault", drafts.length > 1 ? `${drafts.length} fields are at fault` : `At fault: ${where}`];
   }
   if (status.message) return ["none", status.message];
-  if (status.busy) return ["busy", "Solving…"];
+  if (status.busy) return ["busy", status.proving ? "The best so far is shown; proving…" : "Solving…"];
   if (!status.solved || !store.get("design").layers.length) return ["off", "Nothing to solve yet"];
   if (!status.solved.complete) return ["warn", `Best layout found in ${time(status.milliseconds)}, not proven`];
   return [status.solved.warnings.length ? "warn" : "good", `Solved in ${time(status.milliseconds)}`];

@@ -163,3 +163,22 @@ describe("a number field", () => {
     expect(input.value).toBe("0.1");
   });
 });
+
+describe("another drawing", () => {
+  it("is shown first; the parts follow once it is painted, and then what was replied", async () => {
+    const told: string[] = [];
+    store.watch(["svg"], () => told.push("drawing"), "first");
+    store.watch(["design"], () => told.push("design"));
+    store.onReply((reply) => told.push(reply.kind));
+    told.length = 0;
+    model.set({ design: { ...fakeState().design }, svg: "<svg/>" });
+    model.emit("msg:custom", { client: store.client, kind: "note", text: "" });
+    await Promise.resolve();
+    expect(told).toEqual(["drawing"]);
+    await vi.waitFor(() => expect(told).toEqual(["drawing", "design", "note"]));
+    // Without another drawing nothing waits for a frame.
+    model.set({ design: { ...fakeState().design } });
+    await Promise.resolve();
+    expect(told.slice(3)).toEqual(["design"]);
+  });
+});

@@ -1,0 +1,100 @@
+"""What a search has after its first moment is shown while it goes on; what is told in the end is as exact as ever."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+
+from facade_nb import Design, Layout, NoLayout, gallery, solve
+from facade_nb.solver.solution import forget
+from facade_nb.widgets import FacadeModel
+from facade_nb.widgets.studio.background import FIRST
+
+from ..houses import house
+from .test_channel import Line
+
+
+class Slow:
+    """A solver that has a layout after the first moment, and needs more for the proof."""
+
+    def __init__(self) -> None:
+        self.proof = threading.Event()
+        self.begun: list[float] = []
+
+    def __call__(
+        self, design: Design, *, time_limit: float, should_stop: Callable[[], bool], **_: object
+    ) -> Layout:
+        layout = solve(design)
+        if time_limit == FIRST:
+            return replace(layout, complete=False, warnings=("The search was cut short.",))
+        self.begun.append(design.canvas.width)
+        while not self.proof.wait(0.002):
+            if should_stop():
+                raise NoLayout("stopped")
+        return layout
+
+
+async def _until(happens: Callable[[], bool]) -> None:
+    while not happens():
+        await asyncio.sleep(0.002)
+
+
+def test_the_best_of_the_first_moment_is_shown_and_the_proof_sends_no_drawing() -> None:
+    solver = Slow()
+
+    async def session() -> Line:
+        model = FacadeModel(house(), solve=solver)
+        line = Line(model)
+        await _until(lambda: model.proving)
+        line.updates.clear()
+        line.set("canvas/width", "7")
+        await _until(lambda: model.proving)
+        assert model.busy
+        assert model.layout is not None
+        assert model.layout.canvas.width == 7.0
+        assert not model.layout.warnings  # that it was cut short is no news while it goes on
+        solver.proof.set()
+        await _until(lambda: not model.busy)
+        return line
+
+    line = asyncio.run(session())
+    first = next(update for update in line.updates if "svg" in update)
+    assert first["status"]["proving"]
+    assert first["status"]["busy"]
+    last = line.updates[-1]
+    assert "svg" not in last
+    assert not last["status"]["proving"]
+    assert last["status"]["solved"]["complete"]
+    assert solver.begun[-1] == 7.0
+
+
+def test_stopping_the_proof_keeps_what_is_shown_and_says_that_it_was_cut_short() -> None:
+    async def session() -> FacadeModel:
+        model = FacadeModel(house(), solve=Slow())
+        await _until(lambda: model.proving)
+        model.stop()
+        await _until(lambda: not model.busy)
+        return model
+
+    model = asyncio.run(session())
+    assert model.layout is not None
+    assert not model.layout.complete
+    assert model.layout.warnings
+    assert model.message == ""
+
+
+def test_an_answer_is_the_same_after_a_search_that_was_cut_short() -> None:
+    design = gallery.load("bookshop")
+    forget()
+    alone = solve(design, time_limit=None)
+    forget()
+    with suppress(NoLayout):
+        solve(design, time_limit=0.0)
+    after = solve(design, time_limit=None)
+    assert after.complete
+    assert after.shapes == alone.shapes
+    assert after.x.cost == alone.x.cost
+    assert after.y.cost == alone.y.cost
