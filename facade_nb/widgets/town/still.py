@@ -13,12 +13,15 @@ from ..shared.pictured import picture_html
 from .model import TownModel
 from .tiles import coarse_tiles
 
-__all__ = ["SIZE", "painter", "still", "told"]
+__all__ = ["SAVED", "SIZE", "painter", "still", "told"]
 
 SIZE = (720, 405)
 """Pixels of it."""
 
-_QUALITY = 82
+SAVED = (480, 270)
+"""Pixels of what a saved notebook carries."""
+
+_QUALITY = 78
 
 
 def painter() -> GlPainter | None:
@@ -57,4 +60,4 @@ def told(model: TownModel) -> str:
 
 def image(model: TownModel, data: bytes) -> str:
     """A picture as HTML; empty if there is none."""
-    return picture_html(told(model), data, "jpeg")
+    return picture_html(told(model), data)

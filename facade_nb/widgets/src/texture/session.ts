@@ -69,7 +69,7 @@ export class Session extends Entering<Entered> {
     const point = this.channel.get<number[]>("point");
     return point.length === 2 ? (point as Pair) : null;
   }
-  /** A picture in PNG, where one was drawn for pages that cannot draw. */
+  /** A picture in PNG or JPEG, where one was drawn for pages that cannot draw. */
   get still(): Uint8Array<ArrayBuffer> | null {
     const bytes = this.channel.get<Bytes>("still");
     return byteLength(bytes) ? bytesOf(bytes) : null;
