@@ -16,7 +16,8 @@ LARGEST = 400_000
 SIDE = 360
 """Pixels of its width, and at most of its height."""
 
-_QUALITY = 85
+_EXACT, _QUALITY = 40_000, 85
+"""Bytes up to which it stays as exact as a PNG is; how good the JPEG is of one that is larger."""
 
 
 def still(model: TextureModel) -> bytes:
@@ -30,13 +31,13 @@ def still(model: TextureModel) -> bytes:
     hour = model.hour if model.lit else None
     drawn = texture_pixels(model.grammar, size=model.size, seed=model.seed, pixels=(SIDE, height), hour=hour)
     exact = png(drawn)
-    if (drawn[..., 3] < 255).any():  # a JPEG has no holes
+    if len(exact) <= _EXACT or (drawn[..., 3] < 255).any():  # a JPEG has no holes
         return exact
     from PIL import Image
 
     out = BytesIO()
     Image.fromarray(drawn[..., :3]).save(out, "JPEG", quality=_QUALITY, optimize=True)
-    return min(exact, out.getvalue(), key=len)
+    return out.getvalue()
 
 
 def described(model: TextureModel) -> str:
