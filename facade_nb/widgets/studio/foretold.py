@@ -24,9 +24,9 @@ def foretold(design: Design, layout: Layout | None, width: float) -> dict[str, A
     Returns
     -------
     dict
-        ``counts``: of each pattern across that counts something, which letter, how many there are ``now`` and ``later``,
-        and how long its word is. ``moves``: by how many metres each symbol would differ from the size it likes, and how
-        many letters of it there would be. Both are empty where there is no layout.
+        ``counts``: of each pattern across that counts something, which letter, how many there are ``now`` and
+        ``later``, and how long its word is. ``moves``: by how many metres each symbol would differ from the
+        size it likes, and how many letters of it there would be. Both are empty where there is no layout.
     """
     told: dict[str, Any] = {"kind": "foretold", "width": width, "counts": [], "moves": []}
     if layout is None:
