@@ -20,7 +20,9 @@ display(house)
 
 def test_another_width_and_a_pixel_are_predicted(lab: Notebook, out: Path) -> None:
     """A wrong number brings the hint; the right one is green, and the canvas changes when the reader says so."""
-    texture = textwrap.dedent(PIXEL).replace("PixelInspector(model)", "TextureView(model, layout={'width': '420px'})")
+    texture = textwrap.dedent(PIXEL).replace(
+        "PixelInspector(model)", "TextureView(model, layout={'width': '420px'})"
+    )
     lab.run(HOUSE + texture)
     own = lab.page.locator(".fnb-predicting")
     press(own, "Predict")

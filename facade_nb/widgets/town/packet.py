@@ -140,16 +140,17 @@ def kept_piece(model: TownModel, blobs: dict[str, Blob], side: int) -> bytes:
     Of a tile that nothing in the town shows, one pixel goes along: where no kernel is, no house gets another style.
     """
     tiles, shown = tiles_of(model.grammar), set(_shown(model))
-    hidden = [name for name in model.grammar.encoding.tiles if name not in shown]
-    told, pixels = tiles_piece(tiles, sorted(shown), [0] * len(shown), side)
-    more, rest = tiles_piece(tiles, hidden, [0] * len(hidden), 1)
-    told, pixels = told + more, pixels + rest
+    told, parts = [], []
+    for name in model.grammar.encoding.tiles:
+        own, pixels = tiles_piece(tiles, [name], [0], side if name in shown else 1)
+        told += own
+        parts.append(pixels)
     for one in told:  # finer sizes are not there to be asked for
         one.update(
             sizes=one["sizes"][one["first"] : one["end"]], first=0, end=one["end"] - one["first"], draft=False
         )
     contents = {name: np.frombuffer(blob.content, np.uint8) for name, blob in blobs.items()}
-    return pack({"blobs": contents, "tiles": told, "pixels": np.frombuffer(pixels, np.uint8)})
+    return pack({"blobs": contents, "tiles": told, "pixels": np.frombuffer(b"".join(parts), np.uint8)})
 
 
 def _shown(model: TownModel) -> tuple[str, ...]:
