@@ -25,6 +25,7 @@ def test_another_width_and_a_pixel_are_predicted(lab: Notebook, out: Path) -> No
     )
     lab.run(HOUSE + texture)
     own = lab.page.locator(".fnb-predicting")
+    expect(own.get_by_role("button")).to_have_count(1)  # nothing else is there until it asks
     press(own, "Predict")
     expect(own).to_contain_text("The canvas becomes 9 m wide. How many B will Bx have? Now there are 3.")
     own.get_by_role("radio", name="3", exact=True).press("Space")

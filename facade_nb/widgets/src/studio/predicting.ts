@@ -91,7 +91,7 @@ export const predicting: MakePart = ({ store, signal }) => {
   const quiz = new Quiz(() => questionsOf(told));
   const bar = quizBar(quiz, () => {});
   const offered = h("div", { class: "fnb-predict-offers" });
-  const make = h("button", { type: "button", class: "fnb-fix" });
+  const make = h("button", { type: "button", class: "fnb-fix", hidden: true });
   make.addEventListener("click", () => {
     if (told) store.set(["canvas", "width"], told.width);
     quiz.ask(false);
