@@ -13,7 +13,17 @@ import nbformat
 from nbclient import NotebookClient
 
 ROOT = Path(__file__).resolve().parents[1]
-WIDGETS = ("studio", "solver", "texture", "town", "inference", "variations", "figures")
+WIDGETS = (
+    "studio",
+    "solver",
+    "texture",
+    "town",
+    "inference",
+    "variations",
+    "figures",
+    "survey",
+    "benchmarks",
+)
 """Those in `notebooks` that have widgets; all in `tutorials` have."""
 PICTURE = "picture"
 """A cell with this tag is saved with its picture alone: without a kernel its view would have nothing to show."""
