@@ -4,6 +4,7 @@ python scripts/notebooks.py [NAME ...]     all that have widgets, or those named
 """
 
 import json
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,21 +13,24 @@ import nbformat
 from nbclient import NotebookClient
 
 ROOT = Path(__file__).resolve().parents[1]
-WIDGETS = ("studio", "solver", "texture", "town", "inference", "variations", "figures")
-"""Those in `notebooks` that have widgets; all in `tutorials` have."""
-STATIC = (
+WIDGETS = (
+    "studio",
+    "solver",
     "texture",
     "town",
     "inference",
+    "variations",
     "figures",
-    "10-a-pixel-by-grammar",
-    "11-rooms-behind-windows",
-    "12-the-pipeline-and-a-town",
+    "survey",
+    "benchmarks",
 )
-"""Saved with static forms alone: the tiles, or three bundles, would make their state too large."""
+"""Those in `notebooks` that have widgets; all in `tutorials` have."""
+PICTURE = "picture"
+"""A cell with this tag is saved with its picture alone: without a kernel its view would have nothing to show."""
 
 VIEW = "application/vnd.jupyter.widget-view+json"
 STATE = "application/vnd.jupyter.widget-state+json"
+REFERENCE = re.compile("IPY_MODEL_(\\w+)")
 HIDING = "<style>.jp-OutputArea-child:has(.fnb) + .jp-OutputArea-child:has(.fnb-as-saved) { display: none }</style>"
 HIDING += '<span class="fnb-as-saved"></span>'
 
@@ -54,8 +58,36 @@ def apart(notebook: nbformat.NotebookNode) -> None:
                 cell.outputs.insert(cell.outputs.index(output) + 1, static)
 
 
+def pictured(notebook: nbformat.NotebookNode) -> None:
+    """Take the widgets of tagged cells away, and of the state what no view is left for."""
+    views = []
+    for cell in notebook.cells:
+        for output in list(cell.get("outputs", [])):
+            data = output.get("data", {})
+            if VIEW not in data:
+                continue
+            if PICTURE not in cell.metadata.get("tags", ()):
+                views.append(data[VIEW]["model_id"])
+            elif "text/html" in data:
+                data.pop(VIEW)
+            else:
+                cell.outputs.remove(output)
+    state = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
+    needed, ahead = set(), views
+    while ahead:
+        own = ahead.pop()
+        if own in state and own not in needed:
+            needed.add(own)
+            ahead += REFERENCE.findall(json.dumps(state[own]["state"]))
+    for own in set(state) - needed:
+        del state[own]
+    if not state:
+        notebook.metadata.pop("widgets", None)
+
+
 def write(notebook: nbformat.NotebookNode, path: Path) -> None:
     """Save a notebook, its widgets in one line: nobody reads them, and they take less room."""
+    pictured(notebook)
     apart(notebook)
     widgets = notebook.metadata.get("widgets")
     for model in (widgets or {}).get(STATE, {}).get("state", {}).values():
@@ -79,8 +111,6 @@ def main(names: Sequence[str]) -> None:
         notebook.metadata.pop("language_info", None)
         for cell in notebook.cells:
             cell.metadata.pop("execution", None)
-        if path.stem in STATIC:
-            notebook.metadata.pop("widgets", None)
         write(notebook, path)
         print(f"{path.relative_to(ROOT)}  {path.stat().st_size / 1000:.1f} kB")
 

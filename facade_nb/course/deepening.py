@@ -129,6 +129,24 @@ EXERCISES: Mapping[str, Exercise] = {
         ),
         "1.883 m: J of the best alignment. Whatever says more at the first node may lose it.",
     ),
+    "ours": Exercise(
+        number(1.05),
+        (
+            "First two words at a time: what do CeC and A still cost each other? Then W: what is laid, and the longest "
+            "rest; both posts have to come.",
+            "C/ε costs 0.8, e may be as short as it likes, C/A costs nothing. 10 m and two posts of 2 m are 14 m: "
+            "a metre too much costs 0.25.",
+        ),
+        "0.8 + 0.25 = 1.05. It has looked ahead to the end without taking up a single node.",
+    ),
+    "pieces": Exercise(
+        numbers((0.0, 0.5), ("8.4 m", "9.5 m")),
+        (
+            "Between which lengths may each of the three pieces be without making any ω larger? Add up.",
+            "3, 2 to 3, and 3 m: from 8 m to 9 m together. What is beyond costs its own length.",
+        ),
+        "8.4 m lies within 8 to 9 m, and costs nothing more. 9.5 m is half a metre too long.",
+    ),
     "table": Exercise(
         among(
             "more nodes, same answer",
@@ -155,5 +173,13 @@ EXERCISES: Mapping[str, Exercise] = {
             "10 ** 8 from one end. From each of the two ends 10 ** 4.",
         ),
         "20,000 in place of 100 million: half the way is far less than half the paths.",
+    ),
+    "joined": Exercise(
+        number(0.555),
+        (
+            "Both halves, and what W misses the canvas by: a metre costs 0.25.",
+            "The columns are 2 · 0.6 + 3 · 0.9 + 2 · 1.2 = 6.3 m wide, and the canvas is 6.6 m.",
+        ),
+        "0.24 + 0.24 + 0.25 · 0.3: the last part belongs to neither half, and is known when they are joined.",
     ),
 }

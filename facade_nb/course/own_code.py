@@ -10,7 +10,7 @@ from ..solver.experiments import Case, Column, check, experiment
 from ..solver.experiments.cases import small_cases
 from .exercises import Exercise
 from .houses import house
-from .judging import Judge, among, experimental, function, number
+from .judging import Judge, among, experimental, function, number, numbers
 from .own_looks import EXERCISES as LOOKS
 
 __all__ = ["ARCADE", "EXERCISES", "HOUSE", "TRIPLET"]
@@ -231,4 +231,28 @@ EXERCISES: Mapping[str, Exercise] = {
         "The row, and its mirror image without the pivot: k copies of n letters make a word of 2 k n − 1.",
     ),
     **LOOKS,
+    "core": Exercise(
+        numbers((0.24, 0.225), ("C/ε", "e/BAB")),
+        (
+            "Of C/ε one word is empty, and high is the size of C. Of e/BAB nothing is empty; loose is 0.9 + 0.9.",
+            "by_empty_ · 1 · 0.6, and by_loose_ · 1.8, with 0.4 and 0.125.",
+        ),
+        "0.24 and 0.225 m, as weigh has it in Python: the two say the same, or a test fails.",
+    ),
+    "twice": Exercise(
+        among(
+            "the one of a trace follows, the module does not",
+            (
+                "both searches follow",
+                "the one of a trace follows, the module does not",
+                "neither follows",
+            ),
+        ),
+        (
+            "Which of the two reads rules.py?",
+            "The module was built from C++ before you came. With trace=True it is not used.",
+        ),
+        "The module looks for what was best before. What it hands over is priced in Python once more, so J looks "
+        "right, and the answer need not be: that is why a test compares both after every step.",
+    ),
 }

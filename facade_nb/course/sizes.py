@@ -7,12 +7,34 @@ from typing import Any
 
 import numpy as np
 
+from ..design import Design
 from ..solver import solve
 from .exercises import Exercise
 from .houses import house
 from .judging import among, function, number, numbers
 
-__all__ = ["EXERCISES"]
+__all__ = ["EXERCISES", "post"]
+
+
+def post(width: float, most: float) -> Design:
+    """A row by itself: a post C of 0.6 m, of ``most`` metres at most, between two placeholders without a size."""
+    side = {"pattern": "up"}
+    return Design.from_dict(
+        {
+            "format": "facade-nb/design/1",
+            "name": "Post",
+            "canvas": {"width": width, "height": 2.0},
+            "symbols": {"C": {"size": 0.6, "max": most}, "Y": {"size": 2.0}},
+            "patterns": {"row": "xcy; c := C", "up": "Y"},
+            "layers": [{"name": "row", "x": {"pattern": "row"}, "y": side}],
+            "shapes": {},
+        }
+    )
+
+
+def _rounds(answer: object) -> str:
+    sizes = solve(post(7.0, 0.5)).x.sizes
+    return numbers([sizes[name] for name in "Cxy"], ("C", "x", "y"))(answer)
 
 
 def _grow(grow: Callable[..., Any]) -> str:
@@ -119,5 +141,14 @@ EXERCISES: Mapping[str, Exercise] = {
             "1.235 m is less than 1.3 m. And if C grows to 0.65 m, the others get less, not more.",
         ),
         "The second: C is held at 0.65 m. The first is kept anyway, so it does not pull.",
+    ),
+    "rounds": Exercise(
+        _rounds,
+        (
+            "What is C after the first round? It is kept. How much is left for x and y, and how much did they have?",
+            "6.5 m are left, and they had 3.2 m each: a decimetre more, of which each gets half, for that makes the "
+            "squares least.",
+        ),
+        "0.5, 3.25 and 3.25 m: each placeholder gets half of the decimetre that C could not take.",
     ),
 }

@@ -94,6 +94,15 @@ class Atlas:
     grey: NDArray[np.bool_]
     relief: NDArray[np.float32] = field(default_factory=lambda: np.zeros((1, 3), np.float32))
 
+    def no_larger(self, side: int) -> Atlas:
+        """The same tiles without the sizes that have a longer side; the smallest of each stays."""
+        images = []
+        for levels in self.table:
+            own = [tuple(box) for box in dict.fromkeys(map(tuple, levels.tolist()))]
+            kept = [box for box in own if max(box[2:]) <= side] or own[-1:]
+            images.append([self.pixels[y : y + h, x : x + w] for x, y, w, h in kept])
+        return _arranged(images, self.grey, self.relief)
+
     def within(self, limit: int, side: int = 1 << 16) -> Atlas:
         """The same tiles in at most `limit` bytes and `side` pixels a side: the largest sizes are left out.
 
@@ -104,12 +113,7 @@ class Atlas:
             largest = int(atlas.table[..., 2:].max())
             if largest == 1:
                 break
-            images = []
-            for levels in atlas.table:
-                own = [tuple(box) for box in dict.fromkeys(map(tuple, levels.tolist()))]
-                own = own[1:] if len(own) > 1 and max(own[0][2:]) == largest else own
-                images.append([atlas.pixels[y : y + h, x : x + w] for x, y, w, h in own])
-            smaller = _arranged(images, atlas.grey, atlas.relief)
+            smaller = atlas.no_larger(largest - 1)
             if smaller.pixels.nbytes >= atlas.pixels.nbytes:
                 break
             atlas = smaller

@@ -16,7 +16,11 @@ from traitlets import Bytes, Dict, Instance, TraitError, Unicode
 from ...design.errors import DesignError
 from .bundled import Message, ModelWire, as_run, bundle
 
-__all__ = ["EditedWire", "PartView", "picture_html"]
+__all__ = ["EditedWire", "PartView", "check_side", "picture_html"]
+
+
+PNG = b"\x89PNG"
+"""How such a file begins."""
 
 
 class PartView(AnyWidget):
@@ -95,9 +99,23 @@ class EditedWire(ModelWire):
         self.draw_still()
 
 
-def picture_html(told: str, data: bytes, kind: str) -> str:
+def check_side(side: int) -> int:
+    """A number of pixels.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
+    if isinstance(side, bool) or not isinstance(side, int) or side < 1:
+        raise ValueError(f"side: expected a whole number of pixels from 1; found {side!r}")
+    return side
+
+
+def picture_html(told: str, data: bytes) -> str:
     """A picture as HTML, with what it shows in words; empty if there is none."""
     if not data:
         return ""
+    kind = "png" if data.startswith(PNG) else "jpeg"
     source = b64encode(data).decode("ascii")
     return f'<img alt="{escape(told)}" src="data:image/{kind};base64,{source}">'

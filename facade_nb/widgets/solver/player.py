@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from traitlets import Bool
 
@@ -30,6 +30,11 @@ class PlayerView(TraceView):
     _needs = ("captions",)
 
     code = Bool(False).tag(sync=True)
+
+    def __init__(self, source: Any, **traits: Any) -> None:
+        super().__init__(source, **traits)
+        if self.code:  # a saved page can't ask for it
+            self.channel.provide(["code"])
 
     @property
     def frame(self) -> pd.DataFrame:

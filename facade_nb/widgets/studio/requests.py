@@ -13,6 +13,7 @@ from .exports import export
 from .extras import Snapshot
 from .facts import Remedy, apply_remedy
 from .fields import apply
+from .foretold import foretold
 from .python_code import python_of
 from .wire import describe_faults
 
@@ -161,6 +162,13 @@ def _keep(channel: Channel, message: Message) -> Reply:
     return None
 
 
+def _foretell(channel: Channel, message: Message) -> Reply:
+    """What another width of the canvas would bring; the design stays."""
+    model, width = channel.model, float(message["width"])
+    design, layout = model.design, None if model.stale or model.busy else model.layout
+    return channel.later(lambda: foretold(design, layout, width), _tag(message))
+
+
 def _tag(message: Message) -> dict[str, Any]:
     return {"client": message.get("client", ""), "seq": message.get("seq", 0)}
 
@@ -180,4 +188,5 @@ REQUESTS: dict[str, Callable[[Channel, Message], Reply]] = {
     "limit": _limit,
     "remedy": _remedy,
     "keep": _keep,
+    "foretell": _foretell,
 }

@@ -57,6 +57,7 @@ class TextureChannel(EditedWire):
 
     def __init__(self, model: TextureModel) -> None:
         self._tiles: tuple[str, ...] | None = None
+        self._side = 0  # of the tiles that are sent, at most; 0: as they are
         super().__init__(model, **_same_all(model))
         self._refill()
         model.observe(self._on_model)
@@ -71,9 +72,16 @@ class TextureChannel(EditedWire):
             return
         with self._telling():
             if self._tiles != grammar.encoding.tiles:
-                self.tiles = tiles_piece(grammar)
+                self.tiles = tiles_piece(grammar, self._side)
                 self._tiles = grammar.encoding.tiles
             self.scene = scene_piece(grammar)
+
+    def keep(self, side: int) -> None:
+        """Send, and save, no tile with a longer side."""
+        self._side = side
+        self._tiles = None
+        self.wake()
+        self._refill()
 
     def _empty(self) -> None:
         self._tiles = None

@@ -13,7 +13,6 @@ from ...render import Grammar
 from ...render.pipeline.passes import PAGE, Pass, used
 from ...render.pipeline.vertices import VERTEX
 from ...render.texture.daytime import Daytime
-from ...render.texture.noise import noise_texture
 from ...render.texture.operators import Operator
 from ...render.texture.shaders import room, rooms_for, shader
 from ...render.texture.steps import Chosen, Divided, Entered, Layered, Painted, Passed, Stacked, Step
@@ -65,9 +64,11 @@ def scene_piece(grammar: Grammar) -> bytes:
     )
 
 
-def tiles_piece(grammar: Grammar) -> bytes:
-    """The tiles that a grammar names."""
+def tiles_piece(grammar: Grammar, side: int = 0) -> bytes:
+    """The tiles that a grammar names; of each, the sizes whose sides are at most `side`, if that is not 0."""
     atlas = grammar.atlas()
+    if side:
+        atlas = atlas.no_larger(side)
     table = np.zeros((len(atlas.table), atlas.table.shape[1] + 1, 4), np.float32)
     table[:, 1:] = atlas.table
     table[:, 0, 0] = atlas.grey
@@ -85,8 +86,7 @@ def tiles_piece(grammar: Grammar) -> bytes:
 
 @lru_cache(maxsize=1)
 def light_piece() -> bytes:
-    """What is the same for all grammars: the light of the day, random numbers, the passes of the pipeline."""
-    noise = noise_texture()
+    """What is the same for all grammars: the light of the day, the passes of the pipeline."""
     return pack(
         {
             "passes": passes_of(PAGE),
@@ -95,8 +95,6 @@ def light_piece() -> bytes:
             "stride": VERTEX.itemsize,
             "attributes": attributes(),
             "hours": [Daytime.at(hour).uniforms() for hour in HOURS],
-            "side": noise.shape[0],
-            "noise": noise.reshape(-1),
         }
     )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from io import BytesIO
+
 from ...render.texture.picture import png, texture_pixels
 from ..shared.pictured import picture_html
 from .model import TextureModel
@@ -14,16 +16,28 @@ LARGEST = 400_000
 SIDE = 360
 """Pixels of its width, and at most of its height."""
 
+_EXACT, _QUALITY = 40_000, 85
+"""Bytes up to which it stays as exact as a PNG is; how good the JPEG is of one that is larger."""
+
 
 def still(model: TextureModel) -> bytes:
-    """The façade straight on, in the light it is shown in, as PNG; empty without a grammar."""
+    """The façade straight on, in the light it is shown in, as PNG or as JPEG; empty without a grammar.
+
+    Plain colours take less room in one, bricks in the other.
+    """
     if model.grammar is None:
         return b""
     height = max(1, min(SIDE, round(SIDE * model.size[1] / model.size[0])))
     hour = model.hour if model.lit else None
-    return png(
-        texture_pixels(model.grammar, size=model.size, seed=model.seed, pixels=(SIDE, height), hour=hour)
-    )
+    drawn = texture_pixels(model.grammar, size=model.size, seed=model.seed, pixels=(SIDE, height), hour=hour)
+    exact = png(drawn)
+    if len(exact) <= _EXACT or (drawn[..., 3] < 255).any():  # a JPEG has no holes
+        return exact
+    from PIL import Image
+
+    out = BytesIO()
+    Image.fromarray(drawn[..., :3]).save(out, "JPEG", quality=_QUALITY, optimize=True)
+    return out.getvalue()
 
 
 def described(model: TextureModel) -> str:
@@ -33,4 +47,4 @@ def described(model: TextureModel) -> str:
 
 def image(model: TextureModel, data: bytes) -> str:
     """A picture as HTML; empty if there is none, or if it is too large for a notebook."""
-    return picture_html(described(model), data if len(data) <= LARGEST else b"", "png")
+    return picture_html(described(model), data if len(data) <= LARGEST else b"")

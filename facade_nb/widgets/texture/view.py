@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from html import escape
 from math import cos, radians, sin, tan
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 from traitlets import Bool, Enum, Float, List
 
 from ...render import Grammar
 from ...render.texture.view import Sight
-from ..shared.pictured import PartView
+from ..shared.pictured import PartView, check_side
 from .channel import TextureChannel
 from .model import TextureModel
 from .packet import grammar_table, step_text
@@ -53,6 +53,23 @@ class _TextureWidget(PartView):
         }
         self.model = source if isinstance(source, TextureModel) else TextureModel(source, **own)
         super().__init__(channel=TextureChannel.of(self.model), part=self._shows, **options)
+
+    def keep(self, side: int = 64) -> Self:
+        """Give the page no tile with a longer side, in pixels: the saved notebook stays small, and its view alive.
+
+        All views of the model follow. What is drawn in Python has the tiles as they are.
+
+        Returns
+        -------
+        The view itself.
+
+        Raises
+        ------
+        ValueError
+            For a side that is no number of pixels.
+        """
+        self.channel.keep(check_side(side))
+        return self
 
     def __repr__(self) -> str:
         rules = 0 if self.model.grammar is None else len(self.model.grammar.rules)

@@ -16,6 +16,7 @@ from ...render.pipeline.sunlight import MAPS
 from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
 from ...render.texture.daytime import Daytime
+from ...render.texture.program import tile_names
 from ...render.texture.shaders import room, rooms_for
 from ...render.texture.uploads import grammar_upload, noise_upload
 from ...render.town.plan import KINDS, ROOFS
@@ -67,7 +68,6 @@ def blobs_of(model: TownModel) -> dict[str, Blob]:
     found = {
         "vertices": Blob(_bytes(model.vertices), BLOCK * VERTEX.itemsize),
         "indices": Blob(_bytes(model.source.indices), BLOCK * 12),
-        "noise": Blob(memoryview(noise_upload().content)),
     }
     if model.town is not None:
         found["edges"] = Blob(_bytes(edges_of(model.town.plan)))
@@ -135,15 +135,36 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
 
 
 def kept_piece(model: TownModel, blobs: dict[str, Blob], side: int) -> bytes:
-    """All that is large, for a page that no kernel answers: the blobs, and tiles whose sides are at most `side`."""
-    names = model.grammar.encoding.tiles
-    told, pixels = tiles_piece(tiles_of(model.grammar), names, [0] * len(names), side)
+    """All that is large, for a page that no kernel answers: the blobs, and tiles whose sides are at most `side`.
+
+    Of a tile that nothing in the town shows, one pixel goes along: where no kernel is, no house gets another style.
+    """
+    tiles, shown = tiles_of(model.grammar), set(_shown(model))
+    told, parts = [], []
+    for name in model.grammar.encoding.tiles:
+        own, pixels = tiles_piece(tiles, [name], [0], side if name in shown else 1)
+        told += own
+        parts.append(pixels)
     for one in told:  # finer sizes are not there to be asked for
         one.update(
             sizes=one["sizes"][one["first"] : one["end"]], first=0, end=one["end"] - one["first"], draft=False
         )
     contents = {name: np.frombuffer(blob.content, np.uint8) for name, blob in blobs.items()}
-    return pack({"blobs": contents, "tiles": told, "pixels": np.frombuffer(pixels, np.uint8)})
+    return pack({"blobs": contents, "tiles": told, "pixels": np.frombuffer(b"".join(parts), np.uint8)})
+
+
+def _shown(model: TownModel) -> tuple[str, ...]:
+    """The tiles that rules name which can be met in the town as it stands."""
+    rules, positions = model.grammar.rules, model.grammar.encoding.positions
+    numbers = {place: number for number, place in enumerate(positions)}
+    starts = np.unique(model.vertices["start"].astype(int), axis=0)
+    ahead = [numbers[x, y] for x, y in starts.tolist()]
+    met = set(ahead)
+    while ahead:
+        new = set(rules[ahead.pop()].targets()) - met
+        met |= new
+        ahead += new
+    return tile_names([rules[number] for number in sorted(met)])
 
 
 @lru_cache(maxsize=1)

@@ -15,15 +15,15 @@ from ..shared.pictured import picture_html
 from .model import TownModel
 from .tiles import coarse_tiles
 
-__all__ = ["SIZE", "awaited", "painter", "still", "still_of_cell", "told"]
+__all__ = ["SAVED", "SIZE", "awaited", "painter", "still", "still_of_cell", "told"]
 
 SIZE = (720, 405)
 """Pixels of it."""
 
-_SOON = (480, 270)
-"""Pixels where somebody waits for it."""
+SAVED = (480, 270)
+"""Pixels of what a cell's output carries, and a saved notebook with it."""
 
-_QUALITY = 82
+_QUALITY = 78
 
 
 def painter() -> GlPainter | None:
@@ -58,12 +58,10 @@ def still(
 def still_of_cell(model: TownModel) -> bytes:
     """The picture that a cell's output carries: the live view waits until it is drawn.
 
-    So it is smaller and without shadows where somebody waits for the cell, and a whole one where nobody does, as when
-    notebooks are run to be kept.
+    So it is small, and has no shadows where somebody waits for the cell. Where nobody does, as when notebooks are run
+    to be kept, it has.
     """
-    if awaited():
-        return still(model, _SOON, hasty=True, shadow=False)
-    return still(model, hasty=True)
+    return still(model, SAVED, hasty=True, shadow=not awaited())
 
 
 def awaited() -> bool:
@@ -83,4 +81,4 @@ def told(model: TownModel) -> str:
 
 def image(model: TownModel, data: bytes) -> str:
     """A picture as HTML; empty if there is none."""
-    return picture_html(told(model), data, "jpeg")
+    return picture_html(told(model), data)

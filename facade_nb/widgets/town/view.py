@@ -10,7 +10,7 @@ from traitlets import Bool, Int, List, Unicode
 from ...render.pipeline.scene import Scene
 from ...render.pipeline.viewpoint import CameraPath, Viewpoint
 from ...render.town import Town
-from ..shared.pictured import PartView
+from ..shared.pictured import PartView, check_side
 from .channel import TownChannel
 from .model import TownModel
 from .still import image, still_of_cell
@@ -110,9 +110,7 @@ class _TownWidget(PartView):
         ValueError
             For a side that is no number of pixels.
         """
-        if isinstance(side, bool) or not isinstance(side, int) or side < 1:
-            raise ValueError(f"side: expected a whole number of pixels from 1; found {side!r}")
-        self.channel.keep(side)
+        self.channel.keep(check_side(side))
         return self
 
     def __repr__(self) -> str:

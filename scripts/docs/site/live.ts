@@ -32,24 +32,44 @@ class SavedManager extends ManagerBase {
   }
 }
 
-type Hand = (name: string, state: IManagerState) => void;
+type Hand = (name: string, content: object) => void;
 
 const managers = new Map<string, Promise<SavedManager>>();
-const awaited = new Map<string, (state: IManagerState) => void>();
+const files = new Map<string, Promise<object>>();
+const awaited = new Map<string, (content: object) => void>();
 
-(globalThis as { facadeNbState?: Hand }).facadeNbState = (name, state) => awaited.get(name)?.(state);
+(globalThis as { facadeNbState?: Hand }).facadeNbState = (name, content) => awaited.get(name)?.(content);
 
-/** The manager of a state, whose file is read once. */
-function managerOf(source: string, name: string): Promise<SavedManager> {
-  let made = managers.get(source);
-  if (!made) {
-    made = new Promise<IManagerState>((resolve, reject) => {
+/** What a file hands over; it is read once. */
+function contentOf(source: string, name: string): Promise<object> {
+  let read = files.get(source);
+  if (!read) {
+    read = new Promise((resolve, reject) => {
       awaited.set(name, resolve);
       const script = document.createElement("script");
       script.src = source;
       script.onerror = () => reject(new Error(`${source} can't be read`));
       document.head.append(script);
-    }).then(async (state) => {
+    });
+    files.set(source, read);
+  }
+  return read;
+}
+
+/** A state, with the front end's code put back into it: that lies in a file which pages share. */
+async function stateOf(source: string, name: string): Promise<IManagerState> {
+  const state = (await contentOf(source, name)) as IManagerState;
+  for (const model of Object.values(state.state) as { state: object; code?: string }[])
+    if (model.code)
+      Object.assign(model.state, await contentOf(source.replace(`${name}.js`, `${model.code}.js`), model.code));
+  return state;
+}
+
+/** The manager of a state, whose file is read once. */
+function managerOf(source: string, name: string): Promise<SavedManager> {
+  let made = managers.get(source);
+  if (!made) {
+    made = stateOf(source, name).then(async (state) => {
       const manager = new SavedManager();
       await manager.set_state(state);
       return manager;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 import shutil
@@ -20,6 +21,9 @@ FILES = ("docs/img/*", "docs/*.json", "CITATION.cff", "LICENSE")
 MARK = re.compile(r"^<!-- live: ([\w-]+) -->$", re.MULTILINE)
 MOMENT = re.compile(r"\[([^\]]+)\]\((#facade-nb=[^)]*)\)")
 """A link that a view follows: no place of the page has its name."""
+
+CODE = ("module", "css")
+"""What a model that carries the front end's code has (widgets/shared/bundled.py)."""
 
 SAVED = "fnb-as-saved"
 """The class of a static form that stands in an output of its own."""
@@ -56,10 +60,27 @@ def place(page: PurePosixPath, state: str, model: str, static: str) -> str:
 
 
 def write_state(folder: Path, name: str, state: Notebook) -> None:
-    """A state as a script that hands itself over, since pages opened from a folder can fetch no file."""
+    """A state as a script that hands itself over, since pages opened from a folder can fetch no file.
+
+    The front end's code, which each notebook carries, goes into a file of its own: pages that have the same share it.
+    """
+    models = {}
+    for number, model in state.get("state", {}).items():
+        own = model.get("state", {})
+        code = {key: own[key] for key in CODE if key in own}
+        models[number] = model
+        if all(code.values()) and len(code) == len(CODE):
+            key = hashlib.sha256(json.dumps(code).encode()).hexdigest()[:16]
+            _write_script(folder, f"code-{key}", code)
+            rest = {name: value for name, value in own.items() if name not in CODE}
+            models[number] = {**model, "state": rest, "code": f"code-{key}"}
+    _write_script(folder, name, {**state, "state": models})
+
+
+def _write_script(folder: Path, name: str, content: Notebook) -> None:
     target = folder / STATES / f"{name}.js"
     target.parent.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(state, ensure_ascii=False, separators=(",", ":"))
+    text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
     target.write_text(f"facadeNbState({json.dumps(name)},{text});\n", "utf-8")
 
 

@@ -31,6 +31,8 @@ def test_all_that_is_drawn_is_kept_while_somebody_looks() -> None:
         assert (kind, content[at : at + count]) == ("u1", bytes(blob.content))
     assert [tile["name"] for tile in told["tiles"]] == list(model.grammar.encoding.tiles)
     assert all(max(max(size) for size in tile["sizes"]) <= 16 for tile in told["tiles"])
+    sides = {max(max(size) for size in tile["sizes"]) for tile in told["tiles"]}
+    assert {1, 16} <= sides  # of those that no house of the town shows there is one pixel
     assert told["pixels"]["$"][2] == sum(4 * w * h for tile in told["tiles"] for w, h in tile["sizes"])
     view.channel._sleep()
     assert view.channel.kept == b""

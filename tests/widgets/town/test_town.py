@@ -27,6 +27,7 @@ from facade_nb.render.town import Town
 from facade_nb.widgets import PipelineView, TownModel, TownView
 from facade_nb.widgets.town.channel import TownChannel
 from facade_nb.widgets.town.packet import blobs_of, needs_of
+from facade_nb.widgets.town.still import SAVED, still
 from facade_nb.widgets.town.tiles import tiles_piece
 
 from .frames import PATH, made
@@ -299,15 +300,18 @@ def test_the_static_form_is_small(town: Town) -> None:
     assert repr(view) == "TownView(60 buildings)"
 
 
-@pytest.mark.parametrize(("asked", "size"), [(True, (480, 270)), (False, (720, 405)), (None, (720, 405))])
-def test_the_picture_of_a_cell_is_whole_where_nobody_waits_for_it(
-    town: Town, asked: bool | None, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("asked", "shadow"), [(True, False), (False, True), (None, True)])
+def test_the_picture_of_a_cell_has_shadows_where_nobody_waits_for_it(
+    town: Town, asked: bool | None, shadow: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     message = {} if asked is None else {"content": {"allow_stdin": asked}}
     shell = SimpleNamespace(kernel=SimpleNamespace(get_parent=lambda: message))
     monkeypatch.setattr(IPython, "get_ipython", lambda: shell)
-    encoded = TownView(town).to_html().split("base64,")[1].split('"')[0]
-    assert Image.open(BytesIO(b64decode(encoded))).size == size
+    view = TownView(town)
+    drawn = b64decode(view.to_html().split("base64,")[1].split('"')[0])
+    assert Image.open(BytesIO(drawn)).size == SAVED
+    same, other = (still(view.model, SAVED, hasty=True, shadow=own) for own in (shadow, not shadow))
+    assert drawn == same != other
 
 
 def test_what_is_no_town_is_refused() -> None:

@@ -10,6 +10,7 @@ import "../styles/stage.css";
 import "../styles/panel.css";
 import "../styles/patterns.css";
 import "../styles/building.css";
+import "../styles/quiz.css";
 import { building } from "../building/view.ts";
 import { absence } from "../shared/absence.ts";
 import { h, mark } from "../shared/dom.ts";

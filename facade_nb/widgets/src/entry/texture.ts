@@ -23,7 +23,7 @@ export function mount({ el, model, channel, css }: Mount): () => void {
   adoptStyle(css, el, end.signal);
   const session = Session.of(channel);
   const parts: Record<string, () => HTMLElement> = {
-    view: () => picture(session, model, end.signal),
+    view: () => picture(session, model, end.signal, true),
     editor: () => editor(session, end.signal),
     inspector: () => inspector(session, end.signal),
     table: () => table(session, end.signal),

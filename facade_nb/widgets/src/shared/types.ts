@@ -213,7 +213,15 @@ export type Reply = { client: string; seq: number } & (
   | { kind: "refused"; faults: Fault[] }
   | { kind: "added"; what: string; name: string }
   | { kind: "renamed"; what: string; name: string; to: string }
+  | ({ kind: "foretold" } & Foretold)
 );
+
+/** What a canvas of another width would bring (Python: studio/foretold.py). */
+export interface Foretold {
+  width: number;
+  counts: { pattern: string; symbol: string; now: number; later: number; length: [now: number, then: number] }[];
+  moves: { symbol: string; by: number; count: number; most: boolean }[];
+}
 
 /** The part of a widget model (Backbone's) that is used here. */
 export interface WidgetModel {

@@ -10,6 +10,7 @@ import { exploded } from "./exploded.ts";
 import { inspector } from "./inspector.ts";
 import { layers } from "./layers.ts";
 import { patterns } from "./patterns.ts";
+import { predicting } from "./predicting.ts";
 import { rules } from "./rules.ts";
 import { shapes } from "./shapes.ts";
 import { statusLine } from "./status.ts";
@@ -28,7 +29,7 @@ export function studio(context: Context, model: WidgetModel): HTMLElement {
   const panel = h(
     "div",
     { class: "fnb-panel" },
-    section("Canvas", canvas(context)),
+    section("Canvas", h("div", {}, canvas(context), predicting(context))),
     section("Patterns", patterns(context), { add: add("pattern") }),
     section("Layers", layers(context), { add: add("layer") }),
     section("Shapes", shapes(context)),

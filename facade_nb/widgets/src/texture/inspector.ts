@@ -1,9 +1,7 @@
 // How the pixel that was clicked came about, step by step.
 
-import { focused, h, mark, setText } from "../shared/dom.ts";
-import { offers, type Question, Quiz } from "../shared/quiz.ts";
-import { quizBar } from "../shared/quizbar.ts";
-import { type Split, splitsOf } from "./question.ts";
+import { h, mark, setText } from "../shared/dom.ts";
+import { asking } from "./asking.ts";
 import { revealer } from "./revealing.ts";
 import type { Session } from "./session.ts";
 import type { Step } from "./types.ts";
@@ -21,44 +19,7 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
   const list = h("ol", { class: "fnb-tex-steps" });
   const detail = h("div", { class: "fnb-tex-detail" });
   const reveal = revealer(list, signal);
-  const offered = h("div", { class: "fnb-tex-asked" });
-  let [round, offeredBy] = [0, ""];
-  const splits = () => splitsOf(session.text, session.allSteps);
-  const asked = (): Split | undefined => {
-    const all = splits();
-    return all[round % Math.max(1, all.length)];
-  };
-  const quiz = new Quiz(() => {
-    const split = asked();
-    const none = {
-      prompt: "Click a pixel that falls into one of several parts of a split.",
-      hint: "",
-      truths: () => new Map(),
-    };
-    return [split ? questionOf(split) : none];
-  });
-  const bar = quizBar(quiz, () => {});
-  let veiled: { from: Step[]; by: string; steps: Step[] } | null = null;
-  const veil = (steps: Step[]) => {
-    const split = quiz.hides ? asked() : undefined;
-    if (!split) return steps;
-    const by = String(split.step);
-    if (veiled?.from !== steps || veiled.by !== by) {
-      const now = steps[split.step] as Step;
-      // The part is what is asked for, and what was read of the texture ends with it.
-      const hidden = { ...now, text: "which part?", records: now.records.slice(0, 1) };
-      veiled = { from: steps, by, steps: [...steps.slice(0, split.step), hidden] };
-    }
-    return veiled.steps;
-  };
-  session.veil = veil;
-  signal.addEventListener("abort", () => {
-    if (session.veil === veil) session.veil = null;
-  });
-  quiz.watch(() => {
-    round = quiz.round;
-    session.look(session.steps.length - 1);
-  }, signal);
+  const asked = asking(session, signal);
   let shown: unknown = null;
   list.addEventListener("keydown", (event) => {
     const by = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
@@ -69,22 +30,9 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
     session.look(to);
     list.children[to]?.querySelector("button")?.focus();
   });
-  const top = h("div", { class: "fnb-tex-top" }, head, bar.toggle);
+  const top = h("div", { class: "fnb-tex-top" }, head, asked.toggle);
   session.hold(() => {
-    bar.show();
-    if (quiz.on) top.after(bar.el);
-    else bar.el.remove();
-    const split = quiz.on ? asked() : undefined;
-    offered.hidden = !split;
-    const by = split ? `${quiz.stamp}|${quiz.prompt}` : "";
-    if (by !== offeredBy) {
-      offeredBy = by;
-      const inputs = () => [...offered.querySelectorAll("input")];
-      const at = inputs().indexOf(focused(offered) as HTMLInputElement);
-      const rule = split && h("p", { class: "fnb-known" }, h("code", {}, split.rule));
-      offered.replaceChildren(...(rule ? [rule, offers(quiz, (key) => h("code", {}, key))] : []));
-      inputs()[at]?.focus();
-    }
+    asked.show();
     const { steps, point } = session;
     if (shown !== steps) {
       shown = steps;
@@ -128,22 +76,5 @@ export function inspector(session: Session, signal: AbortSignal): HTMLElement {
         : "Click the façade, or press Enter on it, to see how a pixel comes about.",
     );
   }, signal);
-  return h("section", { class: "fnb-tex-inspector", "aria-label": "Pixel inspector" }, top, offered, list, detail);
-}
-
-function questionOf({ options, right, at, size, across }: Split): Question {
-  const [end, where] = across ? ["left", "wide"] : ["bottom", "high"];
-  const metres = (value: number) => `${Number(value.toFixed(2))} m`;
-  return {
-    prompt: `The pixel is ${metres(at)} from the ${end} of a scope that is ${metres(size)} ${where}. Which rule does it go on with?`,
-    hint: `parts are put one after the other from the ${end}. Abs is metres; Rel parts share what is left, each by its number. Add them up until the pixel is passed.`,
-    single: true,
-    truths: () =>
-      new Map(
-        options.map((name) => [
-          name,
-          { right: name === right, why: name === right ? "It lies in this part." : "This part lies elsewhere." },
-        ]),
-      ),
-  };
+  return h("section", { class: "fnb-tex-inspector", "aria-label": "Pixel inspector" }, top, asked.el, list, detail);
 }

@@ -4,6 +4,7 @@ import { lightAt } from "../pipeline/camera.ts";
 import { context } from "../pipeline/context.ts";
 import { h, mark, setText, svg } from "../shared/dom.ts";
 import type { WidgetModel } from "../shared/types.ts";
+import { asking } from "./asking.ts";
 import { buttons, sliders } from "./controls.ts";
 import { painting } from "./painting.ts";
 import { type Job, watch } from "./renderer.ts";
@@ -17,7 +18,8 @@ const TALLEST = 620; // pixels of the page: more than that would not fit beside 
 
 const WATCHED = ["turn", "rise", "distance", "target", "flat", "antialias"];
 
-export function picture(session: Session, model: WidgetModel, signal: AbortSignal): HTMLElement {
+/** @param asks whether the picture itself asks for predictions; where an inspector stands beside it, that does */
+export function picture(session: Session, model: WidgetModel, signal: AbortSignal, asks = false): HTMLElement {
   const root = h("section", { class: "fnb-tex-picture", "aria-label": "Façade" });
   const controlled = model.get<boolean>("controls");
   const { whyNot } = context();
@@ -29,7 +31,15 @@ export function picture(session: Session, model: WidgetModel, signal: AbortSigna
   const canvas = h("canvas", { class: "fnb-tex-canvas", tabindex: 0, role: "img" });
   root.append(stage(canvas, session, model, signal));
   const steer = steering(canvas, session, model, signal);
-  if (controlled) root.append(buttons(session, model, steer, signal), sliders(session, signal));
+  if (!controlled) return root;
+  const row = buttons(session, model, steer, signal);
+  root.append(row, sliders(session, signal));
+  if (asks) {
+    const asked = asking(session, signal);
+    row.append(asked.toggle);
+    row.after(asked.el);
+    session.hold(asked.show, signal);
+  }
   return root;
 }
 

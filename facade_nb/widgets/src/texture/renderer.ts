@@ -5,6 +5,7 @@ import { cameraValues, type Frustum } from "../pipeline/camera.ts";
 import { context } from "../pipeline/context.ts";
 import { Pipeline, type Source } from "../pipeline/pipeline.ts";
 import type { Pass, Values } from "../pipeline/types.ts";
+import { noiseBytes } from "../shared/noise.ts";
 import type { Sight } from "./sight.ts";
 import type { Common, Light, Pair, Scene, Tiles } from "./types.ts";
 
@@ -90,7 +91,7 @@ function sourceOf({ common, scene, tiles }: Job, corners: Uint8Array, seeds: Uin
     indices: INDICES,
     textures: {
       grammar: { image: grammar, content: scene.texture },
-      noise: { image: { size: texels(common.side, common.side), channels: 1, kind: "f4" }, content: own(common.noise) },
+      noise: { image: { size: texels(256, 256), channels: 1, kind: "f4" }, content: noiseBytes() },
       atlas: { image: { size: texels(tiles.width, tiles.height), channels: 4, kind: "f1" }, content: tiles.pixels },
       tile_table: {
         image: { size: texels(tiles.levels, tiles.count), channels: 4, kind: "f4" },

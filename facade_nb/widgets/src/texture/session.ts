@@ -33,8 +33,8 @@ export class Session extends Entering<Entered> {
   common: Common | null = null;
   /** The step of the derivation that is looked at. */
   step = 0;
-  /** What the inspector asks keeps back steps of all views. */
-  veil: ((steps: Step[]) => Step[]) | null = null;
+  /** What is asked in one view keeps back steps of all views. */
+  readonly veils = new Set<(steps: Step[]) => Step[]>();
   private unpacking = 0;
 
   get size(): Pair {
@@ -60,7 +60,7 @@ export class Session extends Entering<Entered> {
   }
   /** What is shown of the steps: while one is asked for, not that one and what comes behind it. */
   get steps(): Step[] {
-    return this.veil?.(this.allSteps) ?? this.allSteps;
+    return [...this.veils].reduce((steps, veil) => veil(steps), this.allSteps);
   }
   get allSteps(): Step[] {
     return this.channel.get<Step[]>("steps");
@@ -69,7 +69,7 @@ export class Session extends Entering<Entered> {
     const point = this.channel.get<number[]>("point");
     return point.length === 2 ? (point as Pair) : null;
   }
-  /** A picture in PNG, where one was drawn for pages that cannot draw. */
+  /** A picture in PNG or JPEG, where one was drawn for pages that cannot draw. */
   get still(): Uint8Array<ArrayBuffer> | null {
     const bytes = this.channel.get<Bytes>("still");
     return byteLength(bytes) ? bytesOf(bytes) : null;

@@ -3,6 +3,8 @@
 import { h, setText } from "../shared/dom.ts";
 import type { Session } from "./session.ts";
 
+const PNG = 0x89; // how such a file begins
+
 /** Whose picture it is. */
 interface Pictured {
   readonly still: Uint8Array<ArrayBuffer> | null;
@@ -13,13 +15,13 @@ interface Pictured {
 
 export function stillPicture(session: Session, whyNot: string, signal: AbortSignal): HTMLElement {
   const what = () => `Façade, ${session.size[0]} by ${session.size[1]} metres, straight on`;
-  return stillOf(session, { whyNot, what, label: "Still picture of the façade", type: "image/png" }, signal);
+  return stillOf(session, { whyNot, what, label: "Still picture of the façade" }, signal);
 }
 
 /** The still picture of whatever has one. */
 export function stillOf(
   session: Pictured,
-  { whyNot, what, label, type }: { whyNot: string; what: () => string; label: string; type: string },
+  { whyNot, what, label }: { whyNot: string; what: () => string; label: string },
   signal: AbortSignal,
 ): HTMLElement {
   const image = h("img", { class: "fnb-tex-still", hidden: true });
@@ -41,7 +43,7 @@ export function stillOf(
     if (!still || still.buffer === shown) return;
     shown = still.buffer;
     forget();
-    address = URL.createObjectURL(new Blob([still], { type }));
+    address = URL.createObjectURL(new Blob([still], { type: still[0] === PNG ? "image/png" : "image/jpeg" }));
     image.src = address;
   }, signal);
   session.askStill();

@@ -48,8 +48,6 @@ export interface Common {
   stride: number;
   attributes: Record<string, [count: number, offset: number]>;
   hours: Light[];
-  side: number;
-  noise: Float32Array;
 }
 
 export interface Step {

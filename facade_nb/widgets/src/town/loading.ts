@@ -161,7 +161,6 @@ export class Loading {
 
   private next(place: Place): { name: string; blocks: number[] } | { names: string[]; upto: number } | null {
     return (
-      this.of("noise") ??
       (this.tiles.complete ? null : this.tiles.next(COARSE, AT_ONCE)) ??
       this.near(place, this.meshed ? NEAR : 0) ??
       this.tiles.next(this.needed, AT_ONCE) ??

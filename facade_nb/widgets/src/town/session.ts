@@ -3,6 +3,7 @@
 import { context } from "../pipeline/context.ts";
 import { Pipeline, type Source } from "../pipeline/pipeline.ts";
 import { Entering } from "../shared/entering.ts";
+import { noiseBytes } from "../shared/noise.ts";
 import { oneFor } from "../shared/one.ts";
 import { type Bytes, byteLength, bytesOf, unpack } from "../shared/packing.ts";
 import type { Fault } from "../shared/types.ts";
@@ -130,7 +131,7 @@ export class Session extends Entering<Entered> {
 
   /** Whether there is something to draw. */
   get drawable(): boolean {
-    return !!this.pipeline && this.loading.meshed && this.loading.whole("noise") && !!this.fitted.images;
+    return !!this.pipeline && this.loading.meshed && !!this.fitted.images;
   }
 
   /** Whether all has come that there is to draw, as far as is known here. */
@@ -208,7 +209,7 @@ export class Session extends Entering<Entered> {
     const textures: Source["textures"] = Object.fromEntries(
       Object.entries(head.textures).map(([name, image]) => [
         name,
-        { image, content: name === "grammar" ? head.grammar : this.loading.content(name) },
+        { image, content: name === "grammar" ? head.grammar : noiseBytes() },
       ]),
     );
     return {

@@ -4,9 +4,5 @@ import { stillOf } from "../texture/still.ts";
 import type { Session } from "./session.ts";
 
 export function stillPicture(session: Session, whyNot: string, signal: AbortSignal): HTMLElement {
-  return stillOf(
-    session,
-    { whyNot, what: () => "Town", label: "Still picture of the town", type: "image/jpeg" },
-    signal,
-  );
+  return stillOf(session, { whyNot, what: () => "Town", label: "Still picture of the town" }, signal);
 }

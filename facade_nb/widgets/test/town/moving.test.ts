@@ -128,7 +128,7 @@ describe("what is loaded", () => {
     blobs: {
       vertices: { bytes: 30, block: 10, version: 0 },
       indices: { bytes: 36, block: 36, version: 0 },
-      noise: { bytes: 4, block: 4, version: 0 },
+      edges: { bytes: 4, block: 4, version: 0 },
     },
     tiles: [],
   } as unknown as Head;
@@ -142,7 +142,7 @@ describe("what is loaded", () => {
     );
     loading.take(head);
     loading.ask(HERE);
-    expect(asked.map(({ name }) => name)).toEqual(["noise", "indices"]);
+    expect(asked.map(({ name }) => name)).toEqual(["indices", "vertices"]);
     for (let k = 0; k < asked.length; k += 1) {
       const { name, version, blocks } = asked[k] as (typeof asked)[number];
       const info = head.blobs[name] as { bytes: number; block: number };
@@ -159,8 +159,8 @@ describe("what is loaded", () => {
     expect(loading.part).toBe(1);
     expect([0, 1, 2].every((chunk) => loading.has(chunk))).toBe(true);
     expect(come).toContain("vertices 20 30");
-    loading.take({ ...head, blobs: { ...head.blobs, noise: { bytes: 4, block: 4, version: 2 } } } as Head);
-    expect(loading.whole("noise")).toBe(false); // it is asked for anew
+    loading.take({ ...head, blobs: { ...head.blobs, edges: { bytes: 4, block: 4, version: 2 } } } as Head);
+    expect(loading.whole("edges")).toBe(false); // it is asked for anew
     expect(loading.whole("vertices")).toBe(true);
   });
 
