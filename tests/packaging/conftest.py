@@ -10,11 +10,14 @@ import tarfile
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from importlib.metadata import distribution
 from pathlib import Path
 
 import pytest
 from build import ProjectBuilder
 from build.env import DefaultIsolatedEnv
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 Build = Callable[[str, Path, Path], Path]
 
@@ -111,20 +114,40 @@ def wheel_of_sdist(sdist: Archive, build: Build, tmp_path_factory: pytest.TempPa
     return read_wheel(build("wheel", folder, out))
 
 
+def needed(name: str, extra: str = "") -> set[str]:
+    """A distribution and all that it asks for here: what pip would install, for set-up has done so."""
+    found = {name: {extra}}
+    waiting = [(name, extra)]
+    while waiting:
+        one, extra = waiting.pop()
+        for asked in map(Requirement, distribution(one).requires or ()):
+            if asked.marker is not None and not asked.marker.evaluate({"extra": extra}):
+                continue
+            for more in ("", *asked.extras):
+                if more not in found.setdefault(canonicalize_name(asked.name), set()):
+                    found[canonicalize_name(asked.name)].add(more)
+                    waiting.append((asked.name, more))
+    return set(found) - {name}
+
+
 @pytest.fixture(scope="session")
 def installed(
-    root: Path,
-    wheel_of_sdist: Archive,
-    bare_environment: dict[str, str],
-    tmp_path_factory: pytest.TempPathFactory,
+    wheel_of_sdist: Archive, bare_environment: dict[str, str], tmp_path_factory: pytest.TempPathFactory
 ) -> Path:
-    """Install the wheel with what it depends on, and nothing else; return the Python that has it."""
+    """Install the wheel; return the Python that has it, with what it depends on, and nothing else.
+
+    What it depends on is linked from where it is installed already: to fetch and unpack it again takes 20 s.
+    """
     folder = tmp_path_factory.mktemp("venv")
-    subprocess.run([sys.executable, "-m", "venv", folder], check=True, env=bare_environment)
-    python = folder / "bin" / "python"
-    # What is not imported need not be compiled.
-    pip = [python, "-m", "pip", "--disable-pip-version-check", "install", "-q", "--no-compile"]
-    options = ["-c", root / "constraints.txt", wheel_of_sdist.path]
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True, env=bare_environment)
+    (site,) = folder.glob("lib/python*/site-packages")
+    for name in needed("facade_nb"):
+        own = distribution(name)
+        for top in {path.parts[0] for path in own.files or ()} - {"..", "__pycache__"}:
+            if not (site / top).exists():  # a folder that several share
+                (site / top).symlink_to(str(own.locate_file(top)))
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "install", "-q", "--no-compile"]
+    options = ["--no-deps", "--no-index", "--target", site, wheel_of_sdist.path]
     done = subprocess.run([*pip, *options], env=bare_environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
-    return python
+    return folder / "bin" / "python"
