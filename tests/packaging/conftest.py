@@ -10,7 +10,7 @@ import tarfile
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from importlib.metadata import distribution
+from importlib.metadata import Distribution, distribution, distributions
 from pathlib import Path
 
 import pytest
@@ -114,20 +114,21 @@ def wheel_of_sdist(sdist: Archive, build: Build, tmp_path_factory: pytest.TempPa
     return read_wheel(build("wheel", folder, out))
 
 
-def needed(name: str, extra: str = "") -> set[str]:
-    """A distribution and all that it asks for here: what pip would install, for set-up has done so."""
-    found = {name: {extra}}
-    waiting = [(name, extra)]
+def needed(first: Distribution) -> dict[str, Distribution]:
+    """All that a distribution asks for, as it is installed here: what pip would install beside it."""
+    found: dict[str, Distribution] = {}
+    seen = {(first.name, "")}
+    waiting = [(first, "")]
     while waiting:
         one, extra = waiting.pop()
-        for asked in map(Requirement, distribution(one).requires or ()):
-            if asked.marker is not None and not asked.marker.evaluate({"extra": extra}):
-                continue
-            for more in ("", *asked.extras):
-                if more not in found.setdefault(canonicalize_name(asked.name), set()):
-                    found[canonicalize_name(asked.name)].add(more)
-                    waiting.append((asked.name, more))
-    return set(found) - {name}
+        for asked in map(Requirement, one.requires or ()):
+            if asked.marker is None or asked.marker.evaluate({"extra": extra}):
+                name = canonicalize_name(asked.name)
+                found.setdefault(name, distribution(name))
+                new = {(name, own) for own in ("", *asked.extras)} - seen
+                seen |= new
+                waiting += [(found[name], own) for _, own in new]
+    return found
 
 
 @pytest.fixture(scope="session")
@@ -141,13 +142,13 @@ def installed(
     folder = tmp_path_factory.mktemp("venv")
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True, env=bare_environment)
     (site,) = folder.glob("lib/python*/site-packages")
-    for name in needed("facade_nb"):
-        own = distribution(name)
-        for top in {path.parts[0] for path in own.files or ()} - {"..", "__pycache__"}:
-            if not (site / top).exists():  # a folder that several share
-                (site / top).symlink_to(str(own.locate_file(top)))
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "install", "-q", "--no-compile"]
     options = ["--no-deps", "--no-index", "--target", site, wheel_of_sdist.path]
     done = subprocess.run([*pip, *options], env=bare_environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
+    (wheel,) = distributions(name="facade_nb", path=[str(site)])
+    for own in needed(wheel).values():
+        for top in {path.parts[0] for path in own.files or ()} - {"..", "__pycache__"}:
+            if not (site / top).exists():  # a folder that several share
+                (site / top).symlink_to(str(own.locate_file(top)))
     return folder / "bin" / "python"
