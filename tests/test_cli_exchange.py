@@ -95,6 +95,8 @@ def test_the_libraries_are_loaded_when_a_file_is_made() -> None:
     code = (
         "import sys, facade_nb, facade_nb.render, facade_nb.cli\n"
         "heavy = {'ezdxf', 'reportlab', 'shapely', 'pandas', 'trimesh', 'fontTools', 'PIL'} & set(sys.modules)\n"
-        "assert not heavy, heavy"
+        "assert not heavy, heavy\n"
+        "import facade_nb.widgets.studio.parts\n"
+        "assert 'scipy.cluster' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

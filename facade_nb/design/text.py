@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from unicodedata import category, combining, decomposition, east_asian_width
 
 from .errors import Fault
@@ -85,6 +86,7 @@ def counter_fault(name: str) -> str:
     return ""
 
 
+@lru_cache(maxsize=1024)  # a trace spells the same few symbols half a million times
 def _is_short(name: str) -> bool:
     """Whether patterns can write the name bare: one letter with its marks, then digits; ε alone is the empty word."""
     if not name[:1].isalpha() or name == "ε" or is_foreign(name[0]) or _PIECES.match(name):

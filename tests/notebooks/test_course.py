@@ -14,7 +14,6 @@ from typing import Any
 
 import nbformat
 import pytest
-from nbclient import NotebookClient
 
 from facade_nb import solve
 from facade_nb.course import Chapter, Exercise, chapter
@@ -58,19 +57,6 @@ def cells(name: str) -> list[nbformat.NotebookNode]:
         for own in nbformat.read(TUTORIALS / f"{name}.ipynb", as_version=4).cells
         if own.cell_type == "code"
     ]
-
-
-def test_they_run_one_after_the_other() -> None:
-    """In one kernel, which forgets all names in between: a kernel takes longer to start than most of them to run."""
-    joined = nbformat.v4.new_notebook()
-    for name in CHAPTERS:
-        joined.cells += [nbformat.v4.new_code_cell("%reset -f"), *cells(name)]
-    client = NotebookClient(
-        joined, timeout=None, kernel_name="python3", resources={"metadata": {"path": str(TUTORIALS)}}
-    )
-    client.execute()  # raises at the first cell that fails
-    outputs = [output for cell in joined.cells for output in cell.get("outputs", ())]
-    assert len(outputs) > 60 and not [own.text for own in outputs if own.get("name") == "stderr"]
 
 
 @pytest.fixture

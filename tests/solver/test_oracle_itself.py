@@ -132,7 +132,7 @@ class TestFigure4:
     def solve(self, canvas: float, p_opaque: bool, unoccludable: str, attached: str) -> list[str]:
         top = word("aPbPa", FIGURE_4, see_through="ab", clear="" if p_opaque else "P")
         rows = [top, word("ADBDADBDA", FIGURE_4, unoccludable=unoccludable, attached=attached)]
-        return picture(rows, best(rows, canvas, canvas / 2, DEFAULT))
+        return picture(rows, best(rows, canvas, canvas / 6, DEFAULT))
 
     def test_p_covers_d(self) -> None:
         top, wall = (line.split() for line in self.solve(7.4, False, "", ""))

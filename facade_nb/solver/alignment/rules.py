@@ -210,11 +210,33 @@ def tally(group: Rows, column: Sequence[Option | None], sizes: Sequence[float | 
         Per band: the size of its element, metres, where an elastic one has got one.
     """
     plain = group.objective.plain
-    total = Tally()
+    # `Tally.plus` row by row, without a tally of each: columns are weighed by the hundred thousand
+    high, loose, soft_sizes = 0.0, 0.0, 0.0
+    filling = least = inf
+    empties = softs = 0
+    elastic = False
     for b, option in enumerate(column):
-        if option is not None:
-            total = total.plus(option, plain, None if sizes is None else sizes[b])
-    return total
+        if option is None:
+            continue
+        if option.empty:
+            empties += 1
+            continue
+        size = option.size if sizes is None or sizes[b] is None else sizes[b]
+        if size is None:
+            elastic = True
+            high = max(high, option.least)
+            continue
+        if option.soft:
+            softs += 1
+            soft_sizes += size
+        if size < filling and (plain or not option.soft):
+            filling = size
+        if size > high:
+            high = size
+        if size < least:
+            least = size
+        loose += option.loose
+    return Tally(high, filling, least, empties, loose, softs, soft_sizes, elastic)
 
 
 def price(group: Rows, column: Tally, omega: float) -> float:
@@ -263,13 +285,15 @@ def occluded(group: Rows, column: Sequence[Option | None]) -> Iterator[tuple[int
                     yield b, above
 
 
-def broken(group: Rows, owed: bool, column: Sequence[Option]) -> Broken | None:
+def broken(group: Rows, owed: bool, column: Sequence[Option], omega: float | None = None) -> Broken | None:
     """The first rule that a whole column breaks; None where it breaks none.
 
     Parameters
     ----------
     owed
         No letter ended at the boundary before the column, so that one has to begin there.
+    omega
+        ω of the column, metres, where the caller knows it already.
     """
     if all(option.empty for option in column):
         return "empty"
@@ -279,6 +303,6 @@ def broken(group: Rows, owed: bool, column: Sequence[Option]) -> Broken | None:
         return "C1"
     if next(occluded(group, column), None) is not None:
         return "C3"
-    if tally(group, column).omega > group.tolerance + EPS:
+    if (tally(group, column).omega if omega is None else omega) > group.tolerance + EPS:
         return "omega"
     return None

@@ -256,6 +256,9 @@ class Walked:
             if refused is None:
                 if tuple((o.letters, o.target) for o in column if o is not None) in made:
                     continue
+                if min(count.get("width", 0), count.get("bound", 0)) >= REFUSED:
+                    self._left += 1  # whichever of the two it is, it is one too many
+                    continue
                 refused = self._too_dear(path, [option for option in column if option is not None], limit)
             count[refused.constraint] = count.get(refused.constraint, 0) + 1
             if count[refused.constraint] > REFUSED:

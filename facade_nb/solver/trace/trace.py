@@ -66,11 +66,12 @@ class Events(Sequence[Event]):
     def __iter__(self) -> Iterator[Event]:
         n = 0
         while True:
-            self._make(n)
-            if n >= len(self._made):
+            while n < len(self._made):  # what is made is never taken back: it is read without the lock
+                yield self._made[n]
+                n += 1
+            if self._source is None and n == len(self._made):
                 return
-            yield self._made[n]
-            n += 1
+            self._make(n)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Sequence) and list(self) == list(other)

@@ -8,9 +8,9 @@ from typing import Any
 from facade_nb import Layout, gallery, solve
 from facade_nb.design import Canvas
 from facade_nb.solver.model.layout import PlacedShape, Rect
-from tests.known import TELLING
+from tests.known import FEW
 
-NAMES = tuple(TELLING)
+NAMES = tuple(FEW)
 
 QUICK = ("figure-7", "qualifiers-a", "residential-house", "ingolstadt-4018215")
 """Designs of few lines, for what takes long."""

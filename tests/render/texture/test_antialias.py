@@ -1,4 +1,4 @@
-"""Antialiasing of split boundaries, against 256 samples a pixel."""
+"""Antialiasing of split boundaries, against 89 samples a pixel."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ def question(text: str) -> Question:
 
 
 def truth(asked: Question, sight: Sight) -> Floats:
-    """The mean of 16 × 16 samples in each pixel."""
-    shifts = (np.arange(16) + 0.5) / 16
-    colors = [CPU.paint_at(asked, sight.looks(None, (x, y))).surface.color for x in shifts for y in shifts]
+    """The mean of 89 samples in each pixel, no two of which have an x or a y in common (a Fibonacci lattice)."""
+    shifts = [((n + 0.5) / 89, (n * 55 % 89 + 0.5) / 89) for n in range(89)]
+    colors = [CPU.paint_at(asked, sight.looks(None, at)).surface.color for at in shifts]
     mean: Floats = np.mean(colors, axis=0, dtype=np.float32)
     return mean
 

@@ -21,10 +21,10 @@ from facade_nb.render.texture import Grammar
 from facade_nb.render.texture.from_layout import LayoutGrammar, grammar_of
 from facade_nb.render.tiles import TileSet
 from facade_nb.solver.model.layout import PlacedShape
-from tests.known import TELLING
+from tests.known import FEW
 
 TILES = TileSet.builtin(64)
-NAMES = TELLING
+NAMES = FEW
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -45,7 +45,7 @@ def _elevation(layout: Layout) -> tuple[np.ndarray, np.ndarray]:
 
     From the drawing alone: every shape's cell covers it exactly, and later ones cover earlier ones.
     """
-    root = ElementTree.fromstring(elevation_svg(layout, width_px=700))
+    root = ElementTree.fromstring(elevation_svg(layout, width_px=500))
     scale = float(root.attrib["data-scale"])
     left, bottom = map(float, root.attrib["data-origin"].split())
     width, height = round(layout.canvas.width * scale), round(layout.canvas.height * scale)

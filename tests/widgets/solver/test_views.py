@@ -111,7 +111,8 @@ class TestTimeline:
     @pytest.mark.parametrize("name", TRACES)
     def test_a_moment_leads_back_to_its_position(self, name: str) -> None:
         events = list(TRACES[name]().events)
-        for position in range(0, len(events), 7):
+        ends = [end for own in timeline.segments(events) for end in (own.first, own.last)]
+        for position in (*ends, *range(0, len(events), 97)):
             assert timeline.locate(events, timeline.moment_of(events, position)) == position
 
     def test_a_moment_of_another_trace_leads_near(self, trace: Trace) -> None:

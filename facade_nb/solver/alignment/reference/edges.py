@@ -155,7 +155,7 @@ class Maker:
         cost = price(group, column, omega)
         if cost + after > self.limit or cost + after <= self.floor or omega > self.mu:
             return
-        if broken(group, self.owed, chosen) is not None:
+        if broken(group, self.owed, chosen, omega) is not None:
             return
         rested = column.filling < inf
         ended = any(option.ends for option in chosen)
