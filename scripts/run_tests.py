@@ -106,6 +106,8 @@ class Runner:
         self.results: dict[str, Result] = {}
         self._free = asyncio.Semaphore(CORES)
         self._environment = {**os.environ, "PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}"}
+        # Some hundred processes import the package, kernels and commands: each would compile it anew.
+        self._environment.pop("PYTHONDONTWRITEBYTECODE", None)
         if not sys.stdout.isatty():
             self._environment["NO_COLOR"] = "1"
 
