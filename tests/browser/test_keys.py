@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import CDPSession, Locator, expect
 
-from .conftest import HOUSE, Visit
-from .jupyter import App, Notebook
+from .jupyter import Notebook
 
 WALL = "S -> Mat(Color, 0, 1, 0, 0, 1)"
 SHOWN = f"""
@@ -344,34 +343,6 @@ def test_letters_typed_after_undo_stay_when_the_kernel_is_slow(both: Notebook, e
     expect(field).to_have_value(f"{before}BA")
     both.expect_python(EDITORS[editor], f"{before}BA")
     expect(field).to_have_value(f"{before}BA")
-
-
-@pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_keys_in_other_applications(visit: Visit, app: App) -> None:
-    with visit(app) as notebook:
-        page = notebook.page
-        notebook.open(HOUSE + SHOWN + "display(PatternEditor(model), GrammarEditor(texture))")
-        if app == "notebook":
-            notebook.run()
-        for label in EDITORS:
-            field = notebook.field(label)
-            expect(field).to_be_visible()
-            before = field.input_value()
-            at_end(notebook, label)
-            page.keyboard.press("Enter")
-            page.keyboard.type("dd")
-            expect(field).to_have_value(f"{before}\ndd")
-            page.keyboard.press("Control+z")
-            expect(field).to_have_value(before)
-        if app == "notebook":
-            page.evaluate(f"() => {{ {PANEL}.context.model.dirty = true; }}")
-            page.keyboard.press("Control+s")
-            page.wait_for_function(f"() => !{PANEL}.context.model.dirty")
-            notebook.button("Add a pattern").focus()
-            for key in "dd":
-                page.keyboard.press(key)
-            expect(page.locator(".jp-Notebook-cell")).to_have_count(1)
-        assert notebook.take_problems() == []
 
 
 @pytest.mark.parametrize("theme", ["Light", "Dark"])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import signal
 import urllib.request
 from collections.abc import Callable, Iterator
@@ -13,9 +12,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from .conftest import HOUSE, Served, Visit
+from .conftest import HOUSE, Served
 from .gate import Gate
-from .jupyter import App, Notebook
+from .jupyter import Notebook
 from .waiting import LIMIT, frames
 
 SOME = """
@@ -248,21 +247,6 @@ def press_everything(page: Page) -> None:
     page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     page.mouse.wheel(0, 40)
     frames(page, 3)
-
-
-@pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_a_killed_kernel_is_told_in_other_applications(visit: Visit, app: App) -> None:
-    with visit(app) as notebook:
-        page = notebook.page
-        notebook.open(HOUSE + "import os; print('pid', os.getpid(), '.')\nStudio(model)")
-        if app == "notebook":
-            notebook.run()
-        expect(page.locator("[data-shape]").first).to_be_visible()
-        expect(page.locator(".fnb-absence:visible")).to_have_count(0)
-        [pid] = re.findall(r"pid (\d+)", page.get_by_text("pid ").last.inner_text())
-        os.kill(int(pid), signal.SIGKILL)
-        expect(page.get_by_text("The kernel died and was started anew.")).to_be_visible()
-        expect(notebook.field("Pattern Bx")).to_have_attribute("readonly", "")
 
 
 def test_views_that_are_made_later_show_what_was_typed_too(server: Server, out: Path) -> None:
