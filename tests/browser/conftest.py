@@ -30,9 +30,33 @@ def traced(name, **more):
     return solve(gallery.load(name), trace=True, time_limit=None, **more)
 """
 
+LONG = (
+    "houses",
+    "thirty",
+    "lost_kernel",
+    "town",
+    "flying",
+    "texture",
+    "keys",
+    "studio",
+    "solver_page",
+    "building",
+    "applications",
+    "questions",
+    "stage",
+    "marimo",
+)
+"""Files of tests, those that take the longest first: begun last, one would keep a process waiting for another."""
+
 Watch = Callable[[str], Notebook]
 Served = Callable[[App], tuple[str, str, Path]]
 Visit = Callable[[App], contextlib.AbstractContextManager[Notebook]]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the files that take the longest; a file's own tests stay in their order."""
+    place = {Path(__file__).parent / f"test_{name}.py": number for number, name in enumerate(LONG)}
+    items.sort(key=lambda item: place.get(item.path, len(LONG)))
 
 
 @pytest.fixture(scope="session")
