@@ -55,7 +55,9 @@ class Step:
 # a browser and a kernel wait for each other by turns. Their clock is a hand's, and two of them side by side leave room:
 # so all else runs beside them and gives way.
 STEPS: dict[str, Step] = {
-    "browser": Step((*PYTEST, "-n", "2", "--dist", "loadfile", "tests/browser"), cores=0),
+    "browser": Step(
+        (*PYTEST, "-n", "2", "--dist", "loadfile", "--no-loadscope-reorder", "tests/browser"), cores=0
+    ),
     "solver": Step((*PYTEST, *SPREAD, "tests/solver"), cores=THIRD),
     "others": Step(
         (

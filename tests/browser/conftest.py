@@ -30,9 +30,33 @@ def traced(name, **more):
     return solve(gallery.load(name), trace=True, time_limit=None, **more)
 """
 
+LONG = (
+    "houses",
+    "thirty",
+    "lost_kernel",
+    "town",
+    "flying",
+    "texture",
+    "keys",
+    "studio",
+    "solver_page",
+    "building",
+    "applications",
+    "questions",
+    "stage",
+    "marimo",
+)
+"""Files of tests, those that take the longest first: begun last, one would keep a process waiting for another."""
+
 Watch = Callable[[str], Notebook]
 Served = Callable[[App], tuple[str, str, Path]]
 Visit = Callable[[App], contextlib.AbstractContextManager[Notebook]]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the files that take the longest; a file's own tests stay in their order."""
+    place = {Path(__file__).parent / f"test_{name}.py": number for number, name in enumerate(LONG)}
+    items.sort(key=lambda item: place.get(item.path, len(LONG)))
 
 
 @pytest.fixture(scope="session")
@@ -64,7 +88,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
 
 
 @pytest.fixture(scope="session")
-def visit(pages: BrowserContext, served: Served) -> Visit:
+def visit_anew(pages: BrowserContext, served: Served) -> Visit:
     """Open a page of an application, for `with`."""
 
     @contextlib.contextmanager
@@ -78,11 +102,35 @@ def visit(pages: BrowserContext, served: Served) -> Visit:
 
 
 @pytest.fixture(scope="session")
-def opened_lab(visit: Visit) -> Iterator[Notebook]:
-    with visit("lab") as lab:
+def opened_lab(visit_anew: Visit) -> Iterator[Notebook]:
+    with visit_anew("lab") as lab:
         lab.open("0")
         lab.page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
         yield lab
+
+
+@pytest.fixture(scope="session")
+def visit(visit_anew: Visit, request: pytest.FixtureRequest) -> Visit:
+    """As `visit_anew`; in JupyterLab, notebooks are opened beside the one that is there and has its own kernel.
+
+    Reading and starting JupyterLab takes longer than most tests.
+    """
+
+    @contextlib.contextmanager
+    def visiting(app: App) -> Iterator[Notebook]:
+        if app != "lab":
+            with visit_anew(app) as notebook:
+                yield notebook
+            return
+        lab: Notebook = request.getfixturevalue("opened_lab")
+        lab.run("0")  # what the test before has shown must not be taken for this one's
+        expect(lab.page.locator(".fnb")).to_have_count(0)
+        lab.resize(1280, 720)
+        with lab.beside():
+            lab.take_problems()
+            yield lab
+
+    return visiting
 
 
 @pytest.fixture

@@ -50,11 +50,23 @@ _HARMLESS = (
     "ERR_NAME_NOT_RESOLVED",
     "federation",  # Voilà
     "favicon",
+    "[anywidget] Failed to initialize model.",  # it waits for 2 s; whether all is shown is looked at all the same
 )
 _LABS_OWN = re.compile(r"removeChild.*static/lab/jlab_core[^\n]*$", re.S)
 """JupyterLab now and then loses a node while window and theme change; nothing of ours is on the stack."""
 
 _PANEL = "window.jupyterapp.shell.currentWidget"
+_CLOSE = """async name => {
+    const { shell } = window.jupyterapp;
+    for (const panel of [...shell.widgets("main")].filter(panel => panel.context?.path === name)) panel.dispose();
+}"""
+_OPEN = """async name => {
+    const { commands, shell } = window.jupyterapp;
+    const open = [...shell.widgets("main")].find(panel => panel.context?.path === name);
+    const panel = open ?? await commands.execute("docmanager:open", { path: name });
+    await panel.context.ready;
+    shell.activateById(panel.id);
+}"""
 
 
 @contextlib.contextmanager
@@ -157,7 +169,9 @@ class Notebook:
         page.set_default_timeout(1000 * LIMIT)
 
     def open(self, code: str, name: str = "test.ipynb") -> None:
-        """Write a notebook with that code and open it; Voilà runs it, too."""
+        """Write a notebook with that code and open it anew; Voilà runs it, too."""
+        if self._in_lab():
+            self.page.evaluate(_CLOSE, name)
         notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(code)])
         notebook.metadata.kernelspec = {"name": "python3", "display_name": "Python 3", "language": "python"}
         nbformat.write(notebook, self._root / name)
@@ -166,6 +180,10 @@ class Notebook:
     def visit(self, name: str) -> None:
         """Open a notebook that is there."""
         self._names.add(name)
+        if self._in_lab():
+            self.page.evaluate(_OPEN, name)
+            self._await_kernel()
+            return
         path = {
             "lab": f"/lab/workspaces/{secrets.token_hex(4)}/tree/{name}?reset&token={self._token}",
             "notebook": f"/notebooks/{name}?token={self._token}",
@@ -173,14 +191,37 @@ class Notebook:
         }[self.app]
         self.page.goto(self._address + path)
         if self.app != "voila":
-            self.page.wait_for_function(
-                f"""() => {{
-                    const panel = window.jupyterapp?.shell.currentWidget;
-                    return panel?.context?.isReady
-                        && {_PANEL}.sessionContext?.session?.kernel?.connectionStatus === "connected"
-                        && {_PANEL}.sessionContext.kernelDisplayStatus === "idle";
-                }}""",
-            )
+            self._await_kernel()
+
+    def _in_lab(self) -> bool:
+        """Whether JupyterLab has been started on the page."""
+        return self.app == "lab" and self.page.url.startswith(f"{self._address}/lab")
+
+    def _await_kernel(self) -> None:
+        """Wait until the notebook that is looked at has a kernel that waits for work."""
+        self.page.wait_for_function(
+            f"""() => {{
+                const panel = window.jupyterapp?.shell.currentWidget;
+                return panel?.context?.isReady
+                    && {_PANEL}.sessionContext?.session?.kernel?.connectionStatus === "connected"
+                    && {_PANEL}.sessionContext.kernelDisplayStatus === "idle";
+            }}""",
+        )
+
+    @contextlib.contextmanager
+    def beside(self) -> Iterator[None]:
+        """Open other notebooks in JupyterLab; at the end they are closed with their kernels, and this one is back."""
+        own, self._names = self._names, set()
+        try:
+            yield
+        finally:
+            theirs, self._names = self._names, own
+            for name in theirs:
+                self.page.evaluate(_CLOSE, name)
+            self._end(theirs)
+            for name in own:
+                self.page.evaluate(_OPEN, name)
+            self._await_kernel()
 
     @property
     def root(self) -> Path:
@@ -194,10 +235,13 @@ class Notebook:
     def end(self) -> None:
         """Leave the page; the kernels of the notebooks that were open end."""
         self.page.goto("about:blank")  # Voilà ends its own
-        if self.app == "voila":
-            return
+        if self.app != "voila":
+            self._end(self._names)
+
+    def _end(self, names: set[str]) -> None:
+        """End the kernels of those notebooks."""
         for session in self._ask("sessions"):
-            if session["path"] in self._names:
+            if session["path"] in names:
                 self._ask(f"sessions/{session['id']}", "DELETE")
 
     def _ask(self, what: str, method: str = "GET") -> Any:

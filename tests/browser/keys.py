@@ -26,18 +26,22 @@ def paste(field: Locator, text: str) -> None:
 
 
 def slide(field: Locator, value: float) -> None:
-    """Bring a slider to a value by its keys: to its end, by pages, then by steps."""
-    field.press("Home")
-    for key in ("PageUp", "ArrowRight"):
+    """Bring a slider to a value by its keys: to the nearer end, by pages, then by steps."""
+    low, high = field.evaluate("slider => [Number(slider.min), Number(slider.max)]")
+    end, sign, keys = "Home", 1, ("PageUp", "ArrowRight")
+    if value - low > high - value:
+        end, sign, keys = "End", -1, ("PageDown", "ArrowLeft")
+    field.press(end)
+    for key in keys:
         while True:
             before = float(field.input_value())
             if abs(before - value) < 1e-6:
                 return
             field.press(key)
             after = float(field.input_value())
-            assert after > before, f"{key} does not move the slider beyond {before}"
-            if after > value + 1e-6:
+            assert sign * (after - before) > 0, f"{key} does not move the slider beyond {before}"
+            if sign * (after - value) > 1e-6:
                 break
-        if key == "PageUp":
-            field.press("PageDown")
+        if key.startswith("Page"):
+            field.press("PageDown" if sign > 0 else "PageUp")
     raise AssertionError(f"the slider has no step at {value}")

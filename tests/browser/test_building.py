@@ -101,7 +101,6 @@ class Shown:
 def opened(visit: Visit) -> Iterator[Shown]:
     with visit("lab") as lab:
         lab.open("0", "building.ipynb")
-        lab.page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
         lab.resize(1000, 800)
         lab.run(HEAD + "view")
         lab.shown()

@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import CDPSession, Locator, expect
 
-from .conftest import HOUSE, Visit
-from .jupyter import App, Notebook
+from .jupyter import Notebook
 
 WALL = "S -> Mat(Color, 0, 1, 0, 0, 1)"
 SHOWN = f"""
@@ -100,14 +99,16 @@ def test_enter_types_a_line(both: Notebook, editor: str) -> None:
     assert caret(field) == len(text) - 1
 
 
-@pytest.mark.parametrize("chord", ["Alt+Enter", "Control+Enter", "Shift+Enter"])
-def test_enter_in_a_line_does_not_run_the_cell(both: Notebook, chord: str) -> None:
-    name = at_end(both, "Name of pattern Bx")
-    both.page.keyboard.type("2")
-    both.page.keyboard.press(chord)
-    expect(both.field("Pattern Bx2")).to_be_visible()  # it is committed, in the same widget
-    expect(both.page.locator(".jp-Notebook-cell")).to_have_count(1)
-    expect(name).to_have_count(0)
+def test_enter_in_a_line_does_not_run_the_cell(both: Notebook) -> None:
+    name = "Bx"
+    for chord in ("Alt+Enter", "Control+Enter", "Shift+Enter"):
+        field = at_end(both, f"Name of pattern {name}")
+        both.page.keyboard.type("2")
+        both.page.keyboard.press(chord)
+        name += "2"
+        expect(both.field(f"Pattern {name}")).to_be_visible()  # it is committed, in the same widget
+        expect(both.page.locator(".jp-Notebook-cell")).to_have_count(1)
+        expect(field).to_have_count(0)
 
 
 def test_the_grammar_is_undone_and_redone(both: Notebook) -> None:
@@ -180,37 +181,37 @@ def test_a_name_that_is_being_typed_has_an_undo_of_its_own(both: Notebook) -> No
     both.expect_python("model.design.canvas.width == 7", False)
 
 
-@pytest.mark.parametrize("label", [*FIELDS, "Add a pattern", "Move layer door"])
-def test_the_hosts_keys_reach_it_and_no_others(both: Notebook, label: str) -> None:
-    place = both.field(label)
+def test_the_hosts_keys_reach_it_and_no_others(both: Notebook) -> None:
     page, keyboard = both.page, both.page.keyboard
-    page.evaluate(f"() => {{ {PANEL}.context.model.dirty = true; }}")
-    place.focus()
     side = page.locator("#jp-left-stack")
-    for shown in (True, False):
-        keyboard.press("Control+b")
-        expect(side).to_be_visible(visible=shown)
-    keyboard.press("Control+s")
-    page.wait_for_function(f"() => !{PANEL}.context.model.dirty")
-    expect(place).to_be_focused()
-    for key in ("Control+a", "d", "d", "x", "a", "b", "m", "Control+c", "Control+ArrowLeft"):
-        keyboard.press(key)
-    expect(page.locator(".jp-Notebook-cell")).to_have_count(1)
-    assert page.evaluate(f"() => {PANEL}.content.activeCell.model.type") == "code"
-    if label in FIELDS:
-        expect(place).to_have_value("ddxabm")
+    for label in (*FIELDS, "Add a pattern", "Move layer door"):
+        place = both.field(label)
+        page.evaluate(f"() => {{ {PANEL}.context.model.dirty = true; }}")
+        place.focus()
+        for shown in (True, False):
+            keyboard.press("Control+b")
+            expect(side).to_be_visible(visible=shown)
+        keyboard.press("Control+s")
+        page.wait_for_function(f"() => !{PANEL}.context.model.dirty")
+        expect(place).to_be_focused()
+        for key in ("Control+a", "d", "d", "x", "a", "b", "m", "Control+c", "Control+ArrowLeft"):
+            keyboard.press(key)
+        expect(page.locator(".jp-Notebook-cell")).to_have_count(1)
+        assert page.evaluate(f"() => {PANEL}.content.activeCell.model.type") == "code"
+        if label in FIELDS:
+            expect(place).to_have_value("ddxabm")
 
 
-@pytest.mark.parametrize("label", FIELDS)
-def test_escape_leaves_a_field_for_the_notebook(both: Notebook, label: str) -> None:
-    field = at_end(both, label)
-    both.page.keyboard.press("Escape")
-    expect(field).not_to_be_focused()
-    assert both.page.evaluate("() => !!document.activeElement.closest('.jp-Notebook')")
-    both.page.keyboard.press("b")  # a command on cells: one is added below
-    expect(both.page.locator(".jp-Notebook-cell")).to_have_count(2)
-    both.page.keyboard.press("z")
-    expect(both.page.locator(".jp-Notebook-cell")).to_have_count(1)
+def test_escape_leaves_a_field_for_the_notebook(both: Notebook) -> None:
+    for label in FIELDS:
+        field = at_end(both, label)
+        both.page.keyboard.press("Escape")
+        expect(field).not_to_be_focused()
+        assert both.page.evaluate("() => !!document.activeElement.closest('.jp-Notebook')")
+        both.page.keyboard.press("b")  # a command on cells: one is added below
+        expect(both.page.locator(".jp-Notebook-cell")).to_have_count(2)
+        both.page.keyboard.press("z")
+        expect(both.page.locator(".jp-Notebook-cell")).to_have_count(1)
 
 
 def test_enter_that_ends_a_composition_commits_no_name(both: Notebook, cdp: CDPSession) -> None:
@@ -344,34 +345,6 @@ def test_letters_typed_after_undo_stay_when_the_kernel_is_slow(both: Notebook, e
     expect(field).to_have_value(f"{before}BA")
     both.expect_python(EDITORS[editor], f"{before}BA")
     expect(field).to_have_value(f"{before}BA")
-
-
-@pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_keys_in_other_applications(visit: Visit, app: App) -> None:
-    with visit(app) as notebook:
-        page = notebook.page
-        notebook.open(HOUSE + SHOWN + "display(PatternEditor(model), GrammarEditor(texture))")
-        if app == "notebook":
-            notebook.run()
-        for label in EDITORS:
-            field = notebook.field(label)
-            expect(field).to_be_visible()
-            before = field.input_value()
-            at_end(notebook, label)
-            page.keyboard.press("Enter")
-            page.keyboard.type("dd")
-            expect(field).to_have_value(f"{before}\ndd")
-            page.keyboard.press("Control+z")
-            expect(field).to_have_value(before)
-        if app == "notebook":
-            page.evaluate(f"() => {{ {PANEL}.context.model.dirty = true; }}")
-            page.keyboard.press("Control+s")
-            page.wait_for_function(f"() => !{PANEL}.context.model.dirty")
-            notebook.button("Add a pattern").focus()
-            for key in "dd":
-                page.keyboard.press(key)
-            expect(page.locator(".jp-Notebook-cell")).to_have_count(1)
-        assert notebook.take_problems() == []
 
 
 @pytest.mark.parametrize("theme", ["Light", "Dark"])

@@ -81,10 +81,10 @@ class Marimo:
 
 
 @contextlib.contextmanager
-def marimo(browser: Browser, folder: Path, theme: Theme, mode: Mode = "run") -> Iterator[Marimo]:
+def marimo(browser: Browser, folder: Path, mode: Mode) -> Iterator[Marimo]:
     notebook(folder / "facade.py")
     (folder / "marimo").mkdir(exist_ok=True)
-    settings = f'[display]\ntheme = "{theme}"\n[runtime]\nauto_instantiate = true\n'
+    settings = '[display]\ntheme = "system"\n[runtime]\nauto_instantiate = true\n'
     (folder / "marimo" / "marimo.toml").write_text(settings, encoding="utf-8")
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
@@ -123,12 +123,10 @@ def marimo(browser: Browser, folder: Path, theme: Theme, mode: Mode = "run") -> 
         server.wait(LIMIT)
 
 
-@pytest.fixture(scope="module", params=["light", "dark"])
-def opened(
-    browser: Browser, tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest
-) -> Iterator[tuple[Marimo, Theme]]:
-    with marimo(browser, tmp_path_factory.mktemp("marimo"), request.param) as found:
-        yield found, request.param
+@pytest.fixture(scope="module")
+def found(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Marimo]:
+    with marimo(browser, tmp_path_factory.mktemp("marimo"), "run") as opened:
+        yield opened
 
 
 def style(place: Locator, name: str) -> str:
@@ -155,9 +153,10 @@ def light(place: Locator, name: str) -> bool:
     return bool(0.3 * red + 0.59 * green + 0.11 * blue > 128)
 
 
-def test_every_view_has_its_style_and_the_theme_of_the_page(opened: tuple[Marimo, Theme], out: Path) -> None:
-    found, theme = opened
+@pytest.mark.parametrize("theme", ["dark", "light"])
+def test_every_view_has_its_style_and_the_theme_of_the_page(found: Marimo, theme: Theme, out: Path) -> None:
     page = found.page
+    page.emulate_media(color_scheme=theme)
     assert page.evaluate("() => document.adoptedStyleSheets.length") == 0  # the page is not ours
     for part in found.page.locator(".fnb").all():
         expect(part).to_have_attribute("data-theme", theme)
@@ -178,8 +177,7 @@ def test_every_view_has_its_style_and_the_theme_of_the_page(opened: tuple[Marimo
     assert found.take_problems() == []
 
 
-def test_typing_a_pattern_redraws_all_views_of_the_model(opened: tuple[Marimo, Theme]) -> None:
-    found, _ = opened
+def test_typing_a_pattern_redraws_all_views_of_the_model(found: Marimo) -> None:
     page = found.page
     drawn = found.part("elevation").locator("[data-layer=base][data-x=A][data-y=Q]")
     before = drawn.count()
@@ -204,8 +202,7 @@ def test_typing_a_pattern_redraws_all_views_of_the_model(opened: tuple[Marimo, T
     assert found.take_problems() == []
 
 
-def test_views_that_act_in_the_browser_do_so(opened: tuple[Marimo, Theme]) -> None:
-    found, _ = opened
+def test_views_that_act_in_the_browser_do_so(found: Marimo) -> None:
     page = found.page
     page.get_by_role("button", name="Both", exact=True).click()
     expect(found.part("building-canvas")).to_have_attribute("data-state", "sharp")
@@ -222,8 +219,7 @@ def test_views_that_act_in_the_browser_do_so(opened: tuple[Marimo, Theme]) -> No
     assert found.take_problems() == []
 
 
-def test_a_shape_is_picked_and_changed_and_the_studio_has_the_screen(opened: tuple[Marimo, Theme]) -> None:
-    found, _ = opened
+def test_a_shape_is_picked_and_changed_and_the_studio_has_the_screen(found: Marimo) -> None:
     page = found.page
     studio = found.part("part-studio")
     studio.locator(".fnb-elevation [data-layer=door]").click()
@@ -243,8 +239,8 @@ def test_a_shape_is_picked_and_changed_and_the_studio_has_the_screen(opened: tup
     assert found.take_problems() == []
 
 
-def test_a_server_that_ends_is_told(opened: tuple[Marimo, Theme]) -> None:
-    found, _ = opened  # no test after this one can use it
+def test_a_server_that_ends_is_told(found: Marimo) -> None:
+    """The last one of that server."""
     page = found.page
     field = page.get_by_label("Pattern Bx", exact=True)
     field.click()
@@ -266,7 +262,7 @@ def run_again(page: Page, number: int) -> None:
 
 
 def test_a_cell_that_is_run_again_has_a_view_that_works(browser: Browser, tmp_path: Path) -> None:
-    with marimo(browser, tmp_path, "light", "edit") as found:
+    with marimo(browser, tmp_path, "edit") as found:
         page = found.page
         found.part("part-studio").evaluate("e => { e.dataset.before = 'yes' }")
         run_again(page, 2)

@@ -1,4 +1,4 @@
-"""Each part alone, several over one model, and the parts in Notebook 7 and Voilà."""
+"""Each part alone, several over one model, and the parts as they were saved."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import expect
 
-from .conftest import HOUSE, Visit
-from .jupyter import App, Notebook
+from .conftest import Visit
+from .jupyter import Notebook
 from .keys import retype
 
 Show = Callable[[str], Notebook]
@@ -132,24 +132,6 @@ def test_closing_the_output_ends_the_listeners(show: Show) -> None:
         )
         == 0
     )
-
-
-@pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_the_studio_works_in_other_applications(visit: Visit, app: App) -> None:
-    with visit(app) as notebook:
-        page = notebook.page
-        notebook.open(HOUSE + "Studio(model)", "studio-alone.ipynb")
-        if app == "notebook":
-            notebook.run()
-        expect(page.locator("[data-shape]")).to_have_count(17)
-        field = notebook.retype("Pattern Bx", "A(BA)^")
-        expect(page.locator(".fnb-fault-text:visible")).to_have_count(1)
-        field.press("End")
-        field.press_sequentially("2")
-        expect(page.locator(".fnb-elevation [data-layer=base]")).to_have_count(10)
-        notebook.button("Both").click()
-        expect(page.locator(".fnb-building-canvas")).to_have_attribute("data-state", "sharp")
-        assert notebook.take_problems() == []
 
 
 def test_the_studio_notebook_shows_its_saved_state_and_then_runs(visit: Visit) -> None:

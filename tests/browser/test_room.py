@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 
-from .conftest import HOUSE, Visit
-from .jupyter import App, Notebook
+from .jupyter import Notebook
 from .keys import retype
+from .places import apart
 from .waiting import eventually, frames
 
 Show = Callable[[str], Notebook]
@@ -42,18 +42,6 @@ def places(page: Page) -> dict[str, Any]:
     frames(page, 3)
     found: dict[str, Any] = page.evaluate(PLACES)
     return found
-
-
-def apart(page: Page, one: str, other: str) -> bool:
-    """Whether two things on the page do not overlap."""
-    a, b = (page.locator(query).first.bounding_box() for query in (one, other))
-    assert a and b
-    return (
-        a["x"] + a["width"] <= b["x"] + 1
-        or b["x"] + b["width"] <= a["x"] + 1
-        or a["y"] + a["height"] <= b["y"] + 1
-        or b["y"] + b["height"] <= a["y"] + 1
-    )
 
 
 @pytest.mark.parametrize("width", [1600, 1200, 900])
@@ -174,25 +162,3 @@ def test_looks_of_a_long_panel(show: Show, out: Path, theme: str) -> None:
             page.screenshot(path=out / f"long-{section.lower()}-{theme.lower()}.png")
     finally:
         studio.theme("JupyterLab Light")
-
-
-@pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_a_shape_is_picked_and_changed_in_other_applications(visit: Visit, out: Path, app: App) -> None:
-    with visit(app) as notebook:
-        page = notebook.page
-        notebook.resize(1200)
-        notebook.open(HOUSE + "Studio(model)", "room.ipynb")
-        if app == "notebook":
-            notebook.run()
-        expect(page.locator("[data-shape]")).to_have_count(17)
-        page.locator(".fnb-elevation [data-layer=door]").click()
-        notebook.field("material of D P in door").click()
-        page.get_by_role("option", name="painted-blue", exact=True).click()
-        expect(page.locator(".fnb-elevation [data-layer=door] title")).to_contain_text("painted-blue")
-        assert apart(page, ".fnb-inspector", ".fnb-paper")
-        notebook.button("Full screen").click()
-        page.wait_for_function("() => document.fullscreenElement?.matches('.fnb')")
-        notebook.button("Full screen").click()
-        page.wait_for_function("() => !document.fullscreenElement")
-        page.screenshot(path=out / f"studio-{app}.png")
-        assert notebook.take_problems() == []

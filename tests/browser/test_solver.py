@@ -231,8 +231,8 @@ def test_an_address_leads_to_a_moment(watch: Watch) -> None:
     lab.page.evaluate("() => history.replaceState(null, '', location.pathname + location.search)")
 
 
-def test_a_copied_link_opens_the_page_at_its_moment(visit: Visit) -> None:
-    with visit("lab") as lab:
+def test_a_copied_link_opens_the_page_at_its_moment(visit_anew: Visit) -> None:
+    with visit_anew("lab") as lab:
         page = lab.page
         lab.open(TRACED + "view = WordsView(traced('residential-house')); view", "linked.ipynb")
         lab.run()

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from .conftest import TRACED, Visit, Watch
-from .jupyter import App, Notebook
+from .conftest import Visit, Watch
+from .jupyter import Notebook
 from .test_solver import section
 from .waiting import eventually, frames, until
 
@@ -421,22 +421,6 @@ def test_the_notebook_shows_its_saved_state_and_can_be_played_without_a_kernel(
         figure.scroll_into_view_if_needed()
         expect(figure.locator(".fnb-tuple-box h4")).to_have_text("Candidates for alignment (6)")
         assert lab.take_problems() == []
-
-
-@pytest.mark.parametrize("app", ["notebook", "voila"])
-def test_the_views_work_in_other_applications(visit: Visit, app: App) -> None:
-    with visit(app) as notebook:
-        page = notebook.page
-        notebook.open(TRACED + "SolverView(traced('residential-house'))", "solver-alone.ipynb")
-        if app == "notebook":
-            notebook.run()
-        expect(page.locator(".fnb-traced-note")).to_have_text("17 of 17 shapes")
-        notebook.button("x: Words").click()
-        for _ in range(3):
-            notebook.button("Step forward").click()
-        expect(page.locator(".fnb-word[data-now] .fnb-word-text")).to_have_text("CeC")
-        notebook.button("Code").click()  # a piece that Python is asked for
-        expect(page.locator(".fnb-code-text")).to_contain_text("def words_judged(")
 
 
 def test_running_the_cell_again_leaves_nothing_behind(watch: Watch) -> None:

@@ -75,8 +75,8 @@ def run(lab: Notebook) -> None:
     frames(lab.page)
 
 
-def test_thirty_studios_run_again_and_again(visit: Visit) -> None:
-    with visit("lab") as lab:
+def test_thirty_studios_run_again_and_again(visit_anew: Visit) -> None:
+    with visit_anew("lab") as lab:
         lab.page.add_init_script(CONTEXTS)
         cells = [FIRST, *["Studio(house)"] * STUDIOS]
         notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(code) for code in cells])

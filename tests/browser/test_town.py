@@ -102,7 +102,6 @@ class Shown:
 def opened(visit: Visit) -> Iterator[Shown]:
     with visit("lab") as lab:
         lab.open("0", "town.ipynb")
-        lab.page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
         lab.resize(1200, 900)
         lab.run(HEAD + "view")
         lab.shown()

@@ -33,7 +33,6 @@ def opened(visit: Visit) -> Iterator[Notebook]:
         shutil.copy(Path(__file__).resolve().parents[2] / "tutorials" / NAME, lab.root)
         lab.resize(1250)
         lab.visit(NAME)
-        lab.page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
         yield lab
 
 
@@ -48,7 +47,7 @@ def cell(page: Page, text: str) -> Locator:
         }""",
         text,
     )
-    return page.locator(f".jp-Cell[data-windowed-list-index='{index}']")
+    return page.locator(f".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Cell[data-windowed-list-index='{index}']")
 
 
 def answer(own: Locator, *names: str) -> Locator:

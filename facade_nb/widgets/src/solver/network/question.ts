@@ -73,8 +73,18 @@ export function choicesOf(story: Story, subject: Subject, base: () => Base, posi
   return forksOf(story, subject, base());
 }
 
+const forks = new WeakMap<Base, { subject: Subject; choices: Choice[] }>();
+
 /** The edges at the path's first fork where it is known of the others that every alignment through them costs more. */
 function forksOf(story: Story, subject: Subject, base: Base): Choice[] {
+  const known = forks.get(base); // they are asked for at every verdict, and looked for in the whole lattice
+  if (known?.subject === subject) return known.choices;
+  const choices = forksFound(story, subject, base);
+  forks.set(base, { subject, choices });
+  return choices;
+}
+
+function forksFound(story: Story, subject: Subject, base: Base): Choice[] {
   const { path } = subject;
   if (!path) return [];
   const whole = ledgerOfPath(path, base.group).cost;
