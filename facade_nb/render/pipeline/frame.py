@@ -13,7 +13,7 @@ from .scene import Scene
 from .sunlight import skylight, sunlight
 from .viewpoint import Frustum
 
-__all__ = ["Frame", "Looks", "visible"]
+__all__ = ["Frame", "Looks", "in_view", "runs_of", "visible"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,8 +107,8 @@ class Frame:
         }
 
 
-def visible(scene: Scene, through: NDArray[np.float64], turning: bool | None = None) -> list[tuple[int, int]]:
-    """Runs (first index, count) of the chunks that may be seen through a matrix to clip space.
+def in_view(scene: Scene, through: NDArray[np.float64], turning: bool | None = None) -> NDArray[np.bool_]:
+    """Which chunks, (c,), may be seen through a matrix to clip space.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def visible(scene: Scene, through: NDArray[np.float64], turning: bool | None = N
     """
     chunks = scene.chunks
     if not len(chunks):
-        return []
+        return np.zeros(0, bool)
     low, high = (chunks[name].astype(np.float64) for name in ("low", "high"))
     planes = np.concatenate([through[3] + through[:3], through[3] - through[:3]])[[0, 1, 2, 3, 4]]
     normals, offsets = planes[:, :3], planes[:, 3]
@@ -125,8 +125,18 @@ def visible(scene: Scene, through: NDArray[np.float64], turning: bool | None = N
     inside = ((farthest * normals[:, None]).sum(axis=2) + offsets[:, None] >= 0).all(axis=0)
     if turning is not None:
         inside &= scene.turning == turning
+    return np.asarray(inside)
+
+
+def visible(scene: Scene, through: NDArray[np.float64], turning: bool | None = None) -> list[tuple[int, int]]:
+    """Runs (first index, count) of these chunks."""
+    return runs_of(scene.chunks[in_view(scene, through, turning)])
+
+
+def runs_of(chunks: np.ndarray) -> list[tuple[int, int]]:
+    """Runs (first index, count) of some chunks: those that lie side by side are one."""
     runs: list[tuple[int, int]] = []
-    for first, count in zip(chunks["first"][inside].tolist(), chunks["count"][inside].tolist(), strict=True):
+    for first, count in zip(chunks["first"].tolist(), chunks["count"].tolist(), strict=True):
         if runs and runs[-1][0] + runs[-1][1] == first:
             runs[-1] = (runs[-1][0], runs[-1][1] + count)
         else:

@@ -14,7 +14,8 @@ from ..texture.atlas import Atlas
 from ..texture.gl import GlPainter
 from ..texture.shaders import room, rooms_for, shader
 from ..texture.uploads import Upload, grammar_upload
-from .frame import Frame, visible
+from .frame import Frame, in_view, runs_of
+from .hidden import hidden, nearest_first
 from .passes import BUFFERS, PASSES, Buffer, Pass, arranged, shared
 from .scene import Scene
 from .vertices import VERTEX
@@ -66,6 +67,8 @@ class Renderer:
         self._atlases: dict[bool, Atlas] = {}
         self._held: dict[str, Any] = {}
         self._maps: dict[str, bytes] = {}
+        self._software = "llvmpipe" in painter.renderer
+        self._hidden = np.zeros(len(scene.chunks), bool)  # from the camera, for passes that add to it
         self._empty: set[str] = set()  # passes that others come after, and that have drawn nothing
         with painter.entered() as context:
             self._context = context
@@ -210,8 +213,7 @@ class Renderer:
             )
             context.blend_func = context.ONE, context.ONE
             context.front_face, context.cull_face = "ccw", "back"
-            for first, count in visible(self.scene, uniforms[own.through], own.turning):
-                mesh.render(context.TRIANGLES, vertices=count, first=first)
+            self._draw_mesh(own, mesh, uniforms)
             if own.name in self._asked and not self._drew(own):
                 self._empty.add(own.name)
             context.disable(context.DEPTH_TEST | context.CULL_FACE | context.BLEND)
@@ -227,6 +229,34 @@ class Renderer:
             mesh.render(context.TRIANGLES, vertices=3)
             context.depth_func = "<"
             context.disable(context.BLEND | context.DEPTH_TEST)
+
+    def _draw_mesh(self, own: Pass, mesh: Any, uniforms: dict[str, Any]) -> None:
+        """Draw the chunks that are in view; where software draws, only those that are not hidden all over."""
+        through, chunks = uniforms[own.through], self.scene.chunks
+        seen = in_view(self.scene, through, own.turning)
+        depth = next((name for name in own.writes if self.buffers[name].kind == "depth"), "")
+        spares = self._software and own.through == "camera" and bool(depth) and not own.reads
+
+        def draw(which: np.ndarray) -> None:
+            for first, count in runs_of(chunks[which]):
+                mesh.render(self._context.TRIANGLES, vertices=count, first=first)
+
+        if spares and own.adds:  # what it adds to has found out
+            draw(np.flatnonzero(seen & ~self._hidden))
+            return
+        self._hidden = np.zeros(len(chunks), bool)
+        places = np.flatnonzero(seen)
+        if not spares:
+            draw(places)
+            return
+        near, rest = nearest_first(chunks[places], np.array(uniforms["eye"]))
+        draw(places[near])
+        if len(rest):
+            image = self._images[depth]
+            depths = np.frombuffer(image.read(alignment=1), np.float32).reshape(image.size[::-1])
+            asked = np.concatenate([places[rest], np.flatnonzero(in_view(self.scene, through, True))])
+            self._hidden[asked] = hidden(chunks[asked], through, depths)
+            draw(places[rest][~self._hidden[places[rest]]])
 
     def _drew(self, own: Pass) -> bool:
         """Whether a pass that draws the mesh has drawn something: its depths tell."""

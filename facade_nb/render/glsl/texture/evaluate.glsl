@@ -3,8 +3,9 @@
 // Pixels that are drawn together (in warps, or in the vectors of a software renderer) pay for every branch that one of
 // them takes, and in a software renderer for every branch and every round of a loop, taken or not. So loops lie inside
 // each other, those that are met most or are cheapest innermost: layers and seeds; splits and repeats; choices; terminals
-// and skips; rooms. They end at their foot, where nothing more is left to be passed through. Each code belongs to one of
-// them, also one that there is not: a position that is none of a rule must not hold up a page for ever.
+// and skips (those whose relief is known innermost of all); rooms. They end at their foot, where nothing more is left to be
+// passed through. Each code belongs to one of them, also one that there is not: a position that is none of a rule must not
+// hold up a page for ever.
 #include "globals.glsl"
 #include "enter.glsl"
 #include "divide.glsl"
@@ -89,12 +90,21 @@ Surface evaluate(Question question) {
         }
       } while (descends(code) || divides(code) || chooses(code));
       do {
-        if (ends(code)) {
-          int skipped = code == OP_SKIP ? int(head.Skip_l) : 0;
-          if (code > OP_SKIP && code <= OP_MATALPHA) skipped = terminal(now, head);
-          head = next_layer(now, skipped) ? enter(now, taken) : END;
-          code = int(head.r);
-        }
+#ifdef RELIEF
+        if (ends(code) && unmet(now, head)) strike(now, head);
+#endif
+        do {
+          if (ends(code)) {
+            int skipped = code == OP_SKIP ? int(head.Skip_l) : 0;
+            if (code > OP_SKIP && code <= OP_MATALPHA) skipped = terminal(now, head);
+            head = next_layer(now, skipped) ? enter(now, taken) : END;
+            code = int(head.r);
+          }
+#ifdef RELIEF
+        } while (ends(code) && !unmet(now, head));
+#else
+        } while (ends(code));
+#endif
       } while (ends(code));
     } while (descends(code) || divides(code) || chooses(code) || ends(code));
     if (waits(code)) {

@@ -3,6 +3,7 @@
 // seen at the pixel. Beyond a scope a stretched tile is the same again where it goes on, else as it is at its edge; past one
 // that stands on a wall the layer below is seen, if there is one.
 #include "level.glsl"
+#include "record.glsl"
 #include "height.glsl"
 
 #ifdef RELIEF
@@ -25,6 +26,8 @@ vec4 struck_scope;
 vec2 struck_at;
 int struck_heights;
 bool struck_past;
+bool relieved;        // whether the material at hand is seen with relief, which is then `struck`
+vec4 of_relief;       // opaque, tile of heights and marks, depth, how far it stands out
 float shadow;         // how much of the sun what is seen has lost, each layer's weighted as its colour
 vec3 sunward = vec3(0.0);  // towards the sun, in the façade's axes; z 0 or less: no shadows
 
@@ -60,18 +63,40 @@ float shade_at(vec2 at, vec2 uv, vec2 scale, float deep, float depth, vec4 box, 
   return min(shade, 1.0);
 }
 
-Struck strike(State now, int source, vec4 numbers) {
-  vec4 known = fetch(tile_table, of_tile_table, vec2(0, abs(source) - 1));  // opaque, tile of heights, depth, how far it stands out
+// How much of a relief is left where a pixel covers much of it.
+float faded(State now, float depth) {
+#ifdef MIPS
+  return clamp(2.0 - 2.0 * now.footprint / max(depth, 1e-6), 0.0, 1.0);
+#else
+  return 1.0;
+#endif
+}
+
+// Whether one may see past a tile that has these marks.
+bool passable(int source, int marks) { return source > 0 && frame_count > 0 && (marks & 4) == 4; }
+
+// Whether the ray has yet to be followed into the material's relief. Materials of a scope most often share one, and others
+// have none: so a loop of its own goes on from material to material, and the search lies outside of it.
+bool unmet(State now, vec4 head) {
+  int code = int(head.r);
+  int source = int(head.Mat_m1);
+  of_relief = fetch(tile_table, of_tile_table, vec2(0, abs(source) - 1));
+  int heights = int(of_relief.g) / 8;
+  relieved = (code == OP_MAT || code == OP_MATALPHA) && source != 0 && heights != 0 && faded(now, of_relief.b) > 0.0;
+  bool past = passable(source, int(of_relief.g));
+  bool same = heights == struck_heights && past == struck_past && record(now.rule, 1) == struck_numbers;
+  return relieved && !(same && now.at == struck_at && now.scope == struck_scope);
+}
+
+// Follows it; `unmet` has looked at the material.
+void strike(State now, vec4 head) {
+  int source = int(head.Mat_m1);
+  vec4 numbers = record(now.rule, 1);
+  vec4 known = of_relief;
   int heights = int(known.g) / 8;
   int marks = int(known.g) & 7;
-  float fade = 1.0;
-#ifdef MIPS
-  fade = clamp(2.0 - 2.0 * now.footprint / max(known.b, 1e-6), 0.0, 1.0);
-#endif
-  if (heights == 0 || fade <= 0.0) return Struck(now.at, 0.0, 0.0, false);
-  bool past = source > 0 && frame_count > 0 && (marks & 4) == 4;  // one may see past it
-  bool same = heights == struck_heights && past == struck_past && numbers == struck_numbers;
-  if (same && now.at == struck_at && now.scope == struck_scope) return struck;
+  float fade = faded(now, known.b);
+  bool past = passable(source, marks);
   struck_heights = heights;
   struck_past = past;
   struck_numbers = numbers;
@@ -147,6 +172,5 @@ Struck strike(State now, int source, vec4 numbers) {
   if (sunward.z > 0.0 && now.faces == 0 && deep > 0.0) {
     struck.shade = fade * shade_at(now.at + deep * way, uv + deep * way * scale, scale, deep, depth, box, now.scope, wrap, past);
   }
-  return struck;
 }
 #endif

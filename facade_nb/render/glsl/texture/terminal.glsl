@@ -17,7 +17,7 @@ int terminal(State now, vec4 head) {
 #ifdef RELIEF
   vec2 before = now.at;
   Struck hit = Struck(now.at, 0.0, 0.0, false);
-  if (source != 0 && !masks) hit = strike(now, source, numbers);
+  if (relieved) hit = struck;
   now.at = hit.at;
 #endif
   int first = 1;
