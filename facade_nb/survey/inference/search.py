@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .fitting import Axis, Names, agreement, count_letters, fit, measured, named
-from .structure import Line, Opening, Structure, corner, structures
+from .structure import Grouping, Line, Opening, Structure, arranged, corner, groupings, looser
 
 __all__ = ["ERROR", "NEAR", "SYMBOL", "Order", "search"]
 
@@ -20,6 +20,7 @@ _TOLERANCES = (0.02, 0.05, 0.1, 0.2, 0.4)
 """Sizes that differ by no more may be one, metres. All are tried."""
 _SYMMETRIC = 3.0
 """Halves of a line mirror each other where they differ by no more than this times the tolerance."""
+_ROUNDS, _LOOSENED = 2, 6
 _POLISHED = 4
 """So many of the best orders are simplified further."""
 _TRIALS = 20_000
@@ -48,29 +49,49 @@ def search(openings: Sequence[Opening], width: float, height: float) -> Order:
     """The order that costs least."""
     target = corner(openings)
     found: list[Order] = []
-    for structure in structures(openings, width, height):
+    groups: dict[int, Grouping] = {}
+    seen: dict[Structure, None] = {}
+
+    def look(grouping: Grouping) -> None:
+        structure = arranged(openings, grouping, width, height)
+        if structure in seen:
+            return
+        seen[structure] = None
+        groups[id(structure)] = grouping
         if not found:  # the exact one, which is there whatever else cannot be fitted
             found.append(_order(structure, target, measured(structure.x), measured(structure.y)))
         along = list(_candidates(structure.y, height, mirrors=False))
         for x in _candidates(structure.x, width, mirrors=True):
-            found += [_order(structure, target, x, y) for y in along]
+            found.extend(_order(structure, target, x, y) for y in along)
+
+    for grouping in groupings(openings):
+        look(grouping)
     found.sort(key=lambda order: order.cost)
+    done: set[int] = set()
+    for _ in range(_ROUNDS):
+        for order in list(_different(found, _LOOSENED)):
+            if id(order.structure) in done:
+                continue
+            done.add(id(order.structure))
+            for grouping in looser(openings, groups[id(order.structure)], order.structure):
+                look(grouping)
+        found.sort(key=lambda order: order.cost)
     best = found[0]
-    for order in _different(found):
+    for order in list(_different(found, _POLISHED)):
         polished = _polished(order, target, width, height)
         if polished.cost < best.cost - 1e-9:
             best = polished
     return best
 
 
-def _different(found: Sequence[Order]) -> Iterator[Order]:
+def _different(found: Sequence[Order], number: int) -> Iterator[Order]:
     """The first orders of a list that differ in more than what polishing changes."""
     seen: set[int] = set()
     for order in found:
         if id(order.structure) not in seen:
             seen.add(id(order.structure))
             yield order
-            if len(seen) == _POLISHED:
+            if len(seen) == number:
                 return
 
 

@@ -6,8 +6,8 @@ overlap others make lines of their own. The openings of a band make a row; rows 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -17,7 +17,7 @@ from scipy.cluster.hierarchy import linkage
 
 from .repeats import letters
 
-__all__ = ["GAP", "Line", "Opening", "Span", "Structure", "clusters", "corner", "structures"]
+__all__ = ["GAP", "Grouping", "Line", "Opening", "Span", "Structure", "arranged", "clusters", "corner", "groupings", "looser"]
 
 Span = tuple[float, float]
 
@@ -81,28 +81,99 @@ class Structure:
     exceptions: int
 
 
+@dataclass(frozen=True, slots=True)
+class Grouping:
+    """What decides a structure: bands, and how far openings may be from columns they join, metres.
+
+    `slack` has openings that may be further off than the rest; `aside` those that have no say in where their band is.
+    """
+
+    bands: tuple[tuple[int, ...], ...]
+    tolerance: float
+    margin: float
+    slack: Mapping[int, float] = field(default_factory=dict)
+    aside: frozenset[int] = frozenset()
+
+
 @dataclass(slots=True)
 class _Column:
-    """Openings above each other."""
+    """Openings above each other; the span is of those that are `firm`."""
 
     members: list[int] = field(default_factory=list)
     span: Span = (0.0, 0.0)
+    firm: list[int] = field(default_factory=list)
 
 
-def structures(openings: Sequence[Opening], width: float, height: float) -> Iterator[Structure]:
-    """The orders of some openings, at several tolerances, equal ones once; the exact one first."""
-    seen: set[Structure] = set()
-    scale = float(np.median([opening.y[1] - opening.y[0] for opening in openings])) / 1.5
+def groupings(openings: Sequence[Opening]) -> Iterator[Grouping]:
+    """Groupings at several tolerances; the exact one first."""
+    scale = scale_of(openings)
     for of_bands in TOLERANCES:
-        bands = _bands(openings, of_bands * scale)
+        bands = tuple(map(tuple, _bands(openings, of_bands * scale)))
         for of_columns in TOLERANCES:
             for margin in MARGINS:
-                found = _structure(
-                    openings, bands, of_columns * scale, width, height, max(_NONE, margin * scale)
-                )
-                if found not in seen:
-                    seen.add(found)
-                    yield found
+                yield Grouping(bands, of_columns * scale, max(_NONE, margin * scale))
+
+
+def scale_of(openings: Sequence[Opening]) -> float:
+    """How large the façade's windows are beside usual ones."""
+    return float(np.median([opening.y[1] - opening.y[0] for opening in openings])) / 1.5
+
+
+def looser(openings: Sequence[Opening], grouping: Grouping, structure: Structure) -> Iterator[Grouping]:
+    """Groupings in which some openings that have a line, a column or a band of their own join others."""
+    scale = scale_of(openings)
+    sets: dict[tuple[int, ...], None] = {}
+    of_line: dict[int, list[int]] = {}
+    of_row: dict[tuple[int, int, int], list[int]] = {}
+    of_column: dict[tuple[int, int], list[int]] = {}
+    for i, (xn, column, yn, band) in enumerate(structure.cells):
+        of_line.setdefault(xn, []).append(i)
+        of_row.setdefault((xn, yn, band), []).append(i)
+        of_column.setdefault((xn, column), []).append(i)
+    for n, members in sorted(of_line.items()):
+        if n:
+            sets[tuple(members)] = None
+    for (n, _, _), members in sorted(of_row.items()):
+        if n:
+            sets[tuple(members)] = None
+    for _, members in sorted(of_column.items()):
+        if len(members) == 1:
+            sets[tuple(members)] = None
+    for members in sets:
+        for reach in LOOSE:
+            if reach * scale > max(grouping.tolerance, *(grouping.slack.get(i, 0.0) for i in members)):
+                slack = {**grouping.slack, **dict.fromkeys(members, reach * scale)}
+                yield replace(grouping, slack=slack)
+    bands = grouping.bands
+    for a in range(len(bands)):
+        for b in range(len(bands)):
+            if a != b and len(bands[a]) >= len(bands[b]) and (len(bands[a]) > len(bands[b]) or a < b):
+                firm = [i for i in bands[a] if i not in grouping.aside]
+                if not _mergeable(openings, firm, bands[a], bands[b], scale):
+                    continue
+                rest = tuple(band for n, band in enumerate(bands) if n not in (a, b))
+                joined = tuple(sorted(bands[a] + bands[b]))
+                yield replace(grouping, bands=(joined, *rest), aside=grouping.aside | frozenset(bands[b]))
+
+
+def _mergeable(
+    openings: Sequence[Opening], firm: Sequence[int], large: Sequence[int], small: Sequence[int], scale: float
+) -> bool:
+    """Whether the openings of a band may stand in another: about there, beside each other, and no door above the ground."""
+    low, high = _mean(openings[i].y for i in firm)
+    if any(max(abs(openings[i].y[0] - low), abs(openings[i].y[1] - high)) > scale for i in small):
+        return False
+    if any(abs(openings[i].y[0] - low) > 0.35 * scale for i in small if openings[i].door):
+        return False
+    return all(
+        openings[i].x[1] <= openings[j].x[0] + 1e-6 or openings[j].x[1] <= openings[i].x[0] + 1e-6
+        for i in small
+        for j in large
+    )
+
+
+LOOSE = (0.3, 0.5, 0.8, 1.2, 2.0)
+"""Openings that would need letters of their own may be so far from the column they join, metres."""
 
 
 def corner(openings: Sequence[Opening]) -> NDArray[np.float64]:
@@ -164,15 +235,13 @@ def _bands(openings: Sequence[Opening], tolerance: float) -> list[list[int]]:
     return bands
 
 
-def _structure(
-    openings: Sequence[Opening],
-    bands: list[list[int]],
-    tolerance: float,
-    width: float,
-    height: float,
-    margin: float,
-) -> Structure:
-    spans = {b: _mean(openings[i].y for i in band) for b, band in enumerate(bands)}
+def arranged(openings: Sequence[Opening], grouping: Grouping, width: float, height: float) -> Structure:
+    """The structure of a grouping."""
+    bands, tolerance, margin = grouping.bands, grouping.tolerance, grouping.margin
+    spans = {
+        b: _mean([openings[i].y for i in band if i not in grouping.aside] or [openings[i].y for i in band])
+        for b, band in enumerate(bands)
+    }
     of_y = _apart(spans, {b: len(band) for b, band in enumerate(bands)})
     rows = [
         (b, row)
@@ -184,9 +253,9 @@ def _structure(
     line_of: list[int] = []
     for n, (band, row) in enumerate(rows):
         others = {line for (other, _), line in zip(rows[:n], line_of, strict=True) if other == band}
-        line_of.append(_place(openings, lines, row, others, tolerance, width, margin))
+        line_of.append(_place(openings, lines, row, others, grouping, width))
     made_x = tuple(
-        _line([(c.span, "open", len(c.members)) for c in columns], width, margin) for columns in lines
+        _line([(c.span, "open", len(c.firm)) for c in columns], width, margin) for columns in lines
     )
     used = {
         b: sorted({line for (own, _), line in zip(rows, line_of, strict=True) if own == b}) for b in spans
@@ -231,18 +300,18 @@ def _place(
     lines: list[list[_Column]],
     row: list[int],
     taken: set[int],
-    tolerance: float,
+    grouping: Grouping,
     width: float,
-    margin: float,
 ) -> int:
     """Put a row into the line where it costs fewest letters, or into one of its own; which that is.
 
     Lines that are taken have another row of the same band, which overlaps this one.
     """
-    alone = [_Column([i], openings[i].x) for i in row]
+    tolerance, margin = grouping.tolerance, grouping.margin
+    alone = [_Column([i], openings[i].x, [i]) for i in row]
     best, chosen, found = float(_letters(alone, tolerance, width, margin)), len(lines), alone
     for n, line in enumerate(lines):
-        joined = None if n in taken else _joined(openings, line, row, tolerance)
+        joined = None if n in taken else _joined(openings, line, row, grouping)
         if joined is None:
             continue
         missing = len(joined) - len(row)
@@ -259,29 +328,32 @@ def _place(
 
 
 def _joined(
-    openings: Sequence[Opening], line: list[_Column], row: list[int], tolerance: float
+    openings: Sequence[Opening], line: list[_Column], row: list[int], grouping: Grouping
 ) -> list[_Column] | None:
     """A line with a row put into it; None where they do not line up."""
-    columns = [_Column(list(column.members), column.span) for column in line]
+    columns = [_Column(list(column.members), column.span, list(column.firm)) for column in line]
     taken: set[int] = set()
     new: list[_Column] = []
     for i in row:
         low, high = openings[i].x
+        reach = max(grouping.tolerance, grouping.slack.get(i, 0.0)) + 1e-9
         fits = [
             (max(abs(c.span[0] - low), abs(c.span[1] - high)), n)
             for n, c in enumerate(columns)
-            if n not in taken and max(abs(c.span[0] - low), abs(c.span[1] - high)) <= tolerance + 1e-9
+            if n not in taken and max(abs(c.span[0] - low), abs(c.span[1] - high)) <= reach
         ]
         if fits:
-            n = min(fits)[1]
+            off, n = min(fits)
             taken.add(n)
             columns[n].members.append(i)
+            if off <= grouping.tolerance + 1e-9:
+                columns[n].firm.append(i)
         elif any(c.span[0] < high - 1e-6 and low < c.span[1] - 1e-6 for c in columns):
             return None
         else:
-            new.append(_Column([i], (low, high)))
+            new.append(_Column([i], (low, high), [i]))
     for column in columns:
-        column.span = _mean(openings[i].x for i in column.members)
+        column.span = _mean(openings[i].x for i in column.firm)
     columns = sorted(columns + new, key=lambda column: column.span)
     for a, b in pairwise(columns):
         if b.span[0] < a.span[1] - 1e-6:
