@@ -23,6 +23,8 @@ _SYMMETRIC = 3.0
 _ROUNDS, _LOOSENED = 2, 6
 _POLISHED = 4
 """So many of the best orders are simplified further."""
+_ALIKE = 0.5
+"""What takes the name of another differs from it by no more than this part of the larger."""
 _TRIALS = 20_000
 """So many letters are looked at in simplifying a line, all trials together."""
 
@@ -126,7 +128,7 @@ def _polished(order: Order, target: NDArray[np.float64], width: float, height: f
                 lines = order.structure.x if axis == "x" else order.structure.y
                 own = order.x if axis == "x" else order.y
                 mirrors = axis == "x"
-                for names in _simpler(lines, own.names):
+                for names in _simpler(lines, own):
                     left[axis] -= sum(map(len, names))
                     if order.agreement >= NEAR and _weight(lines, names, mirrors) >= _weight(
                         lines, own.names, mirrors
@@ -153,25 +155,51 @@ def _weight(lines: Sequence[Line], names: Names, mirrors: bool) -> float:
     return SYMBOL * symbols + count_letters(lines, names, mirrors=mirrors)
 
 
-def _simpler(lines: Sequence[Line], names: Names) -> Iterator[Names]:
-    """Other names of the tokens, among which shorter patterns may be."""
+def _simpler(lines: Sequence[Line], axis: Axis) -> Iterator[Names]:
+    """Other names of the tokens, among which shorter patterns may be. What takes another's name is about as large."""
+    names, sizes = axis.names, axis.sizes
     categories: dict[int, str] = {}
     for line, word in zip(lines, names, strict=True):
         categories.update(zip(word, line.categories, strict=True))
     symbols = sorted(categories)
+
+    def alike(a: int, b: int) -> bool:
+        near = abs(sizes[a] - sizes[b]) <= _ALIKE * max(sizes[a], sizes[b])
+        return near and categories[a] == categories[b]
+
     for i, a in enumerate(symbols):
         for b in symbols[i + 1 :]:
-            if categories[a] == categories[b]:
+            if alike(a, b):
                 yield tuple(tuple(a if s == b else s for s in word) for word in names)
-    for n, (line, word) in enumerate(zip(lines, names, strict=True)):
-        for other in _regular(line, word):
-            if other != word:
-                yield (*names[:n], other, *names[n + 1 :])
+    seen = set(names)
+    for regular in (_regular, _partly_regular):
+        for n, (line, word) in enumerate(zip(lines, names, strict=True)):
+            for other in regular(line, word):
+                if other not in seen and all(map(alike, word, other)):
+                    seen.add(other)
+                    yield (*names[:n], other, *names[n + 1 :])
     for n, word in enumerate(names):
         for i, own in enumerate(word):
             for symbol in symbols:
-                if symbol != own and categories[symbol] == categories[own]:
+                if symbol != own and alike(symbol, own):
                     yield (*names[:n], (*word[:i], symbol, *word[i + 1 :]), *names[n + 1 :])
+
+
+def _partly_regular(line: Line, word: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
+    """The word with a part of it made symmetric, or made to repeat the part before or after it."""
+    kinds = line.categories
+    for length in range(len(word), 2, -1):
+        for i in range(len(word) - length + 1):
+            j = i + length
+            if kinds[i:j] == kinds[i:j][::-1]:
+                half = length // 2
+                low, high = word[i : i + half], word[j - half : j]
+                yield (*word[: j - half], *low[::-1], *word[j:])
+                yield (*word[:i], *high[::-1], *word[i + half :])
+            if length % 2 == 0 and kinds[i : i + length // 2] == kinds[i + length // 2 : j]:
+                half = length // 2
+                yield (*word[: i + half], *word[i : i + half], *word[j:])
+                yield (*word[:i], *word[i + half : j], *word[i + half :])
 
 
 def _regular(line: Line, word: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
