@@ -149,8 +149,8 @@ def measured(lines: Sequence[Line]) -> Axis:
     return Axis(names, tuple(size for line in lines for size in line.sizes), spans, sum(map(len, names)))
 
 
-def agreement(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> float:
-    """Mean intersection over union of openings (n, 4) with what stands for them, both moved to their corners."""
+def agreement(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> NDArray[np.float64]:
+    """Intersection over union of each opening (n, 4) with what stands for it, both moved to their corners."""
     across = np.array([x.spans[n][i] for n, i, _, _ in structure.cells])
     along = np.array([y.spans[n][i] for _, _, n, i in structure.cells])
     placed = np.stack([across[:, 0], along[:, 0], across[:, 1], along[:, 1]], axis=1)
@@ -158,4 +158,5 @@ def agreement(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axi
     low, high = np.maximum(placed[:, :2], target[:, :2]), np.minimum(placed[:, 2:], target[:, 2:])
     shared = np.clip(high - low, 0.0, None).prod(axis=1)
     areas = [(rects[:, 2:] - rects[:, :2]).prod(axis=1) for rects in (placed, target)]
-    return float((shared / (areas[0] + areas[1] - shared)).mean())
+    near: NDArray[np.float64] = shared / (areas[0] + areas[1] - shared)
+    return near

@@ -36,6 +36,10 @@ _FAR = 60.0
 """The same, of what lacks to `NEAR`."""
 
 
+_FAIR, _POOR = 0.6, 6.0
+"""No opening should agree less than that; what one costs that agrees in nothing, in letters."""
+
+
 @dataclass(frozen=True, slots=True)
 class Order:
     """A structure with both axes fitted; `agreement` is the mean intersection over union, `cost` what is least."""
@@ -110,11 +114,12 @@ def _candidates(lines: Sequence[Line], canvas: float, *, mirrors: bool) -> Itera
 
 
 def _order(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> Order:
-    near = agreement(structure, target, x, y)
+    each = agreement(structure, target, x, y)
+    near = float(each.mean())
     size = x.letters + y.letters + SYMBOL * (x.symbols + y.symbols) + _EXCEPTION * structure.exceptions
-    size += _LINE * (len(structure.x) + len(structure.y))
+    size += _LINE * (len(structure.x) + len(structure.y)) + _POOR * np.clip(1 - each / _FAIR, 0.0, None).sum()
     cost = size / len(target) + ERROR * (1 - near) + _FAR * max(0.0, NEAR - near)
-    return Order(structure, x, y, near, round(cost, 9))
+    return Order(structure, x, y, near, round(float(cost), 9))
 
 
 def _polished(order: Order, target: NDArray[np.float64], width: float, height: float) -> Order:
