@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter as Tally
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -21,7 +22,7 @@ _TOLERANCES = (0.02, 0.05, 0.1, 0.2, 0.4)
 _SYMMETRIC = 3.0
 """Halves of a line mirror each other where they differ by no more than this times the tolerance."""
 _ROUNDS, _LOOSENED = 2, 6
-_POLISHED = 4
+_POLISHED, _STARTS = 12, 3
 """So many of the best orders are simplified further."""
 _ALIKE = 0.5
 """What takes the name of another differs from it by no more than this part of the larger."""
@@ -83,21 +84,24 @@ def search(openings: Sequence[Opening], width: float, height: float) -> Order:
                 look(grouping)
         found.sort(key=lambda order: order.cost)
     best = found[0]
-    for order in list(_different(found, _POLISHED)):
+    for order in list(_different(found, _POLISHED, _STARTS)):
         polished = _polished(order, target, width, height)
         if polished.cost < best.cost - 1e-9:
             best = polished
     return best
 
 
-def _different(found: Sequence[Order], number: int) -> Iterator[Order]:
-    """The first orders of a list that differ in more than what polishing changes."""
-    seen: set[int] = set()
+def _different(found: Sequence[Order], number: int, each: int = 1) -> Iterator[Order]:
+    """The first orders of a list, of any one structure no more than `each`."""
+    seen: Tally[int] = Tally()
+    names: set[tuple[int, Names, Names]] = set()
     for order in found:
-        if id(order.structure) not in seen:
-            seen.add(id(order.structure))
+        own = id(order.structure)
+        if seen[own] < each and (own, order.x.names, order.y.names) not in names:
+            names.add((own, order.x.names, order.y.names))
+            seen[own] += 1
             yield order
-            if len(seen) == number:
+            if seen.total() == number:
                 return
 
 
