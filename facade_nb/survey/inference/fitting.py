@@ -20,7 +20,7 @@ Names = tuple[tuple[int, ...], ...]
 _LEAST = 0.002
 """No symbol that is fitted is smaller, metres."""
 _REFITS = 2
-"""So often sizes are fitted again, with less weight for edges that are further off: near to the least absolute error."""
+"""So often sizes are fitted again, with less weight for edges that are further off: near to least absolute errors."""
 _SLIGHT = 0.04
 """Edges that are no further off weigh alike, metres."""
 _TIE = 1e-6

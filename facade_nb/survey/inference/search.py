@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .fitting import Axis, Names, agreement, count_letters, fit, measured, named
-from .structure import Grouping, Line, Opening, Structure, arranged, corner, groupings, looser
+from .grouping import groupings, looser
+from .structure import Grouping, Line, Opening, Structure, arranged, corner
 
 __all__ = ["ERROR", "NEAR", "SYMBOL", "Order", "search"]
 

@@ -6,8 +6,8 @@ overlap others make lines of their own. The openings of a band make a row; rows 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
 
@@ -17,20 +17,26 @@ from scipy.cluster.hierarchy import linkage
 
 from .repeats import letters
 
-__all__ = ["GAP", "Grouping", "Line", "Opening", "Span", "Structure", "arranged", "clusters", "corner", "groupings", "looser"]
+__all__ = [
+    "GAP",
+    "LEAST",
+    "Grouping",
+    "Line",
+    "Opening",
+    "Span",
+    "Structure",
+    "arranged",
+    "clusters",
+    "corner",
+    "mean",
+]
 
 Span = tuple[float, float]
 
 GAP = "gap"
 """The category of what stands between openings."""
 
-TOLERANCES = (0.0, 0.03, 0.08, 0.16, 0.3, 0.5, 0.8)
-"""Edges that differ by no more are one, metres. All are tried."""
-
-MARGINS = (0.0, 0.15)
-"""Walls at the ends of a line that are no wider are left out, metres: surveys often end with their openings."""
-
-_NONE = 0.005
+LEAST = 0.005
 """Gaps under so many metres are none."""
 
 _EXCEPTION = 0.25
@@ -104,78 +110,6 @@ class _Column:
     firm: list[int] = field(default_factory=list)
 
 
-def groupings(openings: Sequence[Opening]) -> Iterator[Grouping]:
-    """Groupings at several tolerances; the exact one first."""
-    scale = scale_of(openings)
-    for of_bands in TOLERANCES:
-        bands = tuple(map(tuple, _bands(openings, of_bands * scale)))
-        for of_columns in TOLERANCES:
-            for margin in MARGINS:
-                yield Grouping(bands, of_columns * scale, max(_NONE, margin * scale))
-
-
-def scale_of(openings: Sequence[Opening]) -> float:
-    """How large the façade's windows are beside usual ones."""
-    return float(np.median([opening.y[1] - opening.y[0] for opening in openings])) / 1.5
-
-
-def looser(openings: Sequence[Opening], grouping: Grouping, structure: Structure) -> Iterator[Grouping]:
-    """Groupings in which some openings that have a line, a column or a band of their own join others."""
-    scale = scale_of(openings)
-    sets: dict[tuple[int, ...], None] = {}
-    of_line: dict[int, list[int]] = {}
-    of_row: dict[tuple[int, int, int], list[int]] = {}
-    of_column: dict[tuple[int, int], list[int]] = {}
-    for i, (xn, column, yn, band) in enumerate(structure.cells):
-        of_line.setdefault(xn, []).append(i)
-        of_row.setdefault((xn, yn, band), []).append(i)
-        of_column.setdefault((xn, column), []).append(i)
-    for n, members in sorted(of_line.items()):
-        if n:
-            sets[tuple(members)] = None
-    for (n, _, _), members in sorted(of_row.items()):
-        if n:
-            sets[tuple(members)] = None
-    for _, members in sorted(of_column.items()):
-        if len(members) == 1:
-            sets[tuple(members)] = None
-    for members in sets:
-        for reach in LOOSE:
-            if reach * scale > max(grouping.tolerance, *(grouping.slack.get(i, 0.0) for i in members)):
-                slack = {**grouping.slack, **dict.fromkeys(members, reach * scale)}
-                yield replace(grouping, slack=slack)
-    bands = grouping.bands
-    for a in range(len(bands)):
-        for b in range(len(bands)):
-            if a != b and len(bands[a]) >= len(bands[b]) and (len(bands[a]) > len(bands[b]) or a < b):
-                firm = [i for i in bands[a] if i not in grouping.aside]
-                if not _mergeable(openings, firm, bands[a], bands[b], scale):
-                    continue
-                rest = tuple(band for n, band in enumerate(bands) if n not in (a, b))
-                joined = tuple(sorted(bands[a] + bands[b]))
-                yield replace(grouping, bands=(joined, *rest), aside=grouping.aside | frozenset(bands[b]))
-
-
-def _mergeable(
-    openings: Sequence[Opening], firm: Sequence[int], large: Sequence[int], small: Sequence[int], scale: float
-) -> bool:
-    """Whether the openings of a band may stand in another: about there, beside each other, and no door above the ground."""
-    low, high = _mean(openings[i].y for i in firm)
-    if any(max(abs(openings[i].y[0] - low), abs(openings[i].y[1] - high)) > scale for i in small):
-        return False
-    if any(abs(openings[i].y[0] - low) > 0.35 * scale for i in small if openings[i].door):
-        return False
-    return all(
-        openings[i].x[1] <= openings[j].x[0] + 1e-6 or openings[j].x[1] <= openings[i].x[0] + 1e-6
-        for i in small
-        for j in large
-    )
-
-
-LOOSE = (0.3, 0.5, 0.8, 1.2, 2.0)
-"""Openings that would need letters of their own may be so far from the column they join, metres."""
-
-
 def corner(openings: Sequence[Opening]) -> NDArray[np.float64]:
     """The rectangles of openings (n, 4), moved to their common lower left corner."""
     rects = np.array([(o.x[0], o.y[0], o.x[1], o.y[1]) for o in openings])
@@ -202,7 +136,8 @@ def _tree(values: tuple[tuple[float, ...], ...]) -> list[tuple[int, int, float]]
     return [(int(a), int(b), float(distance)) for a, b, distance, _ in found]
 
 
-def _mean(spans: Iterable[Span]) -> Span:
+def mean(spans: Iterable[Span]) -> Span:
+    """The span whose ends are the means of those of others."""
     low, high = zip(*spans, strict=True)
     return (round(sum(low) / len(low), 6), round(sum(high) / len(high), 6))
 
@@ -226,20 +161,11 @@ def _apart(spans: dict[int, Span], weights: dict[int, int]) -> list[list[int]]:
     return sets
 
 
-def _bands(openings: Sequence[Opening], tolerance: float) -> list[list[int]]:
-    """The openings of each band."""
-    numbers = clusters([opening.y for opening in openings], tolerance)
-    bands: list[list[int]] = [[] for _ in range(max(numbers) + 1)]
-    for i, number in enumerate(numbers):
-        bands[number].append(i)
-    return bands
-
-
 def arranged(openings: Sequence[Opening], grouping: Grouping, width: float, height: float) -> Structure:
     """The structure of a grouping."""
-    bands, tolerance, margin = grouping.bands, grouping.tolerance, grouping.margin
+    bands, margin = grouping.bands, grouping.margin
     spans = {
-        b: _mean([openings[i].y for i in band if i not in grouping.aside] or [openings[i].y for i in band])
+        b: mean([openings[i].y for i in band if i not in grouping.aside] or [openings[i].y for i in band])
         for b, band in enumerate(bands)
     }
     of_y = _apart(spans, {b: len(band) for b, band in enumerate(bands)})
@@ -282,7 +208,7 @@ def _line(parts: Sequence[tuple[Span, str, int]], canvas: float, margin: float) 
     sizes: list[float] = []
     end = 0.0
     for (low, high), category, _ in parts:
-        if low - end > (_NONE if sizes else margin):
+        if low - end > (LEAST if sizes else margin):
             categories.append(GAP)
             sizes.append(low - end)
         categories.append(category)
@@ -353,7 +279,7 @@ def _joined(
         else:
             new.append(_Column([i], (low, high), [i]))
     for column in columns:
-        column.span = _mean(openings[i].x for i in column.firm)
+        column.span = mean(openings[i].x for i in column.firm)
     columns = sorted(columns + new, key=lambda column: column.span)
     for a, b in pairwise(columns):
         if b.span[0] < a.span[1] - 1e-6:
