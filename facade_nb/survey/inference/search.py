@@ -38,7 +38,7 @@ _FAR = 60.0
 """The same, of what lacks to `NEAR`."""
 
 
-_FAIR, _POOR = 0.6, 6.0
+_FAIR, _POOR = 0.7, 6.0
 """No opening should agree less than that; what one costs that agrees in nothing, in letters."""
 
 
