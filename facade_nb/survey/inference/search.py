@@ -32,7 +32,7 @@ _TRIALS = 20_000
 
 SYMBOL, _EXCEPTION, _LINE = 0.5, 0.25, 0.5
 """What a symbol, an exception and a line weigh, in letters."""
-ERROR = 0.5
+ERROR = 1.0
 """What it costs, in letters an opening, to agree in nothing."""
 _FAR = 60.0
 """The same, of what lacks to `NEAR`."""
