@@ -23,8 +23,9 @@ _TOLERANCES = (0.02, 0.05, 0.1, 0.2, 0.4)
 _SYMMETRIC = 3.0
 """Halves of a line mirror each other where they differ by no more than this times the tolerance."""
 _ROUNDS, _LOOSENED = 2, 6
+"""So often so many of the best structures are tried with openings that join what they are further from."""
 _POLISHED, _STARTS = 12, 3
-"""So many of the best orders are simplified further."""
+"""So many of the best orders are simplified further, of any one structure no more than the second."""
 _ALIKE = 0.5
 """What takes the name of another differs from it by no more than this part of the larger."""
 _TRIALS = 20_000
