@@ -18,6 +18,7 @@ from facade_nb.design import parse
 from facade_nb.design.model import Canvas
 from facade_nb.solver.model.layout import PlacedShape
 from facade_nb.survey import SurveyError, compare, infer
+from facade_nb.survey.inference.grouping import groupings, looser
 from facade_nb.survey.inference.repeats import (
     Chain,
     Expression,
@@ -28,6 +29,7 @@ from facade_nb.survey.inference.repeats import (
     letters,
     shortest,
 )
+from facade_nb.survey.inference.structure import Opening, arranged
 from tests.oracle.facades import random_facade
 
 Openings = list[dict[str, Any]]
@@ -184,6 +186,43 @@ def test_random_facades_are_met_and_grow(seed: int, letter_count: int, symbol_co
 )
 def test_what_is_unusual_is_met(openings: Openings, width: float, height: float) -> None:
     assert compare(solve(infer(openings, width, height)), openings) > 0.97
+
+
+def test_a_row_that_begins_and_ends_alike_grows_as_it_is_written() -> None:
+    """Dormers with margins of their own: a margin, dormers with gaps between, a margin, and no letter twice."""
+    openings = grid(7, 4) + [opening(1.1 + 2.6 * i, 13.3, 2 + 2.6 * i, 14.3) for i in range(5)]
+    design = infer(openings, 15.8, 14.5)
+    [row] = [text for text in texts(design).values() if "@" in text and "^." not in text]
+    uncounted = re.sub(r"\^@\S+", "", row)
+    assert sum(map(str.isalpha, uncounted)) == 4
+    assert compare(solve(design), openings) > 0.9 and len(glazed(wide(design, 1.5))) > 45
+
+
+def test_what_is_added_is_like_what_repeats() -> None:
+    """A storey of which only the first two bays have windows: wider, it still has these two; higher, the rest grows."""
+    openings = grid(7, 4) + [opening(0.8 + 2.2 * i, -1.5 + 2, 1.8 + 2.2 * i, -1.5 + 3.5) for i in range(2)]
+    for one in openings[:28]:
+        one["rect"][1] += 3
+        one["rect"][3] += 3
+    design = infer(openings, 15.8, 15.3)
+    wider = wide(design, 1.5)
+    assert len([shape for shape in glazed(wider) if shape.rect[1] < 2]) == 2
+    assert len(glazed(wider)) == 4 * 11 + 2
+    higher = solve(replace(design, canvas=Canvas(15.8, 21.3)))
+    assert len(glazed(higher)) == 6 * 7 + 2
+
+
+def test_one_opening_joins_a_column_that_it_is_far_from_and_the_rest_stays_exact() -> None:
+    """A door half a metre beside its column: no tolerance is wide, and the column stays where its windows are."""
+    windows = [Opening((2.2 * i, 2.2 * i + 1), (3 * j, 3 * j + 1.5), False) for i in range(4) for j in (1, 2)]
+    openings = [*windows, Opening((4.9, 6.1), (0, 2.4), True)]
+    exact = next(groupings(openings))
+    apart = arranged(openings, exact, 7.6, 7.5)
+    assert len(apart.x) == 2
+    joined = [arranged(openings, other, 7.6, 7.5) for other in looser(openings, exact, apart)]
+    single = [structure for structure in joined if len(structure.x) == 1]
+    assert single and all(structure.x[0].spans == apart.x[0].spans for structure in single)
+    assert single[0].cells[-1][:2] == (0, 2)
 
 
 def test_without_openings_it_is_a_wall_of_any_size() -> None:

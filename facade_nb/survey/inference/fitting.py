@@ -19,6 +19,10 @@ Names = tuple[tuple[int, ...], ...]
 
 _LEAST = 0.002
 """No symbol that is fitted is smaller, metres."""
+_REFITS = 2
+"""So often sizes are fitted again, with less weight for edges that are further off: near to least absolute errors."""
+_SLIGHT = 0.04
+"""Edges that are no further off weigh alike, metres."""
 _TIE = 1e-6
 """How much the measured size of a symbol counts where places leave it open."""
 
@@ -69,7 +73,7 @@ def renumbered(names: Names) -> Names:
 
 
 def fit(lines: Sequence[Line], names: Names, canvas: float, *, mirrors: bool) -> Axis | None:
-    """Least squares over the places of all openings, with every line as long as the canvas; None where that fails.
+    """Least errors of the places of all openings, with every line as long as the canvas; None where that fails.
 
     Without `mirrors` no opening is mirrored: along y, windows would stand upside down.
     """
@@ -88,7 +92,7 @@ def solved(
     Each line is as long as its canvas; None where that fails.
     """
     n = 1 + max(symbol for line in names for symbol in line)
-    normal = np.zeros((n + len(lines), n + len(lines)))
+    system = np.zeros((n + len(lines), n + len(lines)))
     right = np.concatenate([np.zeros(n), canvases])
     tally = np.zeros((n, 2))
     parts: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
@@ -99,22 +103,34 @@ def solved(
         np.add.at(tally, (list(word), 1), 1)
         sums = sums.cumsum(axis=0)
         solid = np.array(line.solid)
-        low, high = sums[solid], sums[solid + 1]
-        parts.append((low, high))
-        normal[n + number, :n] = normal[:n, n + number] = sums[-1]
-        for rows, aims in zip((low, high), np.array(line.spans).T, strict=True):
-            weighted = rows.T * np.array(line.weights)
-            normal[:n, :n] += weighted @ rows
-            right[:n] += weighted @ aims
-    normal[range(n), range(n)] += _TIE
-    right[:n] += _TIE * tally[:, 0] / tally[:, 1]
-    sizes = np.round(np.linalg.lstsq(normal, right, rcond=None)[0][:n], 3)
-    lengths = normal[n:, :n]
+        parts.append((sums[solid], sums[solid + 1]))
+        system[n + number, :n] = system[:n, n + number] = sums[-1]
+    rows = np.concatenate([edge for part in parts for edge in part])
+    aims = np.concatenate([edge for line in lines for edge in np.array(line.spans).T])
+    shares = np.concatenate([_shares(line) for line in lines])
+    weights = shares / _SLIGHT
+    for _ in range(_REFITS + 1):
+        weighted = rows.T * weights
+        system[:n, :n] = weighted @ rows
+        right[:n] = weighted @ aims
+        system[range(n), range(n)] += _TIE
+        right[:n] += _TIE * tally[:, 0] / tally[:, 1]
+        found = np.linalg.lstsq(system, right, rcond=None)[0][:n]
+        weights = shares / np.maximum(np.abs(rows @ found - aims), _SLIGHT)
+    sizes = np.round(found, 3)
+    lengths = system[n:, :n]
     slack = 0.02 + 1e-3 * lengths.sum(axis=1).max()
     if sizes.min() < _LEAST or np.abs(lengths @ sizes - canvases).max() > slack:
         return None
     spans = tuple(np.stack([low @ sizes, high @ sizes], axis=1) for low, high in parts)
     return tuple(float(size) for size in sizes), spans
+
+
+def _shares(line: Line) -> NDArray[np.float64]:
+    """What an edge that is a metre off costs in agreement, for the low and then the high edges of a line."""
+    low, high = np.array(line.spans).T
+    share = np.array(line.weights) / (high - low)
+    return np.concatenate([share, share])
 
 
 def count_letters(lines: Sequence[Line], names: Names, *, mirrors: bool) -> int:
@@ -133,8 +149,8 @@ def measured(lines: Sequence[Line]) -> Axis:
     return Axis(names, tuple(size for line in lines for size in line.sizes), spans, sum(map(len, names)))
 
 
-def agreement(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> float:
-    """Mean intersection over union of openings (n, 4) with what stands for them, both moved to their corners."""
+def agreement(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> NDArray[np.float64]:
+    """Intersection over union of each opening (n, 4) with what stands for it, both moved to their corners."""
     across = np.array([x.spans[n][i] for n, i, _, _ in structure.cells])
     along = np.array([y.spans[n][i] for _, _, n, i in structure.cells])
     placed = np.stack([across[:, 0], along[:, 0], across[:, 1], along[:, 1]], axis=1)
@@ -142,4 +158,5 @@ def agreement(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axi
     low, high = np.maximum(placed[:, :2], target[:, :2]), np.minimum(placed[:, 2:], target[:, 2:])
     shared = np.clip(high - low, 0.0, None).prod(axis=1)
     areas = [(rects[:, 2:] - rects[:, :2]).prod(axis=1) for rects in (placed, target)]
-    return float((shared / (areas[0] + areas[1] - shared)).mean())
+    near: NDArray[np.float64] = shared / (areas[0] + areas[1] - shared)
+    return near

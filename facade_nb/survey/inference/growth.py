@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from .repeats import Chain, Expression, Leaf, Mirror, Run, Series
 
-__all__ = ["Looks", "grown", "shares"]
+__all__ = ["Looks", "counted", "grown", "shares"]
 
 _WALL = 0.3
 """Windows with less between them than this part of their size are one group, not a rhythm."""
@@ -131,6 +131,11 @@ def shares(expression: Expression) -> list[float]:
     if not last:
         return []
     return [sum(end < i for end in last.values()) / len(last) for i in range(len(copies))]
+
+
+def counted(expression: Expression) -> list[bool]:
+    """For each letter of the word whether it stands in what a counter repeats."""
+    return list(map(bool, _copies(expression)))
 
 
 def _copies(expression: Expression) -> list[tuple[int, ...]]:

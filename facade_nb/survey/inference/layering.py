@@ -24,12 +24,16 @@ _UNSEEN = {"visible": False}
 
 @dataclass(frozen=True, slots=True)
 class Named:
-    """An axis with names for its symbols and texts for its lines."""
+    """An axis with names for its symbols and texts for its lines.
+
+    For each letter of each line: which part of what a counter adds comes before it; whether it is itself repeated.
+    """
 
     symbols: tuple[str, ...]
     texts: tuple[str, ...]
     counters: tuple[str, ...]
     shares: tuple[list[float], ...]
+    repeats: tuple[list[bool], ...]
 
 
 def title(axis: str, n: int) -> str:
@@ -70,7 +74,11 @@ def layers(
             _numbers(columns, structure.x[xn], across.shares[xn]),
             _numbers(ours, structure.y[yn], along.shares[yn]),
         )
-        shapes = _shapes(cells[xn, yn], columns, ours, numbers, set(y.get("mask", ours)), walls)
+        repeats = (
+            [across.repeats[xn][token] for token in structure.x[xn].solid],
+            [along.repeats[yn][token] for token in structure.y[yn].solid],
+        )
+        shapes = _shapes(cells[xn, yn], columns, ours, numbers, repeats, set(y.get("mask", ours)), walls)
         name = "walls and windows" if (xn, yn) == base else f"{_what(cells[xn, yn])} {depth}"
         yield {"name": name, "x": x, "y": y, "depth": depth, "shapes": shapes}
 
@@ -89,28 +97,48 @@ def _shapes(
     columns: Sequence[str],
     bands: Sequence[str],
     numbers: tuple[list[int], list[int]],
+    repeats: tuple[list[bool], list[bool]],
     seen: set[str],
     walls: bool,
 ) -> dict[str, Any]:
-    """What a layer shows: for each pair of symbols what most have, and single ones that differ."""
-    groups: dict[tuple[str, str], list[tuple[int, int]]] = defaultdict(list)
-    for c, column in enumerate(columns):
-        for b, band in enumerate(bands):
-            if band in seen:
-                groups[column, band].append((c, b))
+    """What a layer shows: for each pair of symbols what most have, and bands and single ones that differ.
+
+    What a counter repeats decides for the rest: what is added is like it.
+    """
+    groups: dict[tuple[str, str], dict[int, list[int]]] = defaultdict(lambda: defaultdict(list))
+    for b, band in enumerate(bands):
+        if band in seen:
+            for c, column in enumerate(columns):
+                groups[column, band][b].append(c)
     found: dict[str, Any] = {}
     blank = WALL if walls else _UNSEEN
-    for (column, band), places in groups.items():
+
+    def usual(places: Sequence[tuple[int, int]]) -> bool | None:
+        """Whether most are doors or windows; None: neither."""
         kinds = Tally(cells.get(place) for place in places)
-        usual = None if 2 * kinds[None] > len(places) else max((False, True), key=lambda kind: kinds[kind])
-        if usual is not None or not walls:
-            found[f"{column} {band}"] = dict(blank if usual is None else _LOOKS[usual])
-        again = {"visible": True} if usual is None and not walls else {}  # else it would be inherited
-        for c, b in places:
-            kind = cells.get((c, b))
-            if kind != usual:
-                key = f"{column}[{numbers[0][c]}] {band}[{numbers[1][b]}]"
-                found[key] = dict(blank if kind is None else _LOOKS[kind] | again)
+        return None if 2 * kinds[None] > len(places) else max((False, True), key=lambda kind: kinds[kind])
+
+    def look(kind: bool | None, inherited: bool | None) -> dict[str, Any]:
+        shown = {"visible": True} if inherited is None and kind is not None and not walls else {}
+        return dict(blank if kind is None else _LOOKS[kind]) | shown
+
+    for (column, band), rows in groups.items():
+        grown_x = any(repeats[0][c] for row in rows.values() for c in row)
+        ours = {b: [c for c in row if repeats[0][c] or not grown_x] for b, row in rows.items()}
+        grown_y = any(repeats[1][b] for b in rows)
+        common = usual([(c, b) for b, row in ours.items() for c in row if repeats[1][b] or not grown_y])
+        if common is not None or not walls:
+            found[f"{column} {band}"] = look(common, common)
+        for b, row in rows.items():
+            own = usual([(c, b) for c in ours[b]])
+            name = f"{band}[{numbers[1][b]}]"
+            differ = [c for c in row if cells.get((c, b)) != own]
+            if own != common and len(differ) + 1 < sum(cells.get((c, b)) != common for c in row) + grown_x:
+                found[f"{column} {name}"] = look(own, common)
+            else:
+                own, differ = common, [c for c in row if cells.get((c, b)) != common]
+            for c in differ:
+                found[f"{column}[{numbers[0][c]}] {name}"] = look(cells.get((c, b)), own)
     return found
 
 

@@ -142,11 +142,9 @@ def _solved(word: tuple[int, ...], reach: int, turns: tuple[bool, ...]) -> tuple
                 if cost[i, i + d] + _RUN < best and part == part[:d] * (length // d):
                     best, way = float(cost[i, i + d]) + _RUN, ("run", d)
             half = (length + 1) // 2
-            if not 2 < length <= reach or part[0] != part[-1] or not turns[j - 1]:
-                pass
-            elif cost[i, i + half] + _MIRROR < best and part == part[::-1] and all(turns[i + half : j]):
-                best, way = float(cost[i, i + half]) + _MIRROR, ("mirror", half)
-            else:
+            if 2 < length <= reach and part[0] == part[-1] and turns[j - 1]:
+                if cost[i, i + half] + _MIRROR < best and part == part[::-1] and all(turns[i + half : j]):
+                    best, way = float(cost[i, i + half]) + _MIRROR, ("mirror", half)
                 for d in range(2, (length - 1) // 2 + 1):
                     if (
                         (length - 1) % d

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter as Tally
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -9,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .fitting import Axis, Names, agreement, count_letters, fit, measured, named
-from .structure import Line, Opening, Structure, corner, structures
+from .grouping import groupings, looser
+from .structure import Grouping, Line, Opening, Structure, arranged, corner
 
 __all__ = ["ERROR", "NEAR", "SYMBOL", "Order", "search"]
 
@@ -20,17 +22,25 @@ _TOLERANCES = (0.02, 0.05, 0.1, 0.2, 0.4)
 """Sizes that differ by no more may be one, metres. All are tried."""
 _SYMMETRIC = 3.0
 """Halves of a line mirror each other where they differ by no more than this times the tolerance."""
-_POLISHED = 4
-"""So many of the best orders are simplified further."""
+_ROUNDS, _LOOSENED = 2, 6
+"""So often so many of the best structures are tried with openings that join what they are further from."""
+_POLISHED, _STARTS = 12, 3
+"""So many of the best orders are simplified further, of any one structure no more than the second."""
+_ALIKE = 0.5
+"""What takes the name of another differs from it by no more than this part of the larger."""
 _TRIALS = 20_000
 """So many letters are looked at in simplifying a line, all trials together."""
 
 SYMBOL, _EXCEPTION, _LINE = 0.5, 0.25, 0.5
 """What a symbol, an exception and a line weigh, in letters."""
-ERROR = 1.5
+ERROR = 1.0
 """What it costs, in letters an opening, to agree in nothing."""
 _FAR = 60.0
 """The same, of what lacks to `NEAR`."""
+
+
+_FAIR, _POOR = 0.7, 6.0
+"""No opening should agree less than that; what one costs that agrees in nothing, in letters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,29 +58,52 @@ def search(openings: Sequence[Opening], width: float, height: float) -> Order:
     """The order that costs least."""
     target = corner(openings)
     found: list[Order] = []
-    for structure in structures(openings, width, height):
+    groups: dict[int, Grouping] = {}
+    seen: dict[Structure, None] = {}
+
+    def look(grouping: Grouping) -> None:
+        structure = arranged(openings, grouping, width, height)
+        if structure in seen:
+            return
+        seen[structure] = None
+        groups[id(structure)] = grouping
         if not found:  # the exact one, which is there whatever else cannot be fitted
             found.append(_order(structure, target, measured(structure.x), measured(structure.y)))
         along = list(_candidates(structure.y, height, mirrors=False))
         for x in _candidates(structure.x, width, mirrors=True):
-            found += [_order(structure, target, x, y) for y in along]
+            found.extend(_order(structure, target, x, y) for y in along)
+
+    for grouping in groupings(openings):
+        look(grouping)
     found.sort(key=lambda order: order.cost)
+    done: set[int] = set()
+    for _ in range(_ROUNDS):
+        for order in list(_different(found, _LOOSENED)):
+            if id(order.structure) in done:
+                continue
+            done.add(id(order.structure))
+            for grouping in looser(openings, groups[id(order.structure)], order.structure):
+                look(grouping)
+        found.sort(key=lambda order: order.cost)
     best = found[0]
-    for order in _different(found):
+    for order in list(_different(found, _POLISHED, _STARTS)):
         polished = _polished(order, target, width, height)
         if polished.cost < best.cost - 1e-9:
             best = polished
     return best
 
 
-def _different(found: Sequence[Order]) -> Iterator[Order]:
-    """The first orders of a list that differ in more than what polishing changes."""
-    seen: set[int] = set()
+def _different(found: Sequence[Order], number: int, each: int = 1) -> Iterator[Order]:
+    """The first orders of a list, of any one structure no more than `each`."""
+    seen: Tally[int] = Tally()
+    names: set[tuple[int, Names, Names]] = set()
     for order in found:
-        if id(order.structure) not in seen:
-            seen.add(id(order.structure))
+        own = id(order.structure)
+        if seen[own] < each and (own, order.x.names, order.y.names) not in names:
+            names.add((own, order.x.names, order.y.names))
+            seen[own] += 1
             yield order
-            if len(seen) == _POLISHED:
+            if seen.total() == number:
                 return
 
 
@@ -87,11 +120,12 @@ def _candidates(lines: Sequence[Line], canvas: float, *, mirrors: bool) -> Itera
 
 
 def _order(structure: Structure, target: NDArray[np.float64], x: Axis, y: Axis) -> Order:
-    near = agreement(structure, target, x, y)
+    each = agreement(structure, target, x, y)
+    near = float(each.mean())
     size = x.letters + y.letters + SYMBOL * (x.symbols + y.symbols) + _EXCEPTION * structure.exceptions
-    size += _LINE * (len(structure.x) + len(structure.y))
+    size += _LINE * (len(structure.x) + len(structure.y)) + _POOR * np.clip(1 - each / _FAIR, 0.0, None).sum()
     cost = size / len(target) + ERROR * (1 - near) + _FAR * max(0.0, NEAR - near)
-    return Order(structure, x, y, near, round(cost, 9))
+    return Order(structure, x, y, near, round(float(cost), 9))
 
 
 def _polished(order: Order, target: NDArray[np.float64], width: float, height: float) -> Order:
@@ -105,7 +139,7 @@ def _polished(order: Order, target: NDArray[np.float64], width: float, height: f
                 lines = order.structure.x if axis == "x" else order.structure.y
                 own = order.x if axis == "x" else order.y
                 mirrors = axis == "x"
-                for names in _simpler(lines, own.names):
+                for names in _simpler(lines, own):
                     left[axis] -= sum(map(len, names))
                     if order.agreement >= NEAR and _weight(lines, names, mirrors) >= _weight(
                         lines, own.names, mirrors
@@ -132,25 +166,51 @@ def _weight(lines: Sequence[Line], names: Names, mirrors: bool) -> float:
     return SYMBOL * symbols + count_letters(lines, names, mirrors=mirrors)
 
 
-def _simpler(lines: Sequence[Line], names: Names) -> Iterator[Names]:
-    """Other names of the tokens, among which shorter patterns may be."""
+def _simpler(lines: Sequence[Line], axis: Axis) -> Iterator[Names]:
+    """Other names of the tokens, among which shorter patterns may be. What takes another's name is about as large."""
+    names, sizes = axis.names, axis.sizes
     categories: dict[int, str] = {}
     for line, word in zip(lines, names, strict=True):
         categories.update(zip(word, line.categories, strict=True))
     symbols = sorted(categories)
+
+    def alike(a: int, b: int) -> bool:
+        near = abs(sizes[a] - sizes[b]) <= _ALIKE * max(sizes[a], sizes[b])
+        return near and categories[a] == categories[b]
+
     for i, a in enumerate(symbols):
         for b in symbols[i + 1 :]:
-            if categories[a] == categories[b]:
+            if alike(a, b):
                 yield tuple(tuple(a if s == b else s for s in word) for word in names)
-    for n, (line, word) in enumerate(zip(lines, names, strict=True)):
-        for other in _regular(line, word):
-            if other != word:
-                yield (*names[:n], other, *names[n + 1 :])
+    seen = set(names)
+    for regular in (_regular, _partly_regular):
+        for n, (line, word) in enumerate(zip(lines, names, strict=True)):
+            for other in regular(line, word):
+                if other not in seen and all(map(alike, word, other)):
+                    seen.add(other)
+                    yield (*names[:n], other, *names[n + 1 :])
     for n, word in enumerate(names):
         for i, own in enumerate(word):
             for symbol in symbols:
-                if symbol != own and categories[symbol] == categories[own]:
+                if symbol != own and alike(symbol, own):
                     yield (*names[:n], (*word[:i], symbol, *word[i + 1 :]), *names[n + 1 :])
+
+
+def _partly_regular(line: Line, word: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
+    """The word with a part of it made symmetric, or made to repeat the part before or after it."""
+    kinds = line.categories
+    for length in range(len(word), 2, -1):
+        for i in range(len(word) - length + 1):
+            j = i + length
+            if kinds[i:j] == kinds[i:j][::-1]:
+                half = length // 2
+                low, high = word[i : i + half], word[j - half : j]
+                yield (*word[: j - half], *low[::-1], *word[j:])
+                yield (*word[:i], *high[::-1], *word[i + half :])
+            if length % 2 == 0 and kinds[i : i + length // 2] == kinds[i + length // 2 : j]:
+                half = length // 2
+                yield (*word[: i + half], *word[i : i + half], *word[j:])
+                yield (*word[:i], *word[i + half : j], *word[i + half :])
 
 
 def _regular(line: Line, word: tuple[int, ...]) -> Iterator[tuple[int, ...]]:

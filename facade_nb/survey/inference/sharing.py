@@ -76,4 +76,4 @@ def _fitted(
     sizes, spans = fitted
     x = Axis(of_x, tuple(sizes[dense[s]] for s in range(first)), spans[: len(of_x)], order.x.letters)
     y = Axis(of_y, tuple(sizes[dense[s]] for s in numbers), spans[len(of_x) :], order.y.letters)
-    return replace(order, x=x, y=y, agreement=agreement(order.structure, target, x, y))
+    return replace(order, x=x, y=y, agreement=float(agreement(order.structure, target, x, y).mean()))

@@ -6,7 +6,7 @@ overlap others make lines of their own. The openings of a band make a row; rows 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
@@ -16,20 +16,26 @@ from numpy.typing import NDArray
 
 from .repeats import letters
 
-__all__ = ["GAP", "Line", "Opening", "Span", "Structure", "clusters", "corner", "structures"]
+__all__ = [
+    "GAP",
+    "LEAST",
+    "Grouping",
+    "Line",
+    "Opening",
+    "Span",
+    "Structure",
+    "arranged",
+    "clusters",
+    "corner",
+    "mean",
+]
 
 Span = tuple[float, float]
 
 GAP = "gap"
 """The category of what stands between openings."""
 
-TOLERANCES = (0.0, 0.03, 0.08, 0.16, 0.3, 0.5, 0.8)
-"""Edges that differ by no more are one, metres. All are tried."""
-
-MARGINS = (0.0, 0.15)
-"""Walls at the ends of a line that are no wider are left out, metres: surveys often end with their openings."""
-
-_NONE = 0.005
+LEAST = 0.005
 """Gaps under so many metres are none."""
 
 _EXCEPTION = 0.25
@@ -80,28 +86,27 @@ class Structure:
     exceptions: int
 
 
+@dataclass(frozen=True, slots=True)
+class Grouping:
+    """What decides a structure: bands, and how far openings may be from columns they join, metres.
+
+    `slack` has openings that may be further off than the rest; `aside` those that have no say in where their band is.
+    """
+
+    bands: tuple[tuple[int, ...], ...]
+    tolerance: float
+    margin: float
+    slack: Mapping[int, float] = field(default_factory=dict)
+    aside: frozenset[int] = frozenset()
+
+
 @dataclass(slots=True)
 class _Column:
-    """Openings above each other."""
+    """Openings above each other; the span is of those that are `firm`."""
 
     members: list[int] = field(default_factory=list)
     span: Span = (0.0, 0.0)
-
-
-def structures(openings: Sequence[Opening], width: float, height: float) -> Iterator[Structure]:
-    """The orders of some openings, at several tolerances, equal ones once; the exact one first."""
-    seen: set[Structure] = set()
-    scale = float(np.median([opening.y[1] - opening.y[0] for opening in openings])) / 1.5
-    for of_bands in TOLERANCES:
-        bands = _bands(openings, of_bands * scale)
-        for of_columns in TOLERANCES:
-            for margin in MARGINS:
-                found = _structure(
-                    openings, bands, of_columns * scale, width, height, max(_NONE, margin * scale)
-                )
-                if found not in seen:
-                    seen.add(found)
-                    yield found
+    firm: list[int] = field(default_factory=list)
 
 
 def corner(openings: Sequence[Opening]) -> NDArray[np.float64]:
@@ -132,7 +137,8 @@ def _tree(values: tuple[tuple[float, ...], ...]) -> list[tuple[int, int, float]]
     return [(int(a), int(b), float(distance)) for a, b, distance, _ in found]
 
 
-def _mean(spans: Iterable[Span]) -> Span:
+def mean(spans: Iterable[Span]) -> Span:
+    """The span whose ends are the means of those of others."""
     low, high = zip(*spans, strict=True)
     return (round(sum(low) / len(low), 6), round(sum(high) / len(high), 6))
 
@@ -156,24 +162,13 @@ def _apart(spans: dict[int, Span], weights: dict[int, int]) -> list[list[int]]:
     return sets
 
 
-def _bands(openings: Sequence[Opening], tolerance: float) -> list[list[int]]:
-    """The openings of each band."""
-    numbers = clusters([opening.y for opening in openings], tolerance)
-    bands: list[list[int]] = [[] for _ in range(max(numbers) + 1)]
-    for i, number in enumerate(numbers):
-        bands[number].append(i)
-    return bands
-
-
-def _structure(
-    openings: Sequence[Opening],
-    bands: list[list[int]],
-    tolerance: float,
-    width: float,
-    height: float,
-    margin: float,
-) -> Structure:
-    spans = {b: _mean(openings[i].y for i in band) for b, band in enumerate(bands)}
+def arranged(openings: Sequence[Opening], grouping: Grouping, width: float, height: float) -> Structure:
+    """The structure of a grouping."""
+    bands, margin = grouping.bands, grouping.margin
+    spans = {
+        b: mean([openings[i].y for i in band if i not in grouping.aside] or [openings[i].y for i in band])
+        for b, band in enumerate(bands)
+    }
     of_y = _apart(spans, {b: len(band) for b, band in enumerate(bands)})
     rows = [
         (b, row)
@@ -185,9 +180,9 @@ def _structure(
     line_of: list[int] = []
     for n, (band, row) in enumerate(rows):
         others = {line for (other, _), line in zip(rows[:n], line_of, strict=True) if other == band}
-        line_of.append(_place(openings, lines, row, others, tolerance, width, margin))
+        line_of.append(_place(openings, lines, row, others, grouping, width))
     made_x = tuple(
-        _line([(c.span, "open", len(c.members)) for c in columns], width, margin) for columns in lines
+        _line([(c.span, "open", len(c.firm)) for c in columns], width, margin) for columns in lines
     )
     used = {
         b: sorted({line for (own, _), line in zip(rows, line_of, strict=True) if own == b}) for b in spans
@@ -214,7 +209,7 @@ def _line(parts: Sequence[tuple[Span, str, int]], canvas: float, margin: float) 
     sizes: list[float] = []
     end = 0.0
     for (low, high), category, _ in parts:
-        if low - end > (_NONE if sizes else margin):
+        if low - end > (LEAST if sizes else margin):
             categories.append(GAP)
             sizes.append(low - end)
         categories.append(category)
@@ -232,18 +227,18 @@ def _place(
     lines: list[list[_Column]],
     row: list[int],
     taken: set[int],
-    tolerance: float,
+    grouping: Grouping,
     width: float,
-    margin: float,
 ) -> int:
     """Put a row into the line where it costs fewest letters, or into one of its own; which that is.
 
     Lines that are taken have another row of the same band, which overlaps this one.
     """
-    alone = [_Column([i], openings[i].x) for i in row]
+    tolerance, margin = grouping.tolerance, grouping.margin
+    alone = [_Column([i], openings[i].x, [i]) for i in row]
     best, chosen, found = float(_letters(alone, tolerance, width, margin)), len(lines), alone
     for n, line in enumerate(lines):
-        joined = None if n in taken else _joined(openings, line, row, tolerance)
+        joined = None if n in taken else _joined(openings, line, row, grouping)
         if joined is None:
             continue
         missing = len(joined) - len(row)
@@ -260,29 +255,32 @@ def _place(
 
 
 def _joined(
-    openings: Sequence[Opening], line: list[_Column], row: list[int], tolerance: float
+    openings: Sequence[Opening], line: list[_Column], row: list[int], grouping: Grouping
 ) -> list[_Column] | None:
     """A line with a row put into it; None where they do not line up."""
-    columns = [_Column(list(column.members), column.span) for column in line]
+    columns = [_Column(list(column.members), column.span, list(column.firm)) for column in line]
     taken: set[int] = set()
     new: list[_Column] = []
     for i in row:
         low, high = openings[i].x
+        reach = max(grouping.tolerance, grouping.slack.get(i, 0.0)) + 1e-9
         fits = [
             (max(abs(c.span[0] - low), abs(c.span[1] - high)), n)
             for n, c in enumerate(columns)
-            if n not in taken and max(abs(c.span[0] - low), abs(c.span[1] - high)) <= tolerance + 1e-9
+            if n not in taken and max(abs(c.span[0] - low), abs(c.span[1] - high)) <= reach
         ]
         if fits:
-            n = min(fits)[1]
+            off, n = min(fits)
             taken.add(n)
             columns[n].members.append(i)
+            if off <= grouping.tolerance + 1e-9:
+                columns[n].firm.append(i)
         elif any(c.span[0] < high - 1e-6 and low < c.span[1] - 1e-6 for c in columns):
             return None
         else:
-            new.append(_Column([i], (low, high)))
+            new.append(_Column([i], (low, high), [i]))
     for column in columns:
-        column.span = _mean(openings[i].x for i in column.members)
+        column.span = mean(openings[i].x for i in column.firm)
     columns = sorted(columns + new, key=lambda column: column.span)
     for a, b in pairwise(columns):
         if b.span[0] < a.span[1] - 1e-6:

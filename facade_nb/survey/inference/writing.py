@@ -10,7 +10,7 @@ from typing import Any
 
 from ...design.model import Design
 from .fitting import Axis
-from .growth import Looks, grown, shares
+from .growth import Looks, counted, grown, shares
 from .layering import WALL, Named, layers, title
 from .repeats import Chain, Expression, Leaf, Mirror, Run, Series, shortest
 from .search import Order
@@ -128,7 +128,7 @@ def _named(
     letters = {kind: _letters(_NAMES[axis, kind]) for kind in (True, False)}
     symbols = tuple(names.get(symbol) or next(letters[solid[symbol]]) for symbol in range(fitted.symbols))
     counters: Iterator[str] = (c for c in _letters(_COUNTERS[axis]) if c not in taken)
-    texts, used, grows = [], [], []
+    texts, used, grows, repeats = [], [], [], []
     for n, (line, word) in enumerate(zip(lines, fitted.names, strict=True)):
         weights: Tally[int] = Tally()
         for i, weight in zip(line.solid, line.weights, strict=True):
@@ -143,7 +143,8 @@ def _named(
             counters = _before(counter, counters)
         texts.append(_text(expression, symbols).strip())
         grows.append(shares(expression))
-    return Named(symbols, tuple(texts), tuple(used), tuple(grows))
+        repeats.append(counted(expression))
+    return Named(symbols, tuple(texts), tuple(used), tuple(grows), tuple(repeats))
 
 
 def _growing(
