@@ -61,6 +61,27 @@ describe("the queue", () => {
     vi.restoreAllMocks();
   });
 
+  it("takes a drag for one entry, however long the hand rests on the way", () => {
+    let now = 5000;
+    vi.spyOn(performance, "now").mockImplementation(() => now);
+    const width = (at: number, value: string) => {
+      now = at;
+      store.set(["canvas", "width"], value);
+      answer();
+    };
+    const pointer = (name: string) => document.body.dispatchEvent(new PointerEvent(name, { bubbles: true }));
+    width(5000, "6");
+    pointer("pointerdown");
+    width(8000, "6.5");
+    width(12000, "7");
+    pointer("pointerup");
+    pointer("pointerdown");
+    width(15000, "7.5");
+    pointer("pointercancel");
+    width(17000, "8");
+    expect(model.asked.map(({ after }) => after)).toEqual([undefined, 3, 0, 3, 2]);
+  });
+
   it("knows which fields Python has not answered", () => {
     store.set(BX, "A");
     store.set(["canvas", "width"], "7");
