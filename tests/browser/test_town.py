@@ -18,7 +18,7 @@ from .conftest import Visit
 from .jupyter import Notebook
 from .keys import slide
 from .town_page import CANVAS, CONTEXT, READ, SESSION
-from .waiting import eventually, frames
+from .waiting import eventually, frames, until
 
 HEAD = """
 import base64
@@ -145,6 +145,25 @@ def test_the_sky_is_above_and_the_town_below(town: Shown) -> None:
     expect(town.page.locator(".fnb-town-view .fnb-town-told")).to_contain_text(
         re.compile(r"\d m?s · \d+ × \d+")
     )
+
+
+def test_the_picture_of_the_notebook_follows_unseen(town: Shown) -> None:
+    def outputs() -> list[str]:
+        return town.page.evaluate(
+            "() => window.jupyterapp.shell.currentWidget.content.widgets[0].model.outputs.toJSON()"
+            ".map(own => String(own.data?.['text/html']))"
+        )
+
+    def followed() -> bool:
+        return "<img" in outputs()[0]
+
+    until(town.page, followed)
+    picture, view = outputs()
+    assert "60 buildings" in picture
+    assert view == "undefined"
+    hidden = town.page.locator("[class^=fnb-follows-]")
+    expect(hidden).to_have_count(1)
+    expect(hidden).to_be_hidden()
 
 
 def test_keys_fly(town: Shown) -> None:

@@ -41,10 +41,14 @@ class PartView(AnyWidget):
         self.channel.wake()
         made = super()._repr_mimebundle_(**options)
         if made is not None:
-            static = self.to_html()
+            static = self._carried()
             if static:
                 made[0]["text/html"] = as_run(static)
         return made
+
+    def _carried(self) -> str:
+        """The static form that goes out with the view; empty where there is none, or where it comes later."""
+        return self.to_html()
 
 
 class EditedWire(ModelWire):

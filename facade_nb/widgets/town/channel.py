@@ -9,12 +9,13 @@ from traitlets import Bool, Bytes, Dict, Float, Int, List, Unicode
 
 from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
-from ..shared.bundled import Message
+from ..shared.bundled import Message, as_run
 from ..shared.pictured import EditedWire
 from ..studio.wire import describe_faults
+from .following import Following
 from .model import TownModel
 from .packet import BLOCK, Blob, blobs_of, head_piece, kept_piece, row
-from .still import still
+from .still import SAVED, image, still, told
 from .tiles import tiles_of, tiles_piece
 
 __all__ = ["TownChannel"]
@@ -56,9 +57,25 @@ class TownChannel(EditedWire):
     def __init__(self, model: TownModel) -> None:
         self._blobs: dict[str, Blob] = {}
         self._kept = 0  # the side of tiles that are kept; 0: nothing is
+        self._following = Following(self._picture)
         super().__init__(model, **_state(model))
         self._refill()
         model.observe(self._on_model)
+
+    def close(self) -> None:
+        """Close the wire; the model lives on."""
+        self._following.drop()
+        super().close()
+
+    def promise_picture(self) -> bool:
+        """Have the picture that a notebook carries follow the cell's output; whether it will."""
+        return self._following.promise(told(self.model), f"fnb-follows-{self.model_id}")
+
+    def _picture(self) -> str:
+        drawn = b""
+        with self._telling():
+            drawn = still(self.model, SAVED, hasty=True)
+        return as_run(image(self.model, drawn))
 
     def _drawn(self) -> bytes:
         return still(self.model)
@@ -103,6 +120,7 @@ class TownChannel(EditedWire):
             self.send({"kind": "patch", "name": "vertices", "at": first}, buffers=[bytes(content[first:end])])
 
     def _answer(self, message: Message) -> None:
+        self._following.wait()
         op = message.get("op")
         with self._telling():
             if op == "blocks":

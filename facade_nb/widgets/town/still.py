@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
 from io import BytesIO
-from typing import Any
 
 from ...render.pipeline.frame import Frame, Looks
 from ...render.pipeline.renderer import renderer_of
@@ -15,7 +13,7 @@ from ..shared.pictured import picture_html
 from .model import TownModel
 from .tiles import coarse_tiles
 
-__all__ = ["SAVED", "SIZE", "awaited", "painter", "still", "still_of_cell", "told"]
+__all__ = ["SAVED", "SIZE", "image", "painter", "still", "told"]
 
 SIZE = (720, 405)
 """Pixels of it."""
@@ -31,12 +29,10 @@ def painter() -> GlPainter | None:
     return next((own for own in (OSMESA, EGL) if own.available), None)
 
 
-def still(
-    model: TownModel, pixels: tuple[int, int] = SIZE, hasty: bool = False, shadow: bool = True
-) -> bytes:
+def still(model: TownModel, pixels: tuple[int, int] = SIZE, hasty: bool = False) -> bytes:
     """What is seen from the viewpoint in the light of the hour, as JPEG; empty where no OpenGL can be had.
 
-    `hasty`: where tiles have not been drawn yet, small ones are drawn instead. `shadow`: whether there are the sun's.
+    `hasty`: where tiles have not been drawn yet, small ones are drawn instead.
     """
     from PIL import Image
 
@@ -46,29 +42,12 @@ def still(
     scene = model.scene
     if hasty and (small := coarse_tiles(scene.grammar)) is not None:
         scene = replace(scene, grammar=replace(scene.grammar, tiles=small))
-    looks = Looks(relief=False, shadow=shadow)
-    frame = Frame(scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, looks)
+    frame = Frame(scene, model.viewpoint.frustum(pixels), Daytime.at(model.hour), pixels, Looks(relief=False))
     with renderer_of(frame.scene, by, tile_bytes=int(model.tile_megabytes * 1e6)) as renderer:
         drawn = renderer.draw(frame)["picture"]
     out = BytesIO()
     Image.fromarray(drawn[..., :3]).save(out, "JPEG", quality=_QUALITY, optimize=True)
     return out.getvalue()
-
-
-def still_of_cell(model: TownModel) -> bytes:
-    """The picture that a cell's output carries: the live view waits until it is drawn.
-
-    So it is small, and has no shadows where somebody waits for the cell. Where nobody does, as when notebooks are run
-    to be kept, it has.
-    """
-    return still(model, SAVED, hasty=True, shadow=not awaited())
-
-
-def awaited() -> bool:
-    """Whether somebody waits for the cell that runs: a front end that can be asked for input says so."""
-    shell: Any = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
-    parent: Any = getattr(getattr(shell, "kernel", None), "get_parent", dict)()
-    return bool((parent or {}).get("content", {}).get("allow_stdin"))
 
 
 def told(model: TownModel) -> str:

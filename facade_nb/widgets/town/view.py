@@ -12,8 +12,9 @@ from ...render.pipeline.viewpoint import CameraPath, Viewpoint
 from ...render.town import Town
 from ..shared.pictured import PartView, check_side
 from .channel import TownChannel
+from .following import awaited
 from .model import TownModel
-from .still import image, still_of_cell
+from .still import SAVED, image, still
 
 __all__ = ["PipelineView", "TownView"]
 
@@ -120,7 +121,11 @@ class _TownWidget(PartView):
 
     def to_html(self) -> str:
         """The static form: a picture for pages where no widget can run; empty where there is none."""
-        return image(self.model, still_of_cell(self.model))
+        return image(self.model, still(self.model, SAVED, hasty=True))
+
+    def _carried(self) -> str:
+        """Where somebody waits for the view, it comes first, and the picture when the page has what it needs."""
+        return "" if awaited() and self.channel.promise_picture() else self.to_html()
 
 
 class TownView(_TownWidget):

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import zlib
-from base64 import b64decode
-from io import BytesIO
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -13,7 +12,7 @@ from typing import Any
 import IPython
 import numpy as np
 import pytest
-from PIL import Image
+from IPython import display
 from traitlets import TraitError
 
 from facade_nb import gallery
@@ -25,9 +24,9 @@ from facade_nb.render.tiles import tileset
 from facade_nb.render.tiles.drawn import Drawn
 from facade_nb.render.town import Town
 from facade_nb.widgets import PipelineView, TownModel, TownView
+from facade_nb.widgets.town import following
 from facade_nb.widgets.town.channel import TownChannel
 from facade_nb.widgets.town.packet import blobs_of, needs_of
-from facade_nb.widgets.town.still import SAVED, still
 from facade_nb.widgets.town.tiles import tiles_piece
 
 from .frames import PATH, made
@@ -300,18 +299,49 @@ def test_the_static_form_is_small(town: Town) -> None:
     assert repr(view) == "TownView(60 buildings)"
 
 
-@pytest.mark.parametrize(("asked", "shadow"), [(True, False), (False, True), (None, True)])
-def test_the_picture_of_a_cell_has_shadows_where_nobody_waits_for_it(
-    town: Town, asked: bool | None, shadow: bool, monkeypatch: pytest.MonkeyPatch
+def test_where_somebody_waits_the_view_comes_first_and_the_picture_follows(
+    town: Town, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    message = {} if asked is None else {"content": {"allow_stdin": asked}}
-    shell = SimpleNamespace(kernel=SimpleNamespace(get_parent=lambda: message))
-    monkeypatch.setattr(IPython, "get_ipython", lambda: shell)
     view = TownView(town)
-    drawn = b64decode(view.to_html().split("base64,")[1].split('"')[0])
-    assert Image.open(BytesIO(drawn)).size == SAVED
-    same, other = (still(view.model, SAVED, hasty=True, shadow=own) for own in (shadow, not shadow))
-    assert drawn == same != other
+    told: list[tuple[dict[str, Any], dict[str, Any], bool]] = []
+
+    def publish(data: dict[str, Any], **more: Any) -> None:
+        told.append((data, more["transient"], more.get("update", False)))
+
+    async def shown(asked: bool, rest: float) -> Any:
+        message = {"content": {"allow_stdin": asked}}
+        kernel = SimpleNamespace(get_parent=lambda: message)
+        monkeypatch.setattr(IPython, "get_ipython", lambda: SimpleNamespace(kernel=kernel))
+        monkeypatch.setattr(following, "REST", rest)
+        made = view._repr_mimebundle_()
+        assert made is not None
+        if asked:
+            view.channel._answer({"op": "blocks", "name": "none", "version": 0, "blocks": [], "client": "x"})
+        await asyncio.sleep(0.01)
+        return made[0]
+
+    monkeypatch.setattr(display, "publish_display_data", publish)
+    kept = asyncio.run(shown(False, 0.0))  # nobody waits: the picture is in the output itself
+    assert "<img" in kept["text/html"]
+    assert told == []
+    live = asyncio.run(shown(True, 0.0))
+    assert "text/html" not in live
+    (words, first, _), (picture, then, update) = told
+    assert "A town of 60 buildings at 11:00" in words["text/html"]
+    assert "<img" not in words["text/html"]
+    assert picture["text/html"].count("<img") == 1
+    assert f"fnb-follows-{view.channel.model_id}" in picture["text/html"]
+    assert update
+    assert first == then != {}
+    assert kept["text/html"] in picture["text/html"]
+
+
+def test_without_a_loop_the_picture_does_not_wait(town: Town, monkeypatch: pytest.MonkeyPatch) -> None:
+    kernel = SimpleNamespace(get_parent=lambda: {"content": {"allow_stdin": True}})
+    monkeypatch.setattr(IPython, "get_ipython", lambda: SimpleNamespace(kernel=kernel))
+    made = TownView(town)._repr_mimebundle_()
+    assert made is not None
+    assert "<img" in made[0]["text/html"]
 
 
 def test_what_is_no_town_is_refused() -> None:

@@ -2,6 +2,7 @@
 
 import { context } from "../pipeline/context.ts";
 import { Pipeline, type Source } from "../pipeline/pipeline.ts";
+import { h } from "../shared/dom.ts";
 import { Entering } from "../shared/entering.ts";
 import { noiseBytes } from "../shared/noise.ts";
 import { oneFor } from "../shared/one.ts";
@@ -255,6 +256,7 @@ export class Session extends Entering<Entered> {
     const heard = (message: Message, buffers: Bytes[]) => this.inTurn(() => this.receive(message, buffers));
     this.channel.on("msg:custom", heard);
     this.present.signal.addEventListener("abort", () => this.channel.off("msg:custom", heard));
+    this.hidePicture();
     this.follow(true);
     this.inTurn(async () => {
       await this.take();
@@ -270,6 +272,14 @@ export class Session extends Entering<Entered> {
     clearTimeout(this.telling);
     this.pipeline?.free();
     super.end();
+  }
+
+  /** The picture that the notebook carries in an output of its own (`following.py`) is not seen beside the views. */
+  private hidePicture(): void {
+    const output = `.fnb-follows-${this.channel.model_id}`;
+    const style = h("style", {}, `${output}, .jp-OutputArea-child:has(${output}) { display: none }`);
+    document.head.append(style);
+    this.present.signal.addEventListener("abort", () => style.remove());
   }
 
   protected override kernelChanged(): void {
