@@ -32,7 +32,7 @@ _LARGEST = 64 * 2**20
 _TOLD = re.compile(r"(.*)\(\s*fit\s*=\s*(\w*)\s*\)\s*", re.DOTALL)
 
 Triangles = tuple[tuple[tuple[float, float, float], ...], tuple[tuple[int, ...], ...]]
-"""Corners, the longest side of their box being 1, the lower left corner of their box at x = y = 0 and its front at z = 0; and faces."""
+"""Corners, the longest side of their box being 1, its lower left at x = y = 0 and its front at z = 0; and faces."""
 
 
 def is_file(geometry: str) -> bool:
@@ -75,7 +75,10 @@ def _read(path: Path, text: str) -> Triangles:
         known = path.stat()
     except FileNotFoundError:
         raise ValueError(f"there is no file {text!r}{nearest(path.name, _beside(path))}") from None
-    except (OSError, ValueError) as error:  # a loop of links, a folder that is closed, a name that is too long
+    except (
+        OSError,
+        ValueError,
+    ) as error:  # a loop of links, a folder that is closed, a name that is too long
         raise ValueError(f"{text!r} cannot be read: {_why(error)}") from None
     if not S_ISREG(known.st_mode):  # a pipe would be waited for without end
         found = "a folder" if S_ISDIR(known.st_mode) else "a device or a pipe"
