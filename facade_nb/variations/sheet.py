@@ -50,13 +50,17 @@ def contact_sheet(
     Raises
     ------
     ValueError
-        For an unknown theme, for fewer than one column, or a sheet without room for them.
+        For a table without layouts, an unknown theme, for fewer than one column, or a sheet without room for them.
     """
     style = find_style(theme)
-    if columns < 1 or width_px < columns * LEAST:
+    if "layout" not in getattr(table, "columns", ()):
+        raise ValueError(
+            f"contact_sheet: expected a table with a column 'layout', such as sweep's; found {type(table).__name__}"
+        )
+    if not isinstance(columns, int) or columns < 1 or width_px < columns * LEAST:
         raise ValueError(
             f"contact_sheet: expected at least 1 column and {LEAST:.0f} pixels for each; "
-            f"found {columns} columns on {width_px:g} pixels"
+            f"found {columns!r} columns on {width_px:g} pixels"
         )
     rows = table.to_dict("records")
     cell = width_px / columns
