@@ -75,10 +75,7 @@ def _read(path: Path, text: str) -> Triangles:
         known = path.stat()
     except FileNotFoundError:
         raise ValueError(f"there is no file {text!r}{nearest(path.name, _beside(path))}") from None
-    except (
-        OSError,
-        ValueError,
-    ) as error:  # a loop of links, a folder that is closed, a name that is too long
+    except (OSError, ValueError) as error:  # a loop of links, a closed folder, too long a name
         raise ValueError(f"{text!r} cannot be read: {_why(error)}") from None
     if not S_ISREG(known.st_mode):  # a pipe would be waited for without end
         found = "a folder" if S_ISDIR(known.st_mode) else "a device or a pipe"

@@ -6,6 +6,7 @@ import random
 from collections.abc import Mapping
 from dataclasses import replace
 from numbers import Integral, Real
+from typing import Any
 
 from ..design.edit import with_canvas, with_counter, with_symbol
 from ..design.errors import quoted
@@ -85,13 +86,14 @@ def _whole(seed: object) -> int:
     return int(seed)
 
 
-def _ends(place: str, ends: object, *, whole: bool = False) -> Range:
+def _ends(place: str, ends: Any, *, whole: bool = False) -> Range:
     """The ends of a range, or ValueError."""
-    if not isinstance(ends, (tuple, list)) or len(ends) != 2:
-        raise ValueError(f"vary: {place}: expected a range (least, greatest), found {ends!r:.80}")
-    low, high = ends
-    for end in ends:
-        if not isinstance(end, Real) or not abs(float(end)) <= MOST:
+    try:
+        low, high = ends
+    except (TypeError, ValueError):
+        raise ValueError(f"vary: {place}: expected a range (least, greatest), found {ends!r:.80}") from None
+    for end in (low, high):
+        if not isinstance(end, Real) or not abs(end) <= MOST:  # type: ignore[operator]
             raise ValueError(f"vary: {place}: expected two finite numbers, found {ends!r:.80}")
         if whole and not float(end).is_integer():
             raise ValueError(f"vary: {place}: expected whole numbers, found {ends!r:.80}")
