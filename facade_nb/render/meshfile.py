@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 from pathlib import Path
+from stat import S_ISDIR, S_ISREG
 
 from ..design.errors import DesignError, Fault, nearest
 from .geometry import Geometry
@@ -31,7 +32,7 @@ _LARGEST = 64 * 2**20
 _TOLD = re.compile(r"(.*)\(\s*fit\s*=\s*(\w*)\s*\)\s*", re.DOTALL)
 
 Triangles = tuple[tuple[tuple[float, float, float], ...], tuple[tuple[int, ...], ...]]
-"""Corners in the file's units, the lower left corner of their box at x = y = 0 and its front at z = 0; and faces."""
+"""Corners, the longest side of their box being 1, its lower left at x = y = 0 and its front at z = 0; and faces."""
 
 
 def is_file(geometry: str) -> bool:
@@ -71,11 +72,14 @@ def _read(path: Path, text: str) -> Triangles:
     if path.suffix.lower() not in KINDS:
         raise ValueError(f"expected a file that ends in {', '.join(KINDS)}; found {text!r}")
     try:
-        known, there = path.stat(), path.is_file()
-    except (OSError, ValueError):
-        there = False
-    if not there:
-        raise ValueError(f"there is no file {text!r}{nearest(path.name, _beside(path))}")
+        known = path.stat()
+    except FileNotFoundError:
+        raise ValueError(f"there is no file {text!r}{nearest(path.name, _beside(path))}") from None
+    except (OSError, ValueError) as error:  # a loop of links, a closed folder, too long a name
+        raise ValueError(f"{text!r} cannot be read: {_why(error)}") from None
+    if not S_ISREG(known.st_mode):  # a pipe would be waited for without end
+        found = "a folder" if S_ISDIR(known.st_mode) else "a device or a pipe"
+        raise ValueError(f"expected a file; {text!r} is {found}")
     if known.st_size > _LARGEST:
         raise ValueError(
             f"expected a file of at most {_LARGEST // 2**20} MB; {text!r} has {known.st_size:,} bytes"
@@ -84,6 +88,12 @@ def _read(path: Path, text: str) -> Triangles:
     if isinstance(answer, str):
         raise ValueError(f"{text!r} {answer}")
     return answer
+
+
+def _why(error: Exception) -> str:
+    """What the system says about a file, without its name."""
+    told = getattr(error, "strerror", None) or str(error)
+    return told[:1].lower() + told[1:]
 
 
 def _beside(path: Path) -> list[str]:
@@ -101,7 +111,10 @@ def _triangles(path: str, changed: int, size: int) -> Triangles | str:
     import trimesh
 
     try:
-        mesh = trimesh.load(path, force="mesh")
+        with np.errstate(all="ignore"):  # corners that are no numbers are told below
+            mesh = trimesh.load(path, force="mesh", process=False)
+    except PermissionError as error:
+        return f"cannot be read: {_why(error)}"
     except Exception as error:  # whatever a reader of some format makes of a broken file
         return f"cannot be read as a mesh ({type(error).__name__})"
     faces = getattr(mesh, "faces", None)
@@ -109,12 +122,21 @@ def _triangles(path: str, changed: int, size: int) -> Triangles | str:
         return "holds no triangles"
     if len(faces) > MOST:
         return f"has {len(faces):,} triangles; expected at most {MOST:,}"
-    if not np.isfinite(mesh.vertices).all():
+    corners, faces = np.array(mesh.vertices, float), np.asarray(faces)
+    if not (faces.min() >= 0 and faces.max() < len(corners)):
+        return "has triangles with corners that it does not list"
+    corners, faces = corners[np.unique(faces)], np.unique(faces, return_inverse=True)[1].reshape(-1, 3)
+    if not np.isfinite(corners).all():
         return "has corners that are no numbers"
-    mesh = trimesh.Trimesh(np.asarray(mesh.vertices, float), np.asarray(faces), process=False)
-    extent = float(np.ptp(mesh.vertices, axis=0).max())
-    if not np.ptp(mesh.vertices, axis=0).min() > 1e-6 * extent:
+    # Any unit will do, a file in nanometres as well as one in parsecs: what follows has tolerances for bodies of
+    # about a metre.
+    largest = float(np.abs(corners).max())
+    corners = corners / largest if largest > 0 else corners
+    corners -= corners.min(axis=0)
+    extent = float(corners.max())
+    if not corners.max(axis=0).min() > 1e-6 * extent:
         return "is flat; expected a body with width, height and depth"
+    mesh = trimesh.Trimesh(corners / extent, faces, process=False)
     mesh.merge_vertices(merge_tex=True, merge_norm=True)
     mesh.update_faces(mesh.nondegenerate_faces())
     mesh.remove_unreferenced_vertices()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping, Sequence
 from html import escape
+from numbers import Integral
 from typing import TYPE_CHECKING
 
 from ..design.errors import DesignError
@@ -50,13 +51,17 @@ def contact_sheet(
     Raises
     ------
     ValueError
-        For an unknown theme, for fewer than one column, or a sheet without room for them.
+        For a table without layouts, an unknown theme, for fewer than one column, or a sheet without room for them.
     """
     style = find_style(theme)
-    if columns < 1 or width_px < columns * LEAST:
+    if "layout" not in getattr(table, "columns", ()):
+        raise ValueError(
+            f"contact_sheet: expected a table with a column 'layout', such as sweep's; found {type(table).__name__}"
+        )
+    if not _is_count(columns) or columns < 1 or width_px < columns * LEAST:
         raise ValueError(
             f"contact_sheet: expected at least 1 column and {LEAST:.0f} pixels for each; "
-            f"found {columns} columns on {width_px:g} pixels"
+            f"found {columns!r} columns on {width_px:g} pixels"
         )
     rows = table.to_dict("records")
     cell = width_px / columns
@@ -83,6 +88,11 @@ def contact_sheet(
         f'viewBox="0 0 {num(width_px)} {num(max(top, 1.0))}" aria-label="{label}" style="max-width:100%;height:auto">'
         f'<rect width="100%" height="100%" fill="{style.paper}"/>{"".join(body)}</svg>'
     )
+
+
+def _is_count(columns: object) -> bool:
+    """Whether this is a whole number."""
+    return isinstance(columns, Integral)
 
 
 def _many(count: int, noun: str) -> str:

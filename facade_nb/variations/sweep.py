@@ -68,8 +68,9 @@ def sweep(
     Raises
     ------
     ValueError
-        For a counter or symbol that the design does not have, for no values, or for two columns of one name. It names
-        the nearest valid name. A value that is out of range is told in its row's `error`.
+        For a counter or symbol that the design does not have, for what is no list of values or an empty one, or for
+        two columns of one name. It names the nearest valid name. A value that is out of range is told in its row's
+        `error`.
     """
     variants = Variants.of_product(design, width=width, height=height, counters=counters, sizes=sizes)
     return _solved(variants, executor, time_limit, progress, should_stop)
@@ -108,6 +109,9 @@ def _solved(
     progress: Progress,
     should_stop: Callable[[], bool] | None,
 ) -> pd.DataFrame:
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        hint = "; pass its get_executor()" if hasattr(executor, "get_executor") else ""
+        raise ValueError(f"sweep: executor: expected an executor with submit, found {executor!r:.80}{hint}")
     report = _reporter(progress, len(variants))
     found = [Answer(error=STOPPED)] * len(variants)
     done = 0

@@ -12,7 +12,7 @@ from ..design.edit import with_canvas, with_counter, with_symbol
 from ..design.errors import DesignError, listed, nearest, quoted
 from ..design.model import AXES, Design
 
-__all__ = ["RESULTS", "Names", "Value", "Variants", "edited", "known_names"]
+__all__ = ["RESULTS", "Names", "Value", "Variants", "checked_mapping", "edited", "known_names"]
 
 RESULTS = (
     *(f"{axis}_{field}" for axis in AXES for field in ("cost", "deviation", "proven")),
@@ -59,7 +59,8 @@ class Variants:
         sizes: Mapping[str, Sequence[float]] | None = None,
     ) -> Variants:
         """Every combination of the values given, as `sweep` takes them; it raises what `sweep` raises."""
-        parameters = _parameters(design, width, height, counters or {}, sizes or {})
+        named = [checked_mapping("sweep", k, v) for k, v in (("counters", counters), ("sizes", sizes))]
+        parameters = _parameters(design, width, height, *named)
         combinations = tuple(product(*(parameter.values for parameter in parameters)))
         return cls(
             tuple(parameter.column for parameter in parameters),
@@ -120,6 +121,22 @@ def known_names(design: Design) -> Names:
     )
 
 
+def checked_mapping(caller: str, where: str, given: Any) -> Mapping[str, Any]:
+    """A mapping from names, or ValueError; None is an empty one."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise ValueError(f"{caller}: {where}: expected a mapping from names, found {given!r:.80}")
+    return given
+
+
+def _listed_values(column: str, given: Any) -> tuple[Any, ...]:
+    """The values of a column, or ValueError: one number is not a list of one, and a text none of its letters."""
+    if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
+        raise ValueError(f"sweep: {column}: expected a list of values, found {given!r:.80}")
+    return tuple(given)
+
+
 def _parameters(
     design: Design,
     width: Sequence[float] | None,
@@ -130,19 +147,27 @@ def _parameters(
     found: list[_Parameter] = []
     if width is not None:
         found.append(
-            _Parameter("width", tuple(width), lambda design, value: with_canvas(design, width=value))
+            _Parameter(
+                "width",
+                _listed_values("width", width),
+                lambda design, value: with_canvas(design, width=value),
+            )
         )
     if height is not None:
         found.append(
-            _Parameter("height", tuple(height), lambda design, value: with_canvas(design, height=value))
+            _Parameter(
+                "height",
+                _listed_values("height", height),
+                lambda design, value: with_canvas(design, height=value),
+            )
         )
     names = known_names(design)
     for name, counts in counters.items():
         names.check("sweep", "counters", name)
-        found.append(_Parameter(name, tuple(counts), partial(_counter, name)))
+        found.append(_Parameter(name, _listed_values(name, counts), partial(_counter, name)))
     for name, lengths in sizes.items():
         names.check("sweep", "sizes", name)
-        found.append(_Parameter(name, tuple(lengths), partial(_size, name)))
+        found.append(_Parameter(name, _listed_values(name, lengths), partial(_size, name)))
     seen = set(RESULTS)
     for parameter in found:
         if not parameter.values:

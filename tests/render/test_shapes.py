@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import warnings
 from collections.abc import Iterator
 from dataclasses import replace
@@ -275,6 +276,15 @@ def test_a_mesh_file_is_fitted_to_its_cell_and_mirrored(tmp_path: Path) -> None:
     assert volume(wall(shape((1, 1, 3, 2), name)), 1) > 0
 
 
+@pytest.mark.parametrize("unit", [1e-30, 1e-9, 1e30])
+def test_a_mesh_file_may_be_in_any_unit(tmp_path: Path, unit: float) -> None:
+    box = trimesh.creation.box((1, 2, 0.5)).apply_translation((-3, 0, 0))
+    trimesh.Trimesh(box.vertices * unit, box.faces, process=False).export(tmp_path / "box.stl")
+    layout = wall(shape((1, 1, 3, 2), f"file:{tmp_path / 'box.stl'}(fit=keep)"))
+    vertices = build_scene(layout).solids[1].mesh().vertices
+    assert np.ptp(vertices, axis=0) == pytest.approx((0.5, 1, 0.25))
+
+
 def test_a_bad_mesh_is_told_and_the_rest_drawn(tmp_path: Path) -> None:
     box = trimesh.creation.box()
     box.export(tmp_path / "box.stl")
@@ -283,7 +293,23 @@ def test_a_bad_mesh_is_told_and_the_rest_drawn(tmp_path: Path) -> None:
     trimesh.creation.icosphere(5).export(tmp_path / "ball.ply")
     trimesh.Trimesh(box.vertices, box.faces[:5]).export(tmp_path / "open.obj")
     trimesh.Trimesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]).export(tmp_path / "flat.off")
+    (tmp_path / "folder.stl").mkdir()
+    (tmp_path / "loop.stl").symlink_to("loop.stl")
+    os.mkfifo(tmp_path / "pipe.stl")
+    for number in ("nan", "inf"):
+        text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 {}\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+        (tmp_path / f"{number}.obj").write_text(text.format(number))
+        odd = trimesh.Trimesh([*box.vertices[:7], (1, 1, float(number))], box.faces, process=False)
+        with np.errstate(all="ignore"):
+            odd.export(tmp_path / f"{number}.stl")
     told = {
+        "folder.stl": "folder.stl' is a folder",
+        "loop.stl": "loop.stl' cannot be read: too many levels",
+        "pipe.stl": "pipe.stl' is a device or a pipe",
+        "nan.obj": "nan.obj' has corners that are no numbers",
+        "inf.obj": "inf.obj' has corners that are no numbers",
+        "nan.stl": "nan.stl' has corners that are no numbers",
+        "inf.stl": "inf.stl' has corners that are no numbers",
         "bix.stl": "did you mean 'box.stl'?",
         "empty.obj": "empty.obj'",
         "torn.glb": "cannot be read as a mesh",
@@ -296,8 +322,9 @@ def test_a_bad_mesh_is_told_and_the_rest_drawn(tmp_path: Path) -> None:
     }
     for name, what in told.items():
         layout = wall(shape((1, 1, 2, 2), f"file:{tmp_path / name}"))
-        with pytest.warns(DrawingWarning) as caught:
+        with pytest.warns() as caught:
             text = elevation_svg(layout)
+        assert {each.category for each in caught} == {DrawingWarning}  # none of a library's
         message = str(caught[0].message)
         assert what in message and message.startswith("shapes[\"B Q\"] in layer 'l0': geometry"), message
         assert text.count("data-shape") == 2

@@ -142,6 +142,13 @@ def test_stopped_nothing_that_is_solved_is_lost(house: Design, threads: bool, in
         ),
         ({"sizes": {"Z9": [1]}}, "sizes: expected a symbol of the design, found 'Z9'"),
         ({"width": []}, "width: expected at least one value, found none"),
+        ({"width": 5}, "width: expected a list of values, found 5"),
+        ({"height": "5"}, "height: expected a list of values, found '5'"),
+        ({"counters": {"k": 3}}, "k: expected a list of values, found 3"),
+        ({"sizes": {"B": 0.8}}, "B: expected a list of values, found 0.8"),
+        ({"counters": [3]}, "counters: expected a mapping from names, found [3]"),
+        ({"sizes": 3}, "sizes: expected a mapping from names, found 3"),
+        ({"executor": 3}, "executor: expected an executor with submit, found 3"),
     ],
 )
 def test_faults(house: Design, values: dict[str, object], message: str) -> None:
@@ -179,16 +186,47 @@ class TestContactSheet:
     def test_empty(self, table: pd.DataFrame) -> None:
         ElementTree.fromstring(contact_sheet(table[:0]))
 
-    @pytest.mark.parametrize("wrong", [{"columns": 0}, {"width_px": 100}, {"theme": "blue"}])
+    @pytest.mark.parametrize(
+        "wrong", [{"columns": 0}, {"columns": 2.5}, {"columns": "2"}, {"width_px": 100}, {"theme": "blue"}]
+    )
     def test_faults(self, table: pd.DataFrame, wrong: dict[str, object]) -> None:
         with pytest.raises(ValueError, match="expected"):
             contact_sheet(table, **wrong)  # type: ignore[arg-type]
+
+    @pytest.mark.parametrize("wrong", [[], 3, pd.DataFrame({"a": [1]})])
+    def test_what_is_no_table_of_layouts(self, wrong: object) -> None:
+        with pytest.raises(ValueError, match="expected a table with a column 'layout'"):
+            contact_sheet(wrong)  # type: ignore[arg-type]
 
 
 RANGES = {"width": (6.0, 9.0), "counters": {"k": (3, 5)}, "sizes": {"B": (0.8, 1.2)}}
 
 
 class TestVary:
+    @pytest.mark.parametrize(
+        ("given", "told"),
+        [
+            ({"width": 5}, "width: expected a range (least, greatest), found 5"),
+            ({"width": (1, 2, 3)}, "width: expected a range (least, greatest), found (1, 2, 3)"),
+            ({"height": ("1", "2")}, "height: expected two finite numbers"),
+            ({"width": (1, float("inf"))}, "width: expected two finite numbers"),
+            ({"width": (float("nan"), 2)}, "width: expected two finite numbers"),
+            ({"counters": {"k": (2.5, 3)}}, "counters: 'k': expected whole numbers, found (2.5, 3)"),
+            ({"counters": {"k": 3}}, "counters: 'k': expected a range"),
+            ({"counters": 3}, "counters: expected a mapping from names, found 3"),
+            ({"sizes": [(1, 2)]}, "sizes: expected a mapping from names"),
+            ({"seed": 2.5}, "seed: expected a whole number, found 2.5"),
+            ({"seed": "a"}, "seed: expected a whole number, found 'a'"),
+        ],
+    )
+    def test_what_is_no_range(self, house: Design, given: dict[str, object], told: str) -> None:
+        with pytest.raises(ValueError, match="vary: ") as error:
+            vary(house, **({"seed": 1} | given))  # type: ignore[arg-type]
+        assert told in str(error.value)
+
+    def test_an_end_between_two_centimetres_is_not_passed(self, house: Design) -> None:
+        assert vary(house, 1, width=(6.004, 6.0045)).canvas.width == 6.004
+
     def test_by_seed(self, house: Design) -> None:
         first = vary(house, 4, **RANGES)  # type: ignore[arg-type]
         assert first == vary(house, 4, **RANGES)  # type: ignore[arg-type]

@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...design.files import write_atomically
-from ...solver.model.layout import Layout
+from ...solver.model.layout import Layout, Rect
 from ..baked import SHARP, face_size
 from ..materials import mix
 from ..ruled import library_of, material_of, rule_pixels
-from ..scene import build_scene
+from ..scene import Scene, build_scene, without
 from .chains import FIRST, PITCH, TEXT, Units, chains, check_units, label, levels, offset
 from .linework import WEIGHTS, Drawn, Linework, linework
 from .schedule import Item, items
@@ -48,6 +48,9 @@ _ELSEWHERE = "STSong-Light"
 _LONGEST = 22
 """Letters of a word of the schedule."""
 
+_MARKED = ("window", "door")
+"""Kinds that carry their marks in the drawing."""
+
 _HEADINGS = ("Mark", "Kind", "Geometry", "Material", "W", "H", "No.")
 _AREAS: dict[Units, tuple[str, float]] = {"m": ("m²", 1.0), "ft": ("ft²", 0.3048**-2)}
 
@@ -72,7 +75,8 @@ def to_pdf(layout: Layout, units: str = "m") -> bytes:
     from reportlab.pdfgen.canvas import Canvas
 
     known = check_units(units)
-    lines = linework(build_scene(layout))
+    scene = build_scene(layout)
+    lines = linework(scene)
     rows = items(layout)
     table = _cells(rows, known)
     headings = (*_HEADINGS, _AREAS[known][0])
@@ -85,7 +89,7 @@ def to_pdf(layout: Layout, units: str = "m") -> bytes:
     canvas.scale(_MM, _MM)  # millimetres from here on
     pen = _Pen(canvas, sheet)
     pen.elevation(layout, lines)
-    pen.marks(layout, rows)
+    pen.marks(scene, rows)
     for axis in ("x", "y"):
         pen.chains(layout, lines, "x" if axis == "x" else "y", known)
     pen.frame()
@@ -172,26 +176,31 @@ class _Pen:
             canvas.drawImage(image, x, y, right - x, top - y)
         canvas.restoreState()
 
-    def marks(self, layout: Layout, rows: tuple[Item, ...]) -> None:
-        """The marks of the schedule in windows and doors that have room for them, none over another."""
+    def marks(self, scene: Scene, rows: tuple[Item, ...]) -> None:
+        """The marks of the schedule in windows and doors that have room for them, none over another.
+
+        Each stands where its own opening is seen, for a reader takes it for the mark of what it stands on.
+        """
+        tall = _SMALL + 1.0
         placed: list[tuple[float, float]] = []
+        places = _mark_places(scene)
         for item in rows:
-            if item.kind not in ("window", "door"):
+            if item.kind not in _MARKED:
                 continue
             wide = _measured(item.mark, _SMALL) + 1.2
-            tall = _SMALL + 1.0
             for index in item.shapes:
-                left, bottom, right, top = layout.shapes[index].rect
-                (x0, y0), (x1, y1) = self.at(left, bottom), self.at(right, top)
-                if x1 - x0 < wide or y1 - y0 < tall:
-                    continue
-                x, y = (x0 + x1) / 2, (y0 + y1) / 2
-                if any(abs(x - p) < wide + 1 and abs(y - q) < tall for p, q in placed):
-                    continue
-                placed.append((x, y))
-                self.canvas.setFillColor("#ffffff")
-                self.canvas.roundRect(x - wide / 2, y - tall / 2, wide, tall, 0.6, stroke=0, fill=1)
-                self._text(x, y - _SMALL / 2, item.mark, _SMALL, "middle", colour="#0b4f6c")
+                for left, bottom, right, top in places.get(index, ()):
+                    (x0, y0), (x1, y1) = self.at(left, bottom), self.at(right, top)
+                    if x1 - x0 < wide or y1 - y0 < tall:
+                        continue
+                    x, y = (x0 + x1) / 2, (y0 + y1) / 2
+                    if any(abs(x - p) < wide + 1 and abs(y - q) < tall for p, q in placed):
+                        continue
+                    placed.append((x, y))
+                    self.canvas.setFillColor("#ffffff")
+                    self.canvas.roundRect(x - wide / 2, y - tall / 2, wide, tall, 0.6, stroke=0, fill=1)
+                    self._text(x, y - _SMALL / 2, item.mark, _SMALL, "middle", colour="#0b4f6c")
+                    break
 
     def chains(self, layout: Layout, lines: Linework, axis: Any, units: Units) -> None:
         """The chains of dimensions along an axis."""
@@ -334,6 +343,25 @@ class _Pen:
         while text and _measured(f"{text}…", height) > wide:
             text = text[:-1]
         return f"{text}…"
+
+
+def _mark_places(scene: Scene) -> dict[int, list[Rect]]:
+    """Where each window and door is seen, best place first: all of it, or what later shapes leave of it."""
+    import numpy as np
+
+    solids = scene.solids
+    covers = [own for own in solids if own.geometry.full or own.shape.kind in _MARKED]
+    lefts, bottoms, rights, tops = np.array([own.rect for own in covers]).reshape(-1, 4).T
+    numbers = np.array([own.index for own in covers])
+    places: dict[int, list[Rect]] = {}
+    for own in solids:
+        if own.shape.kind not in _MARKED:
+            continue
+        left, bottom, right, top = own.rect
+        over = (lefts < right) & (rights > left) & (bottoms < top) & (tops > bottom) & (numbers > own.index)
+        rest = without(own.rect, [covers[k].rect for k in np.flatnonzero(over)])
+        places[own.index] = sorted(rest, key=lambda r: (r[0] - r[2]) * (r[3] - r[1]))  # the largest first
+    return places
 
 
 @lru_cache(maxsize=64)

@@ -55,6 +55,30 @@ def scale_of(own: Layout) -> int:
     return int(found)
 
 
+def test_a_mark_stands_on_what_it_names() -> None:
+    """A door before a window, a panel before half of another: no mark of what is covered, none on what covers."""
+    own = layout(
+        12, 3,
+        shape((0, 0, 12, 3)),
+        shape((1, 0, 3, 2), "window", layer="windows", geometry="window"),
+        shape((5, 0, 9, 2), "window", layer="windows", geometry="window"),
+        shape((1, 0, 3, 2.5), "door", layer="doors", geometry="door"),
+        shape((5, 0, 8, 2), "wall", layer="panels"),
+    )  # fmt: skip
+    found: dict[str, list[float]] = {}
+
+    def visit(text: str, frame: list[float], at: list[float], *_: object) -> None:
+        if re.fullmatch(r"[WD]\d", text.strip()):
+            found.setdefault(text.strip(), []).append((frame[0] * at[4] + frame[4]) / 72 * 25.4)
+
+    (page,) = PdfReader(BytesIO(to_pdf(own))).pages
+    page.extract_text(visitor_text=visit)
+    assert {mark: len(places) for mark, places in found.items()} == {"W1": 2, "W2": 1, "D1": 2}
+    assert (min(found["W1"]) - min(found["D1"])) / 20 == pytest.approx(
+        8.5 - 2, abs=0.05
+    )  # 1:50, 20 mm a metre
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_name_scale_size_and_schedule(name: str) -> None:
     own = solved(name)
