@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from .chance import Floats, chance, field, millimetres
 from .plan import Plan

@@ -205,7 +205,8 @@ def _ground_cells(ground: Ground) -> Ints:
 def _chunked(faces: Faces, plan: Plan, facades: int, cells: Ints, ends: tuple[int, int, int]) -> Mesh:
     """Order vertices and triangles by chunk and building.
 
-    `cells`: of the ground's vertices. `ends`: so many vertices belong to houses; to these and the ground; to these and what else stands still.
+    `cells`: of the ground's vertices. `ends`: so many vertices belong to houses; to these and the ground; to these and
+    what else stands still.
     """
     vertices = np.concatenate(faces.vertices)
     owner = np.concatenate(faces.owners)
