@@ -85,7 +85,8 @@ def _cells_near(plan: Plan, low: Floats, columns: int, rows: int) -> Ints:
 def _first_free(plan: Plan, at: Floats, best: Ints, most: int) -> tuple[Ints, Floats]:
     """The first of the places `best` where a tree can stand, up to `most`, and how far each is from a house."""
     paved = _paved(plan)
-    found, apart = [np.zeros(0, np.int64)], [np.zeros(0)]
+    found: list[Ints] = [np.zeros(0, np.int64)]
+    apart: list[Floats] = [np.zeros(0)]
     left = most
     # Only so many are looked at as are needed.
     while len(best) and left > 0:
