@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from .chance import Floats, chance, field, millimetres
 from .plan import Plan
@@ -54,14 +53,8 @@ def trees_of(plan: Plan, seed: int, each: float) -> Things:
     best = np.lexsort((np.arange(len(wish)), wish))[: _CLOSER * most]
     at, wish, clump = at[best], wish[best], clump[best]
     kinds, sizes = random.random((2, len(at)))
-    # What is on open ground takes longer to say than how far a house is.
-    good = wish < 0
-    free = np.zeros(len(at))
-    free[good] = near_houses(plan, at[good])
-    good &= (free > 2.2) & (free < _REACH)
-    some = np.flatnonzero(good)
-    chosen = some[_open_ground(plan, at[some])][:most]
-    at, free = at[chosen], free[chosen]
+    chosen, free = _first_free(plan, at, np.flatnonzero(wish < 0), most)
+    at = at[chosen]
     room = np.round(2 * (free - _WALL), 3)
     spruce = (kinds[chosen] < 0.2 + 0.25 * field(at, seed + 62, 260.0)[:, 1]) & (room > 3.2)
     leafy = np.select([kinds[chosen] < 0.55, kinds[chosen] < 0.8], [LIME, MAPLE], BIRCH)
@@ -89,17 +82,33 @@ def _cells_near(plan: Plan, low: Floats, columns: int, rows: int) -> Ints:
     return np.flatnonzero(marked)
 
 
-def _open_ground(plan: Plan, at: Floats) -> NDArray[np.bool_]:
-    """Which points lie on grass or in a yard, with nothing paved within a step."""
+def _first_free(plan: Plan, at: Floats, best: Ints, most: int) -> tuple[Ints, Floats]:
+    """The first of the places `best` where a tree can stand, up to `most`, and how far each is from a house."""
+    paved = _paved(plan)
+    found: list[Ints] = [np.zeros(0, np.int64)]
+    apart: list[Floats] = [np.zeros(0)]
+    left = most
+    # Only so many are looked at as are needed.
+    while len(best) and left > 0:
+        some, best = best[:most], best[most:]
+        free = near_houses(plan, at[some])
+        good = (free > 2.2) & (free < _REACH)
+        some, free = some[good], free[good]
+        good = np.ones(len(some), bool)
+        # What is on open ground takes longer to say than how far a house is.
+        good[paved.query(shapely.points(at[some]), predicate="dwithin", distance=_ROAD)[0]] = False
+        found.append(some[good][:left])
+        apart.append(free[good][:left])
+        left -= len(found[-1])
+    return np.concatenate(found), np.concatenate(apart)
+
+
+def _paved(plan: Plan) -> shapely.STRtree:
+    """What is neither grass nor a yard: where that is a step away, a tree may stand, for there is ground everywhere."""
     ground = plan.ground
-    soft = np.isin(
-        ground.kind[ground.triangles[:, 0]], [ground.names.index(name) for name in ("grass", "court")]
-    )
-    tree = shapely.STRtree(shapely.polygons(ground.corners[ground.triangles]))
-    point, triangle = tree.query(shapely.points(at), predicate="dwithin", distance=_ROAD)
-    found = np.zeros((2, len(at)), bool)
-    found[soft[triangle].astype(np.int64), point] = True
-    return np.asarray(found[1] & ~found[0])
+    soft = [ground.names.index(name) for name in ("grass", "court")]
+    hard = ground.triangles[~np.isin(ground.kind[ground.triangles[:, 0]], soft)]
+    return shapely.STRtree(shapely.polygons(ground.corners[hard]))
 
 
 def near_houses(plan: Plan, at: Floats) -> Floats:

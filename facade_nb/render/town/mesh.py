@@ -13,13 +13,13 @@ from ..texture import Grammar
 from .chance import Floats, length
 from .cornices import add_cornices
 from .faces import Faces
-from .plan import COURT, FLAT, MANSARD, OUTBUILDING, PARTY, SIDE, STREET, Plan
+from .plan import COURT, FLAT, MANSARD, OUTBUILDING, PARTY, SIDE, STREET, Ground, Plan
 from .rings import Ints, offsets_of, ring_numbers
 from .roofing import Houses, cover
 from .solids import add_cars, add_hedges
 from .styles import Style
 from .things import stand
-from .welding import welded
+from .welding import shared, welded
 
 __all__ = ["NOBODY", "Mesh", "build_mesh"]
 
@@ -80,13 +80,13 @@ def build_mesh(plan: Plan, styles: Sequence[Style], grammar: Grammar) -> Mesh:
     names = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
     add_cornices(faces, plan, styles, np.where(level, over, 0.0), names)
     built = faces.count
-    _ground(faces, plan, grammar)
+    cells = _ground(faces, plan, grammar)
     ground = faces.count
     add_cars(faces, plan.cars, names, -2)
     add_hedges(faces, plan.hedges, names, -2 - len(plan.cars))
     solids = faces.count
     stand(faces, plan.things, grammar)
-    return _chunked(faces, plan, facades, (built, ground, solids))
+    return _chunked(faces, plan, facades, cells, (built, ground, solids))
 
 
 def _walls(faces: Faces, plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> None:
@@ -142,14 +142,15 @@ def _houses(plan: Plan, styles: Sequence[Style], starts: dict[str, Floats], over
     )
 
 
-def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> None:
+def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> Ints:
     """The ground: one façade that lies on its back, so that a pattern runs on from triangle to triangle.
 
-    Strips along streets are façades of their own: width runs along the street, height away from it.
+    Strips along streets are façades of their own: width runs along the street, height away from it. It tells for each
+    vertex the chunk of the net (`_code`).
     """
     ground = plan.ground
     if not len(ground.corners):
-        return
+        return np.zeros(0, np.int64)
     places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
     start = np.array([places[f"ground.{name.capitalize()}"] for name in ground.names], float)
     low = np.floor(ground.corners.min(axis=0))
@@ -171,23 +172,41 @@ def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> None:
     place[strips[good]] = own[good]
     sizes[strips[good]] = own.max(axis=1)[good][:, None]
     tangent[strips[good]] = np.column_stack([unit, np.zeros(len(unit))])[good][:, None]
+    cells = _ground_cells(ground)
+    mm = np.rint((ground.corners - low) * 1000).astype(np.int64)
+    _, spots = np.unique(mm[:, 0] << 31 | mm[:, 1], return_inverse=True)
+    # Strips show something else each, all other ground of a kind in a cell the same.
+    looks = np.where(ground.along, -1 - ground.piece, cells * len(ground.names) + ground.kind)
+    kept, triangles = shared(spots, np.unique(looks, return_inverse=True)[1], ground.triangles)
+    count = len(kept)
     faces.loose(
-        np.column_stack([ground.corners, np.zeros(count)]),
-        place,
-        sizes,
-        start[ground.kind],
+        np.column_stack([ground.corners[kept], np.zeros(count)]),
+        place[kept],
+        sizes[kept],
+        start[ground.kind[kept]],
         np.zeros((count, 2)),
         np.tile([0.0, 0.0, 1.0], (count, 1)),
-        tangent,
+        tangent[kept],
         np.full(count, -1),
-        ground.triangles,
+        triangles,
     )
+    return cells[kept]
 
 
-def _chunked(faces: Faces, plan: Plan, facades: int, ends: tuple[int, int, int]) -> Mesh:
+def _ground_cells(ground: Ground) -> Ints:
+    """The cell in which the middle of each corner's piece of ground lies."""
+    count = np.maximum(np.bincount(ground.piece), 1)
+    # Whole numbers add up exactly.
+    sums = [np.bincount(ground.piece, weights=np.rint(ground.corners[:, k] * 1000)) for k in (0, 1)]
+    middle = np.stack(sums, axis=1) / count[:, None] / 1000
+    return _code(np.floor(middle / CELL).astype(np.int64))[ground.piece]
+
+
+def _chunked(faces: Faces, plan: Plan, facades: int, cells: Ints, ends: tuple[int, int, int]) -> Mesh:
     """Order vertices and triangles by chunk and building.
 
-    `ends`: so many vertices belong to houses; to these and the ground; to these and what else stands still.
+    `cells`: of the ground's vertices. `ends`: so many vertices belong to houses; to these and the ground; to these and
+    what else stands still.
     """
     vertices = np.concatenate(faces.vertices)
     owner = np.concatenate(faces.owners)
@@ -200,15 +219,7 @@ def _chunked(faces: Faces, plan: Plan, facades: int, ends: tuple[int, int, int])
     cell = np.floor(middle / CELL).astype(np.int64)
     key = np.empty(len(vertices), np.int64)
     key[:houses] = _code(cell)[owner[:houses]]
-    # A piece of ground goes with the cell of its middle.
-    at, piece = plan.ground.corners, plan.ground.piece
-    count = np.maximum(np.bincount(piece), 1)
-    sums = [
-        np.bincount(piece, weights=np.rint(at[:, k] * 1000)) for k in (0, 1)
-    ]  # whole numbers add up exactly
-    key[houses:ground] = _code(
-        np.floor(np.stack(sums, axis=1) / count[:, None] / 1000 / CELL).astype(np.int64)
-    )[piece]
+    key[houses:ground] = cells
     middles = np.concatenate([plan.cars.at, plan.hedges.start])
     key[ground:solids] = _code(np.floor(middles / CELL).astype(np.int64))[-2 - owner[ground:solids]]
     where = vertices["position"][solids:, ::2].astype(np.float64) * (1, -1)
@@ -216,10 +227,11 @@ def _chunked(faces: Faces, plan: Plan, facades: int, ends: tuple[int, int, int])
     order = np.lexsort((owner, key))
     moved = np.empty(len(order), np.int64)
     moved[order] = np.arange(len(order))
-    first = triangles[:, 0]
-    by = np.lexsort((np.arange(len(triangles)), owner[first], key[first]))
+    # Its last vertex is a triangle's own, others may belong to what lies beside it.
+    last = triangles[:, 2]
+    by = np.lexsort((np.arange(len(triangles)), owner[last], key[last]))
     triangles = moved[triangles[by]]
-    keys = key[first][by]
+    keys = key[last][by]
     begin = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
     vertices = vertices[order]
     position = vertices["position"]
@@ -234,7 +246,7 @@ def _chunked(faces: Faces, plan: Plan, facades: int, ends: tuple[int, int, int])
     low, high = low.min(axis=1), high.max(axis=1)
     chunks["low"] = np.minimum.reduceat(low, begin, axis=0)
     chunks["high"] = np.maximum.reduceat(high, begin, axis=0)
-    building_of = np.where(owner[first][by] < 0, int(NOBODY), owner[first][by]).astype(np.uint32)
+    building_of = np.where(owner[last][by] < 0, int(NOBODY), owner[last][by]).astype(np.uint32)
     return Mesh(vertices, triangles.astype(np.uint32).ravel(), building_of, chunks, facades)
 
 

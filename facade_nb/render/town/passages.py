@@ -188,7 +188,8 @@ def runs_of(links: NDArray[np.integer]) -> list[list[tuple[int, int]]]:
     table = links.tolist()
     seen = [False] * len(table)
     found = []
-    for start in sorted(range(len(table)), key=lambda k: (min(table[k]) >= 0, k)):
+    rings = (np.asarray(links) >= 0).all(axis=1)
+    for start in [*np.flatnonzero(~rings).tolist(), *np.flatnonzero(rings).tolist()]:
         if seen[start]:
             continue
         piece, back = start, int(table[start][0] >= 0 > table[start][1])

@@ -9,6 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from .chance import Floats, millimetres
 from .grounds import ASPHALT, COURT, GRASS, PAVEMENT, Pieces
@@ -59,7 +61,8 @@ def plain_of(
     gravel = np.concatenate([narrow[(paved > 0) & (paved <= APRON)], np.asarray(ways, object)])
     # Only houses that a roadway comes near to take something from it.
     near = np.unique(shapely.STRtree(roadway).query(narrow, predicate="intersects")[0])
-    every = [roadway, walks, wide[paved > APRON], narrow[near], gravel]
+    stones = np.concatenate([walks, wide[paved > APRON]])
+    every = [roadway, stones, narrow[near], _groups(gravel)]
     low = np.floor(corners.min(axis=0) / TILE) - 2
     high = np.ceil(corners.max(axis=0) / TILE) + 2
     columns, rows = (high - low).astype(int).tolist()
@@ -93,8 +96,8 @@ def _in_threads(
 
 def _covers(tiles: NDArray[np.object_], layers: Sequence[NDArray[np.object_]]) -> list[NDArray[np.object_]]:
     """What of each tile is asphalt, pavement, court and grass."""
-    road, walk, stones, houses, soft = (_within(tiles, layer) for layer in layers)
-    stone = shapely.union(walk, stones)
+    road, stone, houses = (_within(tiles, layer) for layer in layers[:3])
+    soft = _within(tiles, layers[3], apart=True)
     asphalt = shapely.difference(road, houses)
     hard = shapely.union(asphalt, stone)
     pavement, court = shapely.difference(stone, asphalt), shapely.difference(soft, hard)
@@ -126,15 +129,33 @@ def _laid(roads: Roads, half: Floats) -> NDArray[np.object_]:
     return np.concatenate([np.asarray(strips, object), np.asarray(caps, object)])
 
 
-def _within(tiles: NDArray[np.object_], layer: NDArray[np.object_]) -> NDArray[np.object_]:
-    """What of a layer lies in each tile, as one."""
+def _groups(pieces: NDArray[np.object_]) -> NDArray[np.object_]:
+    """What the pieces cover, as polygons that lie apart: most meet one or two others, so that this is quick."""
+    count = len(pieces)
+    one, other = shapely.STRtree(pieces).query(pieces, predicate="intersects")
+    link = coo_matrix((np.ones(len(one), np.int8), (one, other)), (count, count))
+    groups, label = connected_components(link, directed=False)
+    order = np.argsort(label, kind="stable")
+    ends = np.cumsum(np.bincount(label, minlength=groups))[:-1]
+    found = [part[0] if len(part) == 1 else shapely.union_all(part) for part in np.split(pieces[order], ends)]
+    return np.asarray(shapely.get_parts(np.array(found, object)), object)
+
+
+def _within(
+    tiles: NDArray[np.object_], layer: NDArray[np.object_], apart: bool = False
+) -> NDArray[np.object_]:
+    """What of a layer lies in each tile, as one. `apart`: no two pieces of it meet."""
     found = np.full(len(tiles), shapely.Polygon(), object)
     if not len(layer):
         return found
     tile, piece = shapely.STRtree(layer).query(tiles, predicate="intersects")
     order = np.lexsort((piece, tile))
     tile, piece = tile[order], piece[order]
-    some, first = np.unique(tile, return_index=True)
+    some, first, group = np.unique(tile, return_index=True, return_inverse=True)
+    if apart:
+        joined = shapely.multipolygons(layer[piece], indices=group)
+        found[some] = shapely.intersection(tiles[some], joined)
+        return found
     joined = [shapely.union_all(part) for part in np.split(layer[piece], first[1:])] if len(some) else []
     found[some] = shapely.intersection(tiles[some], joined)
     return found

@@ -209,12 +209,13 @@ def _before(offsets: Ints, corners: Floats, houses: NDArray[np.object_]) -> Road
 def _strokes(passages: Passages) -> list[list[tuple[int, int]]]:
     """Passages that go straight on in each other."""
     count = len(passages)
-    ways = np.zeros((count, 2, 2))
-    for k in range(count):
-        for end in (0, 1):
-            line = passages.line(k, bool(end))
-            far = length(line - line[0])
-            ways[k, end] = line[int(np.argmax(far >= _TANGENT)) or len(line) - 1] - line[0]
+    points, begin, end = passages.points, passages.offsets[:-1], passages.offsets[1:] - 1
+    owner, place = ring_numbers(passages.offsets), np.arange(len(points))
+    # From each end to the first point that is far enough, else to the other end.
+    away = [length(points - points[ends][owner]) >= _TANGENT for ends in (begin, end)]
+    first = np.minimum.reduceat(np.where(away[0], place, end[owner]), begin)
+    last = np.maximum.reduceat(np.where(away[1], place, begin[owner]), begin)
+    ways = np.stack([points[first] - points[begin], points[last] - points[end]], axis=1)
     ways /= np.maximum(length(ways), 1e-9)[..., None]
     ends = passages.ends.ravel()
     order = np.argsort(ends, kind="stable")
@@ -413,18 +414,26 @@ def _met(
                 if not through.setdefault(joint, []) or through[joint][-1] != k:
                     through[joint].append(k)
     shapes = roads.lines()
-    lines = []
-    for k, (first, last) in enumerate(starts):
-        line = roads.points[roads.offsets[k] : roads.offsets[k + 1]]
-        for joint, back in ((first, True), (last, False)):
-            others = [own for own in through[joint] if own != k]
-            if not others:
-                continue
-            end = shapely.Point(line[0] if back else line[-1])
-            other = min(others, key=lambda own: (round(float(shapely.distance(shapes[own], end)), 3), own))
-            at = millimetres(shapely.get_coordinates(shapely.shortest_line(end, shapes[other]))[1:])
-            way = shapely.LineString([shapely.get_coordinates(end)[0], at[0]])
-            if way.length > 0 and not len(houses.query(way, predicate="dwithin", distance=0.5)):
-                line = np.concatenate([at, line] if back else [line, at])
-        lines.append(line)
-    return Roads.of(lines, roads.kind)
+    # Ends in the order of roads, each with all others that it met.
+    met = [
+        (2 * k + last, own)
+        for k, joints in enumerate(starts)
+        for last, joint in enumerate(joints)
+        for own in through[joint]
+        if own != k
+    ]
+    end, other = np.array(met, np.int64).reshape(-1, 2).T
+    spots = roads.points[np.stack([roads.offsets[:-1], roads.offsets[1:] - 1], axis=1).ravel()]
+    apart = np.round(shapely.distance(shapes[other], shapely.points(spots[end])), 3)
+    order = np.lexsort((other, apart, end))
+    order = order[np.append(True, end[order][1:] != end[order][:-1])[: len(order)]]
+    end, other = end[order], other[order]
+    ties = shapely.get_coordinates(shapely.shortest_line(shapely.points(spots[end]), shapes[other]))
+    at = millimetres(ties.reshape(-1, 2, 2)[:, 1])
+    ways = np.asarray(shapely.linestrings(np.stack([spots[end], at], axis=1)), object).reshape(-1)
+    good = shapely.length(ways) > 0
+    good[houses.query(ways, predicate="dwithin", distance=0.5)[0]] = False
+    # What is added comes before or behind the road's own points.
+    place = np.where(end % 2 == 0, roads.offsets[:-1][end // 2], roads.offsets[1:][end // 2])[good]
+    counts = np.diff(roads.offsets) + np.bincount(end[good] // 2, minlength=len(roads))
+    return Roads(offsets_of(counts), np.insert(roads.points, place, at[good], axis=0), roads.kind)

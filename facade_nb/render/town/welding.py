@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .rings import Ints
 
-__all__ = ["welded"]
+__all__ = ["shared", "welded"]
 
 
 def welded(
@@ -42,3 +42,39 @@ def welded(
     kept[free] = becomes[free] == free
     number = np.cumsum(kept) - 1
     return np.flatnonzero(kept), number[becomes[triangles]]
+
+
+def shared(spots: Ints, faces: Ints, triangles: Ints) -> tuple[Ints, Ints]:
+    """Which vertices (k,) of loose triangles (t, 3) are kept, and these with them alone.
+
+    Each triangle is turned so that it ends with a vertex of its own face, one that many triangles of this face have.
+
+    Parameters
+    ----------
+    spots
+        (v,) the number of the place at which each vertex is.
+    faces
+        (v,) the number of what it shows: of vertices at one spot with the same number one will do.
+    """
+    names = spots * (int(faces.max(initial=0)) + 1) + faces
+    _, first, node = np.unique(names, return_index=True, return_inverse=True)
+    corners = node[triangles]
+    votes = np.bincount(corners.ravel(), minlength=len(first))
+    rows = np.arange(len(triangles))
+    for _ in range(_ROUNDS):
+        last = (votes * len(votes) - np.arange(len(votes)))[corners].argmax(axis=1)
+        votes = np.bincount(corners[rows, last], minlength=len(first))
+    tells = first[votes > 0]
+    # At spots where none tells anything one stays as well.
+    at, one = np.unique(spots, return_index=True)
+    stands = np.zeros(int(at.max(initial=-1)) + 1, np.int64)
+    stands[at] = one
+    stands[spots[tells]] = tells
+    turned = triangles[rows[:, None], (last[:, None] + np.array([1, 2, 0])) % 3]
+    turned = np.column_stack([stands[spots[turned[:, :2]]], first[node[turned[:, 2]]]])
+    kept, index = np.unique(turned, return_inverse=True)
+    return kept, index.reshape(-1, 3)
+
+
+_ROUNDS = 4
+"""So often triangles choose again which vertex tells what they show: one that others have chosen, too."""
