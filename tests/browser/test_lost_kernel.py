@@ -15,7 +15,7 @@ from playwright.sync_api import Browser, Page, expect
 from .conftest import HOUSE, Served
 from .gate import Gate
 from .jupyter import Notebook
-from .waiting import LIMIT, frames
+from .waiting import LIMIT, eventually, frames
 
 SOME = """
 from IPython.display import display
@@ -67,6 +67,9 @@ class Server:
     def show(self, code: str, views: int) -> None:
         """Run the notebook's cell, with a kernel, and wait for all views."""
         if self.ended:
+            eventually(
+                self.page, self._expect_no_session
+            )  # JupyterLab would take the one that is just ending
             self.lab.open("0", NAME)  # the page would ask which kernel to start
             self.ended = False
         self.page.evaluate(f"() => {KERNEL}.info")
@@ -78,6 +81,9 @@ class Server:
         expect(self.page.locator(".fnb-status-line").first).to_contain_text("Solved in")
         self.pid = int(self.lab.python("__import__('os').getpid()"))
         self.take_problems()
+
+    def _expect_no_session(self) -> None:
+        assert NAME not in [session["path"] for session in json.loads(self.request("GET", "/api/sessions"))]
 
     def take_problems(self) -> list[str]:
         """Errors in the console, but those of the page's own requests to a server that has no such kernel any more."""

@@ -6,11 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import Delaunay, QhullError
 
 from .chance import Floats, length, millimetres
+from .linking import groups_of
 from .rings import Ints, after, offsets_of, ragged, ring_numbers
 
 __all__ = ["NO_PASSAGES", "Passages", "passages_of", "runs_of"]
@@ -72,6 +70,8 @@ NO_PASSAGES = Passages(
 
 def passages_of(offsets: Ints, corners: Floats) -> Passages:
     """Passages between buildings, given their outer rings."""
+    from scipy.spatial import Delaunay, QhullError  # a studio is imported without
+
     points, building = _samples(offsets, corners)
     try:
         net = Delaunay(points)
@@ -159,8 +159,7 @@ def _met(offsets: Ints, points: Floats, ends: Ints, sides: Ints, room: Floats, s
     names, ends = np.unique(ends, return_inverse=True)
     ends = ends.reshape(-1, 2)
     short = span < _JOINED
-    link = coo_matrix((np.ones(short.sum(), np.int8), ends[short].T), (len(names), len(names)))
-    count, label = connected_components(link, directed=False)
+    count, label = groups_of(ends[short], len(names))
     joint = np.zeros((count, 2))
     seen = np.zeros(count, np.int64)
     first = np.stack([points[offsets[:-1]], points[offsets[1:] - 1]], axis=1)

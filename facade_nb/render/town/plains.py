@@ -9,11 +9,10 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from .chance import Floats, millimetres
 from .grounds import ASPHALT, COURT, GRASS, PAVEMENT, Pieces
+from .linking import groups_of
 from .plan import Ground
 from .rings import Ints, line_offsets, offsets_of, ring_numbers
 from .roads import HALF, LANE, WALK, Roads
@@ -133,8 +132,7 @@ def _groups(pieces: NDArray[np.object_]) -> NDArray[np.object_]:
     """What the pieces cover, as polygons that lie apart: most meet one or two others, so that this is quick."""
     count = len(pieces)
     one, other = shapely.STRtree(pieces).query(pieces, predicate="intersects")
-    link = coo_matrix((np.ones(len(one), np.int8), (one, other)), (count, count))
-    groups, label = connected_components(link, directed=False)
+    groups, label = groups_of(np.stack([one, other], axis=1), count)
     order = np.argsort(label, kind="stable")
     ends = np.cumsum(np.bincount(label, minlength=groups))[:-1]
     found = [part[0] if len(part) == 1 else shapely.union_all(part) for part in np.split(pieces[order], ends)]

@@ -13,10 +13,9 @@ from heapq import heapify, heappop, heappush
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components, dijkstra
 
 from .chance import Floats, length, millimetres
+from .linking import groups_of
 from .passages import Passages, runs_of
 from .rings import Ints, after, offsets_of, ring_numbers, take_rings
 
@@ -282,12 +281,14 @@ def _streets(
 
 def _connections(passages: Passages, taken: set[int]) -> list[list[tuple[int, int]]]:
     """The shortest ways between streets that are apart, as far as there are ways between them."""
+    from scipy.sparse import coo_matrix  # a studio is imported without
+    from scipy.sparse.csgraph import dijkstra
+
     joints = len(passages.joints)
     ends = passages.ends
     price = np.maximum(np.round(passages.span * (1 + 6.0 / passages.room), 1), 0.1)
     own = np.array(sorted(taken))
-    link = coo_matrix((np.ones(len(own), np.int8), ends[own].T), (joints, joints))
-    _, label = connected_components(link, directed=False)
+    _, label = groups_of(ends[own], joints)
     # Of passages between the same joints the cheapest.
     pair = np.sort(ends, axis=1)
     order = np.lexsort((np.arange(len(pair)), price, pair[:, 1], pair[:, 0]))

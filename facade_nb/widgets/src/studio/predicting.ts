@@ -91,7 +91,7 @@ export const predicting: MakePart = ({ store, signal }) => {
   const quiz = new Quiz(() => questionsOf(told));
   const bar = quizBar(quiz, () => {});
   const offered = h("div", { class: "fnb-predict-offers" });
-  const make = h("button", { type: "button", class: "fnb-fix", hidden: true });
+  const make = h("button", { type: "button", class: "fnb-fix", hidden: true }, "Make it so wide");
   make.addEventListener("click", () => {
     if (told) store.set(["canvas", "width"], told.width);
     quiz.ask(false);
@@ -113,7 +113,7 @@ export const predicting: MakePart = ({ store, signal }) => {
     shown = by;
     offered.replaceChildren(...(quiz.on && quiz.truths.size ? [offers(quiz, (key) => h("code", {}, key))] : []));
     make.hidden = !quiz.on || !quiz.done || !told;
-    setText(make, told ? `Make it ${metres(told.width)} wide` : "");
+    if (told) setText(make, `Make it ${metres(told.width)} wide`);
   };
   store.onReply((reply) => {
     if (reply.kind !== "foretold" || reply.width !== waits) return;
