@@ -82,6 +82,12 @@ def test_opens_with_what_it_is_for(path: Path) -> None:
 
 
 @every_notebook
+def test_names_its_kernel(path: Path) -> None:
+    """Without a name JupyterLab asks which kernel to take, each time that the notebook is opened."""
+    assert nbformat.read(path, as_version=4).metadata["kernelspec"]["name"] == "python3"
+
+
+@every_notebook
 def test_is_saved_with_static_forms_where_a_widget_would_be_blank(path: Path) -> None:
     saved = outputs(nbformat.read(path, as_version=4))
     assert saved, "saved without outputs"
