@@ -23,6 +23,8 @@ WIDGETS = (
     "figures",
     "survey",
     "benchmarks",
+    "buildings",
+    "comparison",
 )
 """Those in `notebooks` that have widgets; all in `tutorials` have."""
 PICTURE = "picture"

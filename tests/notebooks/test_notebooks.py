@@ -42,13 +42,13 @@ def test_there_are_notebooks() -> None:
     assert ROOT / "tutorials" / "how-the-solver-thinks.ipynb" in NOTEBOOKS
 
 
-def test_all_that_are_saved_with_widgets_are_made_by_one_command() -> None:
+def test_all_are_saved_with_views_and_made_by_one_command() -> None:
     made = runpy.run_path(str(ROOT / "scripts" / "notebooks.py"))["paths"]([])
     saved = [
         path for path in NOTEBOOKS if STATE in nbformat.read(path, as_version=4).metadata.get("widgets", {})
     ]
-    assert len(saved) >= 3
-    assert set(saved) <= set(made)
+    assert saved == NOTEBOOKS
+    assert set(made) == set(saved)
 
 
 @pytest.mark.parametrize("folder", ["notebooks", "tutorials"])
@@ -79,6 +79,12 @@ def test_opens_with_what_it_is_for(path: Path) -> None:
     assert first.cell_type == "markdown"
     for words in ("you will", "learn", "need"):
         assert words in first.source.lower()
+
+
+@every_notebook
+def test_names_its_kernel(path: Path) -> None:
+    """Without a name JupyterLab asks which kernel to take, each time that the notebook is opened."""
+    assert nbformat.read(path, as_version=4).metadata["kernelspec"]["name"] == "python3"
 
 
 @every_notebook
