@@ -160,7 +160,7 @@ def _met(offsets: Ints, points: Floats, ends: Ints, sides: Ints, room: Floats, s
     ends = ends.reshape(-1, 2)
     short = span < _JOINED
     count, label = groups_of(ends[short], len(names))
-    joint = np.zeros((count, 2))
+    joint: Floats = np.zeros((count, 2))
     seen = np.zeros(count, np.int64)
     first = np.stack([points[offsets[:-1]], points[offsets[1:] - 1]], axis=1)
     np.add.at(joint, label[ends], np.rint(first * 1000))
