@@ -14,6 +14,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
+from weakref import WeakValueDictionary
 
 from ...design import Design, DesignError
 from ...design.files import write_atomically
@@ -114,6 +115,9 @@ class Keeper:
         self.reason = ""
         self._origin = self._last = model.design
         self._timer: asyncio.TimerHandle | None = None
+        if path in _keepers:
+            _keepers[path].catch_up()
+        _keepers[path] = self
         self._found = Kept.read(path)
         self._mine = False
         self._begin()
@@ -169,6 +173,10 @@ class Keeper:
     def close(self) -> None:
         """Write what is not yet written, and keep no more."""
         self.model.unobserve(self._on_version, "version")
+        self.catch_up()
+
+    def catch_up(self) -> None:
+        """Write what is not yet written: a cell that is run again at once finds it."""
         if self._timer is not None:
             self.write()
 
@@ -232,6 +240,10 @@ class Keeper:
                 write_atomically(self.path.with_suffix(".before.json"), self.path.read_bytes())
         self._mine = True
         return True
+
+
+_keepers: WeakValueDictionary[Path, Keeper] = WeakValueDictionary()
+"""Who keeps what in which file; of several the last."""
 
 
 def _make(folder: Path) -> None:

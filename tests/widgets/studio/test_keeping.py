@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 from pathlib import Path
@@ -93,6 +94,19 @@ def test_a_cell_that_is_run_again_in_its_kernel_offers_what_was(file: Path) -> N
     assert keeper.model.design == house()
     keeper.restore()
     assert keeper.model.design == WIDER and keeper.state == "on"
+
+
+def test_a_cell_that_is_run_again_at_once_offers_the_last_edit_too(file: Path) -> None:
+    async def again() -> Keeper:  # with a loop, an edit is written a moment later
+        before = edited(file)
+        after = Keeper(FacadeModel(house()), file)
+        assert before.state == "on"
+        return after
+
+    keeper = asyncio.run(again())
+    assert keeper.state == "offered"
+    keeper.restore()
+    assert keeper.model.design == WIDER
 
 
 def test_a_cell_that_makes_another_design_gets_that_one(file: Path) -> None:
