@@ -95,8 +95,8 @@ class _TownWidget(PartView):
     def keep(self, side: int = 64) -> Self:
         """Put all that is drawn into the view's saved state, so that one flies in pages without a kernel, too.
 
-        Elsewise the page asks the kernel for it, block by block. A hamlet of 20 houses takes about 0.3 MB with tiles up to
-        32 pixels, and 0.8 MB with 64.
+        Elsewise the page asks the kernel for it, block by block. A hamlet of 20 houses takes about 0.3 MB with
+        tiles up to 32 pixels, and 0.8 MB with 64.
 
         Parameters
         ----------
