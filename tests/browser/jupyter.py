@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import nbformat
-from playwright.sync_api import Browser, Locator, Page, sync_playwright
+from playwright.sync_api import Browser, Error, Locator, Page, sync_playwright
 
 from .keys import retype
 from .waiting import LIMIT, eventually, frames
@@ -284,10 +284,16 @@ class Notebook:
         return json.loads(ast.literal_eval(text))  # the repr of a str
 
     def expect_python(self, expression: str, value: Any) -> None:
-        """Wait until an expression in the kernel has a value: what was typed last may still be on its way."""
+        """Wait until an expression in the kernel has a value: what was typed last may still be on its way.
+
+        Until then the expression may as well raise, as where it names what is still to be made.
+        """
 
         def check() -> None:
-            found = self.python(expression)
+            try:
+                found = self.python(expression)
+            except Error as error:
+                raise AssertionError(f"{expression} raises {error}") from error
             assert found == value, f"{expression} is {found!r}, expected {value!r}"
 
         eventually(self.page, check)

@@ -334,8 +334,9 @@ def test_a_path_is_recorded(town: Shown) -> None:
 
 def test_a_lost_context_comes_back(town: Shown) -> None:
     before = town.stand("'street'")
+    made = town.page.evaluate(f"() => {CONTEXT}.made")
     town.page.evaluate(f"() => {CONTEXT}.lose()")
-    eventually(town.page, lambda: _more(town.page.evaluate(f"() => {CONTEXT}.made"), 1))
+    eventually(town.page, lambda: _more(town.page.evaluate(f"() => {CONTEXT}.made"), made))
     town.canvas.focus()
     town.page.keyboard.press("e")
     town.until(lambda image: apart(image, before) > 0.2)
