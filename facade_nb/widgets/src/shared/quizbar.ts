@@ -12,8 +12,11 @@ export interface QuizBar {
   show(): void;
 }
 
-/** @param done called with what was chosen, once the answer is told */
-export function quizBar(quiz: Quiz, done: (answer: Answer) => void): QuizBar {
+/**
+ * @param done called with what was chosen, once the answer is told
+ * @param choices what is offered, between question and buttons; without, the reader answers in the view itself
+ */
+export function quizBar(quiz: Quiz, done: (answer: Answer) => void, choices?: HTMLElement): QuizBar {
   const press = (label: string, act: () => void) => {
     const button = h("button", { type: "button", class: "fnb-fix" }, label);
     button.addEventListener("click", act);
@@ -37,7 +40,7 @@ export function quizBar(quiz: Quiz, done: (answer: Answer) => void): QuizBar {
   });
   const again = press("Again", () => quiz.again());
   const hint = h("p", { class: "fnb-quiz-hint", role: "note" });
-  const el = h("div", { class: "fnb-quiz" }, which, prompt, outcome, help, check, again, hint);
+  const el = h("div", { class: "fnb-quiz" }, which, prompt, choices, outcome, help, check, again, hint);
   let [offered, about] = ["", ""];
   const show = () => {
     mark(toggle, "aria-pressed", String(quiz.on));

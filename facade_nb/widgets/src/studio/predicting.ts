@@ -89,8 +89,8 @@ function whichMoves({ moves }: Foretold, wide: string): Question {
 export const predicting: MakePart = ({ store, signal }) => {
   let [told, waits]: [Foretold | null, number] = [null, 0];
   const quiz = new Quiz(() => questionsOf(told));
-  const bar = quizBar(quiz, () => {});
-  const offered = h("div", { class: "fnb-predict-offers" });
+  const offered = h("div", { class: "fnb-quiz-choices" });
+  const bar = quizBar(quiz, () => {}, offered);
   const make = h("button", { type: "button", class: "fnb-fix", hidden: true }, "Make it so wide");
   make.addEventListener("click", () => {
     if (told) store.set(["canvas", "width"], told.width);
@@ -131,7 +131,7 @@ export const predicting: MakePart = ({ store, signal }) => {
     waits = 0; // another design, another answer
     if (quiz.on) quiz.clear();
   });
-  const el = h("div", { class: "fnb-predicting" }, bar.toggle, offered, make);
+  const el = h("div", { class: "fnb-predicting" }, bar.toggle, make);
   show();
   return el;
 };

@@ -16,7 +16,7 @@ export interface Asking {
 }
 
 export function asking(session: Session, signal: AbortSignal): Asking {
-  const offered = h("div", { class: "fnb-tex-asked" });
+  const offered = h("div", { class: "fnb-quiz-choices" });
   let [round, offeredBy] = [0, ""];
   const asked = (): Split | undefined => {
     const all = splitsOf(session.text, session.allSteps);
@@ -31,7 +31,7 @@ export function asking(session: Session, signal: AbortSignal): Asking {
     };
     return [split ? questionOf(split) : none];
   });
-  const bar = quizBar(quiz, () => {});
+  const bar = quizBar(quiz, () => {}, offered);
   let veiled: { from: Step[]; by: string; steps: Step[] } | null = null;
   const veil = (steps: Step[]) => {
     const split = quiz.hides ? asked() : undefined;
@@ -51,7 +51,7 @@ export function asking(session: Session, signal: AbortSignal): Asking {
     round = quiz.round;
     session.look(session.steps.length - 1);
   }, signal);
-  const el = h("div", { hidden: true }, offered);
+  const el = h("div", { hidden: true });
   const show = () => {
     bar.show();
     el.hidden = !quiz.on;
