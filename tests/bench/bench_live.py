@@ -65,7 +65,7 @@ def main() -> None:
     with (
         tempfile.TemporaryDirectory() as folder,
         serve(Path(folder), "lab") as (address, token),
-        browse() as chromium,
+        browse(whole=True) as chromium,
         chromium.new_page(viewport={"width": 1400, "height": 1200}) as page,
     ):
         lab = Notebook(page, address, token, Path(folder), "lab")

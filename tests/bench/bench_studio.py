@@ -102,7 +102,7 @@ def print_latency() -> None:
         with (
             tempfile.TemporaryDirectory() as name,
             serve(Path(name), "lab") as (address, token),
-            browse() as chromium,
+            browse(whole=True) as chromium,
             chromium.new_page(viewport={"width": 1400, "height": 1000}) as page,
         ):
             lab = Notebook(page, address, token, Path(name), "lab")
@@ -218,7 +218,7 @@ def print_frames() -> None:
     with (
         tempfile.TemporaryDirectory() as name,
         serve(Path(name), "lab") as (address, token),
-        browse() as chromium,
+        browse(whole=True) as chromium,
         chromium.new_page(viewport={"width": 1400, "height": 1000}) as page,
     ):
         lab = Notebook(page, address, token, Path(name), "lab")

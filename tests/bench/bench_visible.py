@@ -121,7 +121,7 @@ def print_design(name: str) -> dict[str, list[float]]:
     with (
         tempfile.TemporaryDirectory() as folder,
         serve(Path(folder), "lab") as (address, token),
-        browse() as chromium,
+        browse(whole=True) as chromium,
         chromium.new_page(viewport={"width": 1400, "height": 1000}) as page,
     ):
         lab = Notebook(page, address, token, Path(folder), "lab")
