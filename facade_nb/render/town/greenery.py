@@ -7,7 +7,7 @@ import shapely
 
 from .chance import Floats, chance, field, millimetres
 from .plan import Plan
-from .rings import Ints, ring_numbers
+from .rings import Ints
 from .things import BIRCH, LIME, MAPLE, SPRUCE, Things
 
 __all__ = ["near_houses", "trees_of"]
@@ -84,14 +84,14 @@ def _cells_near(plan: Plan, low: Floats, columns: int, rows: int) -> Ints:
 
 def _first_free(plan: Plan, at: Floats, best: Ints, most: int) -> tuple[Ints, Floats]:
     """The first of the places `best` where a tree can stand, up to `most`, and how far each is from a house."""
-    paved = _paved(plan)
+    paved, houses = _paved(plan), shapely.STRtree(plan.outlines())
     found: list[Ints] = [np.zeros(0, np.int64)]
     apart: list[Floats] = [np.zeros(0)]
     left = most
     # Only so many are looked at as are needed.
     while len(best) and left > 0:
         some, best = best[:most], best[most:]
-        free = near_houses(plan, at[some])
+        free = near_houses(houses, at[some])
         good = (free > 2.2) & (free < _REACH)
         some, free = some[good], free[good]
         good = np.ones(len(some), bool)
@@ -111,13 +111,10 @@ def _paved(plan: Plan) -> shapely.STRtree:
     return shapely.STRtree(shapely.polygons(ground.corners[hard]))
 
 
-def near_houses(plan: Plan, at: Floats) -> Floats:
+def near_houses(houses: shapely.STRtree, at: Floats) -> Floats:
     """How far the next wall is from points, metres; 0 inside a house or its yard's walls."""
-    outer = np.flatnonzero(~plan.holes)
-    shells = shapely.linearrings(plan.corners, indices=ring_numbers(plan.rings))
-    tree = shapely.STRtree(shapely.polygons(shells[outer]))
     points = shapely.points(at)
-    (point, _), distance = tree.query_nearest(
+    (point, _), distance = houses.query_nearest(
         points, max_distance=2 * _REACH, return_distance=True, all_matches=False
     )
     free = np.full(len(at), 2 * _REACH)

@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from .chance import Floats
-from .rings import Ints, after, ring_numbers
+from .rings import Ints, after, ring_numbers, take_rings
 from .roads import NO_ROADS, Roads
 from .roles import COURT, PARTY, ROLES, SIDE, STREET
 from .street_life import NO_CARS, NO_HEDGES, Cars, Hedges
@@ -173,6 +174,12 @@ class Plan:
     def building(self) -> Ints:
         """(n,) the building of each corner."""
         return np.asarray(self.ring_of)[ring_numbers(self.rings)]
+
+    def outlines(self) -> NDArray[np.object_]:
+        """Footprints without their courtyards, as shapely's polygons."""
+        index, offsets = take_rings(self.rings, np.flatnonzero(~self.holes))
+        rings = shapely.linearrings(self.corners[index], indices=ring_numbers(offsets))
+        return np.asarray(shapely.polygons(rings), object)
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
