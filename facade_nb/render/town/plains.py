@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +15,7 @@ from .plan import Ground
 from .rings import Ints, line_offsets, offsets_of, ring_numbers
 from .roads import HALF, LANE, WALK, Roads
 from .roofing import triangulated
-from .workers import THREADS
+from .workers import Workers
 
 __all__ = ["APRON", "Asphalt", "asphalt_of", "plain_of"]
 
@@ -25,6 +24,9 @@ APRON = 0.6
 
 TILE = 240.0
 """The plain is made in squares of so many metres."""
+
+_SHARES = 2
+"""Tiles are in so many shares, each for a thread; they are the same where there are no threads."""
 
 _ROUND = 0.4142135623730951
 _ENDS = np.array(
@@ -128,12 +130,12 @@ def _in_threads(
     gravel: NDArray[np.object_],
 ) -> list[NDArray[np.object_]]:
     """The covers of all tiles, kind by kind."""
-    if THREADS == 1:
-        return _covers(tiles, asphalt, stones, gravel)
-    shares = [slice(part, None, THREADS) for part in range(THREADS)]
-    with ThreadPoolExecutor(THREADS) as pool:
-        found = pool.map(lambda own: _covers(tiles[own], asphalt[own], stones, gravel), shares)
-        return [np.concatenate(parts) for parts in zip(*found, strict=True)]
+    with Workers() as workers:
+        shares = [
+            workers.begin(_covers, tiles[part::_SHARES], asphalt[part::_SHARES], stones, gravel)
+            for part in range(_SHARES)
+        ]
+        return [np.concatenate(parts) for parts in zip(*(share() for share in shares), strict=True)]
 
 
 def _covers(

@@ -92,7 +92,7 @@ class Town:
         count, number = _whole(buildings, "buildings", 1, MOST), _whole(seed, "seed", 0, 2**31 - 1)
         stages = Stages(progress, should_stop)
         with Workers() as workers:
-            grammar = workers.begin(town_grammar)
+            grammar = workers.begin(_ready)
             plan = generate_plan(count, number, STYLES, stages)
             stages.at(0.75, "mesh")
             mesh = build_mesh(plan, STYLES, grammar())
@@ -127,7 +127,7 @@ class Town:
         """
         number, stages = _whole(seed, "seed", 0, 2**31 - 1), Stages(progress, should_stop)
         with Workers() as workers:
-            grammar = workers.begin(town_grammar)
+            grammar = workers.begin(_ready)
             found = real_houses(source, number, STYLES, stages, workers)
             # Houses and ground become triangles as soon as they are there.
             parts = [workers.begin(lambda: Mesher(STYLES, grammar()).houses(found.plan))]
@@ -218,6 +218,11 @@ class Town:
             },
             index=pd.RangeIndex(len(plan), name="building"),
         )
+
+
+def _ready() -> Grammar:
+    """The town's grammar with what whoever draws it asks first: that takes as long as to read it."""
+    return town_grammar().ready()
 
 
 def _whole(value: object, name: str, least: int, most: int) -> int:

@@ -14,8 +14,8 @@ from typing import ParamSpec, Self, TypeVar
 
 __all__ = ["THREADS", "Workers"]
 
-THREADS = 1 if sys.platform == "emscripten" else 2
-"""How many threads share work that can be cut in equal parts; 1: there are no threads."""
+THREADS = sys.platform != "emscripten"
+"""Whether there are threads."""
 
 _MOST = 4
 """Pieces of work that are under way at once."""
@@ -34,7 +34,7 @@ class Workers:
     """
 
     def __init__(self) -> None:
-        self._pool = ThreadPoolExecutor(_MOST) if THREADS > 1 else None
+        self._pool = ThreadPoolExecutor(_MOST) if THREADS else None
 
     def __enter__(self) -> Self:
         return self
