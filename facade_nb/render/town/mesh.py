@@ -19,7 +19,7 @@ from .roofing import Houses, cover
 from .solids import add_cars, add_hedges
 from .styles import Style
 from .things import stand
-from .welding import shared, welded
+from .welding import shared
 
 __all__ = ["NOBODY", "Mesh", "Mesher", "build_mesh"]
 
@@ -97,6 +97,7 @@ class Mesher:
         level = np.isin(plan.roof[plan.building[~plan.added]], (FLAT, MANSARD))
         cover(faces, _houses(plan, styles, starts, np.where(level, 0.0, over)))
         add_cornices(faces, plan, styles, np.where(level, over, 0.0), self._names)
+        faces.weld()
         self._ends = (faces.count,)
         return self
 
@@ -109,8 +110,10 @@ class Mesher:
     def rest(self, plan: Plan) -> Mesh:
         """All else that a plan has, and the mesh."""
         faces, (houses, ground) = self._faces, self._ends
+        mark = faces.mark
         add_cars(faces, plan.cars, self._names, -2)
         add_hedges(faces, plan.hedges, self._names, -2 - len(plan.cars))
+        faces.weld(mark)
         solids = faces.count
         stand(faces, plan.things, self._grammar)
         return _chunked(faces, plan, self._facades, self._cells, (houses, ground, solids))
@@ -239,21 +242,17 @@ def _chunked(faces: Faces, plan: Plan, facades: int, cells: Ints, ends: tuple[in
     `cells`: of the ground's vertices. `ends`: so many vertices belong to houses; to these and the ground; to these and
     what else stands still.
     """
-    vertices = np.concatenate(faces.vertices)
+    vertices, triangles = np.concatenate(faces.vertices), np.concatenate(faces.triangles)
     owner = np.concatenate(faces.owners)
-    kept, triangles = welded(
-        vertices["position"], np.concatenate(faces.triangles), owner, np.concatenate(faces.own)
-    )
-    owner = owner[kept]
-    houses, ground, solids = (int(np.searchsorted(kept, number)) for number in ends)
+    houses, ground, solids = ends
     middle = _middles(plan)
     cell = np.floor(middle / CELL).astype(np.int64)
-    key = np.empty(len(kept), np.int64)
+    key = np.empty(len(vertices), np.int64)
     key[:houses] = _code(cell)[owner[:houses]]
     key[houses:ground] = cells
     middles = np.concatenate([plan.cars.at, plan.hedges.start])
     key[ground:solids] = _code(np.floor(middles / CELL).astype(np.int64))[-2 - owner[ground:solids]]
-    where = vertices["position"][kept[solids:], ::2].astype(np.float64) * (1, -1)
+    where = vertices["position"][solids:, ::2].astype(np.float64) * (1, -1)
     key[solids:] = _TURNING + _code(np.floor(where / CELL).astype(np.int64))
     # One number tells the chunk, and within it the building.
     key = key << 20 | (owner - owner.min(initial=0))
@@ -266,7 +265,7 @@ def _chunked(faces: Faces, plan: Plan, facades: int, cells: Ints, ends: tuple[in
     triangles = moved[triangles[by]]
     keys = key[last][by] >> 20
     begin = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
-    vertices = vertices[kept[order]]
+    vertices = vertices[order]
     position = vertices["position"]
     chunks = np.zeros(len(begin), CHUNK)
     chunks["first"] = 3 * begin

@@ -6,11 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from .chance import Floats
-from .rings import Ints, after, ring_numbers, take_rings
+from .rings import Ints, after, polygons_of, ring_numbers
 from .roads import NO_ROADS, Roads
 from .roles import COURT, PARTY, ROLES, SIDE, STREET
 from .street_life import NO_CARS, NO_HEDGES, Cars, Hedges
@@ -177,9 +176,7 @@ class Plan:
 
     def outlines(self) -> NDArray[np.object_]:
         """Footprints without their courtyards, as shapely's polygons."""
-        index, offsets = take_rings(self.rings, np.flatnonzero(~self.holes))
-        rings = shapely.linearrings(self.corners[index], indices=ring_numbers(offsets))
-        return np.asarray(shapely.polygons(rings), object)
+        return polygons_of(self.rings, self.corners, ~self.holes)
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:

@@ -15,12 +15,13 @@ from .characters import eaves_of, storeys_of, table_of
 from .finishing import Characters, Pairs, finish, pairs_of, walls_of
 from .fitting import fit_fronts, single_fronts
 from .geojson import Outlines, read_outlines
+from .greenery import sites_of
 from .neighbours import Cut, cut_walls, with_hidden
 from .openness import gaps_of, look_out, roads_before
-from .passages import passages_of
+from .passages import NO_PASSAGES, passages_of
 from .plains import APRON, asphalt_of
 from .plan import FLAT, GABLE, INDUSTRIAL, OUTBUILDING, PUBLIC, RESIDENTIAL, SHOP, Ground
-from .rings import Ints, after, areas, ring_numbers, take_rings
+from .rings import Ints, after, areas, polygons_of, ring_numbers, take_rings
 from .roads import Roads, laid_out, told
 from .roles import PARTY, STREET
 from .stages import Stages
@@ -30,6 +31,9 @@ from .tags import Use, has_shop, levels_of, metres_of, roof_of, use_of
 from .workers import Workers
 
 __all__ = ["real_houses"]
+
+_TREES = 1.4
+"""Trees for each house, at the most."""
 
 _SHED = 45.0
 """Smaller buildings are sheds and garages, for which no street is laid, square metres."""
@@ -83,9 +87,12 @@ def real_houses(
     gaps = gaps_of(cut)
     sizes = _sizes(outlines)
     dense = _density(outlines, sizes)
+    standing = polygons_of(cut.offsets, cut.corners, ~outlines.holes)
     stages.at(0.25, "streets")
+    between = passages() if passages is not None else NO_PASSAGES
+    sites = workers.begin(sites_of, cut.corners, standing, seed, _TREES)
     if passages is not None:
-        roads = laid_out(passages(), offsets, outer, houses, sizes >= _SHED)
+        roads = laid_out(between, offsets, outer, houses, sizes >= _SHED)
     asphalt = workers.begin(asphalt_of, offsets, outer, roads)
     roles = look_out(cut, outlines.ring_of, outlines.holes, gaps, _apart(cut, gaps, roads))
     # Roles are found for walls that are cut already; where none is cut they hold for the whole.
@@ -105,7 +112,7 @@ def real_houses(
     gardens = np.isin(names, _GARDENS) & ~out
     wide = np.where(gardens, APRON, np.where(characters.kind == RESIDENTIAL, 2.2, 5.0))
     wide = np.where(dense > 0.33, np.maximum(wide, 2.2), np.where(out, 0.0, wide))
-    return Standing(plan, offsets, outer, houses, gaps, roads, asphalt, wide, gardens)
+    return Standing(plan, offsets, outer, houses, gaps, roads, asphalt, sites, wide, gardens)
 
 
 def _apart(cut: Cut, gaps: Floats, roads: Roads) -> Floats:

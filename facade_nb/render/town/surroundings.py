@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from .chance import Floats
 from .chimneys import chimneys_of
 from .forecourts import cars_before, forecourts_of, hedges_before
-from .greenery import trees_of
+from .greenery import Sites, trees_of
 from .plains import Asphalt, plain_of
 from .plan import Plan
 from .rings import Ints
@@ -22,9 +22,6 @@ from .stages import Stages
 from .workers import Workers
 
 __all__ = ["Standing", "surrounded"]
-
-_TREES = 1.4
-"""Trees for each house, at the most."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,8 +40,8 @@ class Standing:
         (n,) as of `gaps_of`, of each edge of the plan.
     roads
         Its streets.
-    asphalt
-        Waits for what they cover.
+    asphalt, sites
+        Wait for what streets cover, and for where trees may stand.
     paved
         (b,) how wide what is paved about each house is, metres.
     gardens
@@ -58,6 +55,7 @@ class Standing:
     gaps: Floats
     roads: Roads
     asphalt: Callable[[], Asphalt]
+    sites: Callable[[], Sites]
     paved: Floats
     gardens: NDArray[np.bool_]
 
@@ -82,7 +80,7 @@ def surrounded(
     plan = replace(plan, ground=ground(), roads=roads)
     laid(plan)
     stages.at(0.68, "trees")
-    things = trees_of(plan, seed, _TREES) + chimneys + rows + lamps
+    things = trees_of(found.sites(), plan.ground) + chimneys + rows + lamps
     stages.at(0.71, "street life")
     return replace(
         plan,
