@@ -212,6 +212,12 @@ class Grammar:
             relief,
         )
 
+    def ready(self) -> Grammar:
+        """The same, with all worked out that its first question would wait for, but for tiles."""
+        for own in (self._records, self._depths):
+            assert own
+        return self
+
     def atlas(self, tiles: Tiles | None = None, relief: bool = False) -> Atlas:
         """The tiles that the grammar names, packed, with `relief` also their heights.
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..pipeline.vertices import VERTEX
 from .chance import Floats
 from .rings import Ints
+from .welding import welded
 
 __all__ = ["Faces"]
 
@@ -39,6 +40,24 @@ class Faces:
     owners: list[Ints] = field(default_factory=list)
     own: list[NDArray[np.bool_]] = field(default_factory=list)
     count: int = 0
+
+    @property
+    def mark(self) -> tuple[int, int]:
+        """How many arrays of vertices and of triangles there are: what `weld` may begin with."""
+        return len(self.vertices), len(self.triangles)
+
+    def weld(self, mark: tuple[int, int] = (0, 0)) -> None:
+        """Let faces that came after a mark share corners (`welding`); none of their owners has any before it."""
+        first, more = mark
+        if len(self.vertices) == first:
+            return
+        base = sum(map(len, self.vertices[:first]))
+        vertices, owners, own = (np.concatenate(v[first:]) for v in (self.vertices, self.owners, self.own))
+        triangles = np.concatenate(self.triangles[more:]) - base
+        kept, triangles = welded(vertices["position"], triangles, owners, own)
+        self.vertices[first:], self.triangles[more:] = [vertices[kept]], [triangles + base]
+        self.owners[first:], self.own[first:] = [owners[kept]], [own[kept]]
+        self.count = base + len(kept)
 
     def walls(
         self, foot: Floats, end: Floats, low: Floats, high: Floats, start: Floats, seed: Floats, owner: Ints

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .chance import Floats, chance, length, millimetres
 from .openness import roads_before
-from .rings import Ints, ring_numbers
+from .rings import Ints
 from .roads import HALF, WALK, Roads
 from .roles import STREET
 from .street_life import Cars, Hedges, cars_like
@@ -208,7 +208,13 @@ def cars_before(plan: Plan, courts: Forecourts, seed: int) -> Cars:
 
 
 def hedges_before(
-    plan: Plan, courts: Forecourts, gardens: NDArray[np.bool_], things: Things, roads: Roads, seed: int
+    plan: Plan,
+    houses: shapely.STRtree,
+    courts: Forecourts,
+    gardens: NDArray[np.bool_],
+    things: Things,
+    roads: Roads,
+    seed: int,
 ) -> Hedges:
     """Hedges between the gardens (b,) before houses and the street, clear of ways, cars and all else."""
     fronts = courts.fronts
@@ -231,7 +237,8 @@ def hedges_before(
     good = length(ends[:, 1] - ends[:, 0]) > 0.9
     if len(lines):
         tree = shapely.STRtree(lines)
-        near = [(_houses(plan), 0.7), (courts.ways, _WAY + 0.35), (courts.places(), 0.35)]
+        good[houses.query(lines, predicate="dwithin", distance=0.7)[0]] = False
+        near = [(courts.ways, _WAY + 0.35), (courts.places(), 0.35)]
         near.append((shapely.points(things.at[things.foot == 0]), 0.8))
         for others, distance in near:
             good[tree.query(others, predicate="dwithin", distance=distance)[1]] = False
@@ -242,10 +249,3 @@ def hedges_before(
         good[np.maximum(one, other)[crossing]] = False
     most = np.flatnonzero(good)[: int(_HEDGES * len(plan)) + 12]
     return Hedges(ends[most, 0], ends[most, 1], millimetres(tall[most]), np.full(len(most), 0.5))
-
-
-def _houses(plan: Plan) -> NDArray[np.object_]:
-    outer = np.flatnonzero(~plan.holes)
-    return np.asarray(
-        shapely.polygons(shapely.linearrings(plan.corners, indices=ring_numbers(plan.rings)))[outer], object
-    )

@@ -13,7 +13,7 @@ from .chimneys import chimneys_of
 from .districts import settle
 from .finishing import finish, pairs_of, walls_of
 from .fitting import single_fronts
-from .greenery import trees_of
+from .greenery import sites_of, trees_of
 from .grounds import ground_of
 from .kerbs import along_kerbs
 from .neighbours import cut_walls
@@ -61,7 +61,8 @@ def generate_plan(buildings: int, seed: int, styles: Sequence[Style], stages: St
     stages.at(0.5, "roofs")
     plan = finish(walls, pairs, characters, styles, ground, seed, stages=stages)
     stages.at(0.68, "trees")
-    things = trees_of(plan, seed, _TREES) + chimneys_of(plan, seed) + along_kerbs(cells, built, seed)
+    trees = trees_of(sites_of(plan.corners, plan.outlines(), seed, _TREES), ground)
+    things = trees + chimneys_of(plan, seed) + along_kerbs(cells, built, seed)
     stages.at(0.71, "street life")
     people = people_of(plan, cells, built, things, seed)
     return replace(

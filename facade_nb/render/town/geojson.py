@@ -7,6 +7,7 @@ import zlib
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -266,7 +267,9 @@ def _rings(polygon: Any) -> list[Floats] | None:
     rings: list[Floats] = []
     for ring in polygon:
         try:
-            if any(isinstance(v, bool | str) for point in ring for v in point[:2]):
+            # Numbers alone, as nearly always, need no closer look.
+            plain = set(map(type, chain.from_iterable(ring))) <= {int, float}
+            if not plain and any(isinstance(v, bool | str) for point in ring for v in point[:2]):
                 return None
             points = np.array([(point[0], point[1]) for point in ring], np.float64)
         except (TypeError, ValueError, IndexError, KeyError, OverflowError):

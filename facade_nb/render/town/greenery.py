@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from .chance import Floats, chance, field, millimetres
-from .plan import Plan
-from .rings import Ints, ring_numbers
+from .plan import Ground
+from .rings import Ints
 from .things import BIRCH, LIME, MAPLE, SPRUCE, Things
 
-__all__ = ["near_houses", "trees_of"]
+__all__ = ["Sites", "near_houses", "sites_of", "trees_of"]
 
 _NET = 7.5
 """Of so many metres is the net in whose cells a tree may stand, one in each."""
@@ -25,53 +28,84 @@ _CLOSER = 3
 """So many times as many places are looked at closely."""
 
 
-def trees_of(plan: Plan, seed: int, each: float) -> Things:
-    """Trees in gardens, yards and greens; at most a few for each house, so that memory stays in bounds.
+@dataclass(frozen=True, slots=True, eq=False)
+class Sites:
+    """Where trees may stand, the best places first, whatever the ground is there.
+
+    Attributes
+    ----------
+    at
+        (n, 2) metres.
+    free
+        (n,) how far each is from a house, metres.
+    clump
+        (n,) a smooth field: trees stand in groups.
+    chances
+        (3, n) random numbers for the kind and the size, and a field for woods of spruces.
+    most
+        There are no more trees.
+    """
+
+    at: Floats
+    free: Floats
+    clump: Floats
+    chances: Floats
+    most: int
+
+
+def sites_of(corners: Floats, houses: NDArray[np.object_], seed: int, each: float) -> Sites:
+    """Places for trees about houses.
 
     Parameters
     ----------
-    plan
-        With buildings and ground.
+    corners
+        (n, 2) of all rings.
+    houses
+        Footprints without their courtyards, as polygons.
     seed
         Of the town.
     each
         So many trees there are at the most for each house.
     """
-    west, south, east, north = plan.bounds
-    low = np.floor(np.array([west, south]) / _NET) - 5
-    columns, rows = (np.ceil(np.array([east, north]) / _NET) + 5 - low).astype(int).tolist()
+    low = np.floor(corners.min(axis=0) / _NET) - 5
+    columns, rows = (np.ceil(corners.max(axis=0) / _NET) + 5 - low).astype(int).tolist()
     random = chance(seed, 60)
     # Only cells near a house are looked at: a country is large.
-    near = _cells_near(plan, low, columns, rows)
+    near = _cells_near(corners, low, columns, rows)
     x, y = near % columns, near // columns
     wish, *jitter = random.random((3, len(near)))
     at = millimetres((low + np.column_stack([x, y]) + 0.12 + 0.76 * np.column_stack(jitter)) * _NET)
     clump = field(at, seed + 61, 130.0)[:, 0]
-    most = int(each * len(plan)) + 40
+    most = int(each * len(houses)) + 40
     # The best of them are looked at more closely, some more than there will be.
     wish = np.round(wish - 0.6 - 0.25 * clump, 6)
     best = np.lexsort((np.arange(len(wish)), wish))[: _CLOSER * most]
-    at, wish, clump = at[best], wish[best], clump[best]
-    kinds, sizes = random.random((2, len(at)))
-    chosen, free = _first_free(plan, at, np.flatnonzero(wish < 0), most)
-    at = at[chosen]
-    room = np.round(2 * (free - _WALL), 3)
-    spruce = (kinds[chosen] < 0.2 + 0.25 * field(at, seed + 62, 260.0)[:, 1]) & (room > 3.2)
-    leafy = np.select([kinds[chosen] < 0.55, kinds[chosen] < 0.8], [LIME, MAPLE], BIRCH)
+    chances = np.vstack([random.random((2, len(best))), field(at[best], seed + 62, 260.0)[:, 1]])
+    free = near_houses(shapely.STRtree(houses), at[best])
+    good = (wish[best] < 0) & (free > 2.2) & (free < _REACH)
+    best = best[good]
+    return Sites(at[best], free[good], clump[best], chances[:, good], most)
+
+
+def trees_of(sites: Sites, ground: Ground) -> Things:
+    """Trees in gardens, yards and greens; at most a few for each house, so that memory stays in bounds."""
+    chosen = _first_open(sites, ground)
+    at, clump, (kinds, sizes, woods) = sites.at[chosen], sites.clump[chosen], sites.chances[:, chosen]
+    room = np.round(2 * (sites.free[chosen] - _WALL), 3)
+    spruce = (kinds < 0.2 + 0.25 * woods) & (room > 3.2)
+    leafy = np.select([kinds < 0.55, kinds < 0.8], [LIME, MAPLE], BIRCH)
     kind = np.where(spruce, SPRUCE, leafy)
     # A tree grows as large as there is room; not all are old.
-    tall = np.minimum(
-        np.round(3.8 + 7.4 * sizes[chosen] * sizes[chosen] + 0.8 * clump[chosen], 2), 2.6 * room
-    )
+    tall = np.minimum(np.round(3.8 + 7.4 * sizes * sizes + 0.8 * clump, 2), 2.6 * room)
     wide = np.minimum(np.where(spruce, 0.42, 0.74) * tall, room)
     return Things.of(at, kind, tall * np.where(spruce, 1.25, 1.0), wide)
 
 
-def _cells_near(plan: Plan, low: Floats, columns: int, rows: int) -> Ints:
+def _cells_near(corners: Floats, low: Floats, columns: int, rows: int) -> Ints:
     """Numbers of the net's cells that lie near a corner of a house."""
     reach = int(_REACH / _NET) + 1
     marked = np.zeros((rows, columns), bool)
-    cell = np.floor(plan.corners / _NET).astype(np.int64) - low.astype(np.int64)
+    cell = np.floor(corners / _NET).astype(np.int64) - low.astype(np.int64)
     marked[np.clip(cell[:, 1], 0, rows - 1), np.clip(cell[:, 0], 0, columns - 1)] = True
     for axis in (0, 1):
         grown = marked.copy()
@@ -82,42 +116,30 @@ def _cells_near(plan: Plan, low: Floats, columns: int, rows: int) -> Ints:
     return np.flatnonzero(marked)
 
 
-def _first_free(plan: Plan, at: Floats, best: Ints, most: int) -> tuple[Ints, Floats]:
-    """The first of the places `best` where a tree can stand, up to `most`, and how far each is from a house."""
-    paved = _paved(plan)
-    found: list[Ints] = [np.zeros(0, np.int64)]
-    apart: list[Floats] = [np.zeros(0)]
-    left = most
-    # Only so many are looked at as are needed.
-    while len(best) and left > 0:
-        some, best = best[:most], best[most:]
-        free = near_houses(plan, at[some])
-        good = (free > 2.2) & (free < _REACH)
-        some, free = some[good], free[good]
-        good = np.ones(len(some), bool)
-        # What is on open ground takes longer to say than how far a house is.
-        good[paved.query(shapely.points(at[some]), predicate="dwithin", distance=_ROAD)[0]] = False
-        found.append(some[good][:left])
-        apart.append(free[good][:left])
-        left -= len(found[-1])
-    return np.concatenate(found), np.concatenate(apart)
+def _first_open(sites: Sites, ground: Ground) -> Ints:
+    """The first places that are on grass or in a yard, as many as there are trees at the most.
 
-
-def _paved(plan: Plan) -> shapely.STRtree:
-    """What is neither grass nor a yard: where that is a step away, a tree may stand, for there is ground everywhere."""
-    ground = plan.ground
+    Where a step away something else is, none stands: there is ground everywhere.
+    """
     soft = [ground.names.index(name) for name in ("grass", "court")]
     hard = ground.triangles[~np.isin(ground.kind[ground.triangles[:, 0]], soft)]
-    return shapely.STRtree(shapely.polygons(ground.corners[hard]))
+    paved = shapely.STRtree(shapely.polygons(ground.corners[hard]))
+    found: list[Ints] = [np.zeros(0, np.int64)]
+    left, waiting = sites.most, np.arange(len(sites.at))
+    # Only so many are looked at as are needed.
+    while len(waiting) and left > 0:
+        some, waiting = waiting[: sites.most], waiting[sites.most :]
+        good = np.ones(len(some), bool)
+        good[paved.query(shapely.points(sites.at[some]), predicate="dwithin", distance=_ROAD)[0]] = False
+        found.append(some[good][:left])
+        left -= len(found[-1])
+    return np.concatenate(found)
 
 
-def near_houses(plan: Plan, at: Floats) -> Floats:
+def near_houses(houses: shapely.STRtree, at: Floats) -> Floats:
     """How far the next wall is from points, metres; 0 inside a house or its yard's walls."""
-    outer = np.flatnonzero(~plan.holes)
-    shells = shapely.linearrings(plan.corners, indices=ring_numbers(plan.rings))
-    tree = shapely.STRtree(shapely.polygons(shells[outer]))
     points = shapely.points(at)
-    (point, _), distance = tree.query_nearest(
+    (point, _), distance = houses.query_nearest(
         points, max_distance=2 * _REACH, return_distance=True, all_matches=False
     )
     free = np.full(len(at), 2 * _REACH)

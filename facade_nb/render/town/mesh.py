@@ -19,9 +19,9 @@ from .roofing import Houses, cover
 from .solids import add_cars, add_hedges
 from .styles import Style
 from .things import stand
-from .welding import shared, welded
+from .welding import shared
 
-__all__ = ["NOBODY", "Mesh", "build_mesh"]
+__all__ = ["NOBODY", "Mesh", "Mesher", "build_mesh"]
 
 CELL = 120.0
 """Chunks are cells of a net of so many metres."""
@@ -68,25 +68,60 @@ def starts_of(grammar: Grammar, styles: Sequence[Style]) -> dict[str, Floats]:
     }
 
 
+class Mesher:
+    """Makes a mesh part by part, in this order: houses, ground, what is left. Other work may go on beside each.
+
+    Parameters
+    ----------
+    styles
+        What a plan counts.
+    grammar
+        Of all of them.
+    """
+
+    def __init__(self, styles: Sequence[Style], grammar: Grammar) -> None:
+        self._styles, self._grammar = styles, grammar
+        self._names = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
+        self._faces = Faces()
+        self._facades = 0
+        self._ends: tuple[int, ...] = ()
+        self._cells: Ints = np.zeros(0, np.int64)
+
+    def houses(self, plan: Plan) -> Mesher:
+        """Walls, roofs and cornices: the plan may be without ground."""
+        faces, styles = self._faces, self._styles
+        starts = starts_of(self._grammar, styles)
+        _walls(faces, plan, styles, starts)
+        self._facades = faces.count // 4
+        over = _over(plan)
+        level = np.isin(plan.roof[plan.building[~plan.added]], (FLAT, MANSARD))
+        cover(faces, _houses(plan, styles, starts, np.where(level, 0.0, over)))
+        add_cornices(faces, plan, styles, np.where(level, over, 0.0), self._names)
+        faces.weld()
+        self._ends = (faces.count,)
+        return self
+
+    def ground(self, ground: Ground) -> Mesher:
+        """The ground, under all of them."""
+        self._cells = _ground(self._faces, ground, self._grammar)
+        self._ends = (*self._ends, self._faces.count)
+        return self
+
+    def rest(self, plan: Plan) -> Mesh:
+        """All else that a plan has, and the mesh."""
+        faces, (houses, ground) = self._faces, self._ends
+        mark = faces.mark
+        add_cars(faces, plan.cars, self._names, -2)
+        add_hedges(faces, plan.hedges, self._names, -2 - len(plan.cars))
+        faces.weld(mark)
+        solids = faces.count
+        stand(faces, plan.things, self._grammar)
+        return _chunked(faces, plan, self._facades, self._cells, (houses, ground, solids))
+
+
 def build_mesh(plan: Plan, styles: Sequence[Style], grammar: Grammar) -> Mesh:
     """The mesh of a plan."""
-    faces = Faces()
-    starts = starts_of(grammar, styles)
-    _walls(faces, plan, styles, starts)
-    facades = faces.count // 4
-    over = _over(plan)
-    level = np.isin(plan.roof[plan.building[~plan.added]], (FLAT, MANSARD))
-    cover(faces, _houses(plan, styles, starts, np.where(level, 0.0, over)))
-    names = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
-    add_cornices(faces, plan, styles, np.where(level, over, 0.0), names)
-    built = faces.count
-    cells = _ground(faces, plan, grammar)
-    ground = faces.count
-    add_cars(faces, plan.cars, names, -2)
-    add_hedges(faces, plan.hedges, names, -2 - len(plan.cars))
-    solids = faces.count
-    stand(faces, plan.things, grammar)
-    return _chunked(faces, plan, facades, cells, (built, ground, solids))
+    return Mesher(styles, grammar).houses(plan).ground(plan.ground).rest(plan)
 
 
 def _walls(faces: Faces, plan: Plan, styles: Sequence[Style], starts: dict[str, Floats]) -> None:
@@ -142,13 +177,12 @@ def _houses(plan: Plan, styles: Sequence[Style], starts: dict[str, Floats], over
     )
 
 
-def _ground(faces: Faces, plan: Plan, grammar: Grammar) -> Ints:
+def _ground(faces: Faces, ground: Ground, grammar: Grammar) -> Ints:
     """The ground: one façade that lies on its back, so that a pattern runs on from triangle to triangle.
 
     Strips along streets are façades of their own: width runs along the street, height away from it. It tells for each
     vertex the chunk of the net (`_code`).
     """
-    ground = plan.ground
     if not len(ground.corners):
         return np.zeros(0, np.int64)
     places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
@@ -208,13 +242,9 @@ def _chunked(faces: Faces, plan: Plan, facades: int, cells: Ints, ends: tuple[in
     `cells`: of the ground's vertices. `ends`: so many vertices belong to houses; to these and the ground; to these and
     what else stands still.
     """
-    vertices = np.concatenate(faces.vertices)
+    vertices, triangles = np.concatenate(faces.vertices), np.concatenate(faces.triangles)
     owner = np.concatenate(faces.owners)
-    kept, triangles = welded(
-        vertices["position"], np.concatenate(faces.triangles), owner, np.concatenate(faces.own)
-    )
-    vertices, owner = vertices[kept], owner[kept]
-    houses, ground, solids = (int(np.searchsorted(kept, number)) for number in ends)
+    houses, ground, solids = ends
     middle = _middles(plan)
     cell = np.floor(middle / CELL).astype(np.int64)
     key = np.empty(len(vertices), np.int64)
@@ -224,14 +254,16 @@ def _chunked(faces: Faces, plan: Plan, facades: int, cells: Ints, ends: tuple[in
     key[ground:solids] = _code(np.floor(middles / CELL).astype(np.int64))[-2 - owner[ground:solids]]
     where = vertices["position"][solids:, ::2].astype(np.float64) * (1, -1)
     key[solids:] = _TURNING + _code(np.floor(where / CELL).astype(np.int64))
-    order = np.lexsort((owner, key))
+    # One number tells the chunk, and within it the building.
+    key = key << 20 | (owner - owner.min(initial=0))
+    order = np.argsort(key, kind="stable")
     moved = np.empty(len(order), np.int64)
     moved[order] = np.arange(len(order))
     # Its last vertex is a triangle's own, others may belong to what lies beside it.
     last = triangles[:, 2]
-    by = np.lexsort((np.arange(len(triangles)), owner[last], key[last]))
+    by = np.argsort(key[last], kind="stable")
     triangles = moved[triangles[by]]
-    keys = key[last][by]
+    keys = key[last][by] >> 20
     begin = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
     vertices = vertices[order]
     position = vertices["position"]
@@ -239,18 +271,19 @@ def _chunked(faces: Faces, plan: Plan, facades: int, cells: Ints, ends: tuple[in
     chunks["first"] = 3 * begin
     chunks["count"] = 3 * np.diff(np.append(begin, len(triangles)))
     # What turns reaches as far on all sides as it is large.
-    turns = (vertices["normal"] == 0).all(axis=1)
-    reach = np.where(turns[:, None], 0.5 * np.abs(vertices["size"]).sum(axis=1, keepdims=True), 0)
-    reach = reach.astype(np.float32)
-    low, high = ((position + sign * reach)[triangles] for sign in (-1, 1))
-    low, high = low.min(axis=1), high.max(axis=1)
-    chunks["low"] = np.minimum.reduceat(low, begin, axis=0)
-    chunks["high"] = np.maximum.reduceat(high, begin, axis=0)
+    turns = np.flatnonzero((vertices["normal"] == 0).all(axis=1))
+    reach = (0.5 * np.abs(vertices["size"][turns]).sum(axis=1)).astype(np.float32)
+    corners = triangles.ravel()
+    for axis in range(3):
+        for name, sign, least in (("low", -1, np.minimum), ("high", 1, np.maximum)):
+            own = position[:, axis].copy()
+            own[turns] += sign * reach
+            chunks[name][:, axis] = least.reduceat(own[corners], 3 * begin)
     building_of = np.where(owner[last][by] < 0, int(NOBODY), owner[last][by]).astype(np.uint32)
     return Mesh(vertices, triangles.astype(np.uint32).ravel(), building_of, chunks, facades)
 
 
-_TURNING = 1 << 50
+_TURNING = 1 << 42
 """Chunks of what turns to whoever looks come after all others: passes of their own draw them."""
 
 

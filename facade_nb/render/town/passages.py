@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -134,24 +135,18 @@ def _joined(centre: Floats, cells: Ints, pair: Ints, room: Floats) -> Passages:
     links = np.full((count, 2), -1)
     links[piece[one], end[one]] = 2 * piece[two] + end[two]
     links[piece[two], end[two]] = 2 * piece[one] + end[one]
-    runs = runs_of(links)
-    lines, ends = [], []
-    for run in runs:
-        first, last = int(cells[run[0]]), int(cells[run[-1][0], 1 - run[-1][1]])
-        ends.append((first, last))
-        lines.append([first, *(int(cells[number, 1 - back]) for number, back in run)])
-    offsets = offsets_of(np.array([len(line) for line in lines]))
-    points = centre[np.concatenate(lines)]
+    every, back, begin = _runs(links)
+    # The cell where each run begins, and the one behind each of its pieces.
+    first, onward = cells[every[begin[:-1]], back[begin[:-1]]], cells[every, 1 - back]
+    offsets = offsets_of(np.diff(begin) + 1)
+    points = centre[np.insert(onward, begin[:-1], first)]
     steps = length(np.diff(points, axis=0))
     steps[offsets[1:-1] - 1] = 0.0
     sums = np.concatenate([[0.0], np.cumsum(np.round(steps, 3))])
     span = np.round(sums[offsets[1:] - 1] - sums[offsets[:-1]], 3)
-    owner = np.repeat(np.arange(len(runs)), [len(run) for run in runs])
-    every = np.array([number for run in runs for number, _ in run])
-    least = np.full(len(runs), np.inf)
-    np.minimum.at(least, owner, room[every])
-    sides = pair[[run[0][0] for run in runs]]
-    return _met(offsets, points, np.array(ends), sides, least, span)
+    least = np.minimum.reduceat(room[every], begin[:-1])
+    ends = np.stack([first, onward[begin[1:] - 1]], axis=1)
+    return _met(offsets, points, ends, pair[every[begin[:-1]]], least, span)
 
 
 def _met(offsets: Ints, points: Floats, ends: Ints, sides: Ints, room: Floats, span: Floats) -> Passages:
@@ -184,21 +179,39 @@ def runs_of(links: NDArray[np.integer]) -> list[list[tuple[int, int]]]:
         (n, 2) what goes on at each end: twice a piece's number, 1 more where it is met at its second end; -1: nothing.
         Of pieces in a ring the first comes first.
     """
-    table = links.tolist()
-    seen = [False] * len(table)
-    found = []
-    rings = (np.asarray(links) >= 0).all(axis=1)
-    for start in [*np.flatnonzero(~rings).tolist(), *np.flatnonzero(rings).tolist()]:
-        if seen[start]:
-            continue
-        piece, back = start, int(table[start][0] >= 0 > table[start][1])
-        run = []
-        while not seen[piece]:
-            seen[piece] = True
-            run.append((piece, back))
-            following = table[piece][1 - back]
-            if following < 0:
-                break
-            piece, back = divmod(following, 2)
-        found.append(run)
-    return found
+    piece, back, offsets = _runs(np.asarray(links))
+    pairs = list(zip(piece.tolist(), back.tolist(), strict=True))
+    return [pairs[low:high] for low, high in pairwise(offsets.tolist())]
+
+
+def _runs(links: NDArray[np.integer]) -> tuple[Ints, Ints, Ints]:
+    """The same in flat arrays: pieces, whether each is gone through from its second end, and where runs begin."""
+    # A piece is gone through two ways: twice its number, and one more. Before each of them comes one, or none.
+    ways = np.arange(2 * len(links))
+    linked = links.ravel()
+    before = np.where(linked < 0, ways, linked ^ 1)
+    first, rank = before, (linked >= 0).astype(np.int64)
+    for _ in range(len(ways).bit_length()):
+        if (linked[first] < 0).all():
+            break
+        # Where one is that comes so much earlier, what comes twice as much earlier is known, too.
+        rank, first = rank + rank[first], first[first]
+    # Of both ways through a run the one from the lower number.
+    open_ = (linked[first] < 0) & (first < first[ways ^ 1])
+    order = np.flatnonzero(open_)
+    order = order[np.lexsort((rank[order], first[order]))]
+    found = [order]
+    counts = np.diff(np.append(np.flatnonzero(rank[order] == 0), len(order))).tolist()
+    closed = np.flatnonzero(linked[first[::2]] >= 0)
+    seen: set[int] = set()
+    for start in closed.tolist():
+        way, ring = 2 * start, []
+        while way >> 1 not in seen:
+            seen.add(way >> 1)
+            ring.append(way)
+            way = int(linked[way ^ 1])
+        if ring:
+            found.append(np.array(ring))
+            counts.append(len(ring))
+    every = np.concatenate(found)
+    return every >> 1, every & 1, offsets_of(np.array(counts, np.int64))

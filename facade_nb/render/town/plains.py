@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -17,8 +15,9 @@ from .plan import Ground
 from .rings import Ints, line_offsets, offsets_of, ring_numbers
 from .roads import HALF, LANE, WALK, Roads
 from .roofing import triangulated
+from .workers import Workers
 
-__all__ = ["APRON", "plain_of"]
+__all__ = ["APRON", "Asphalt", "asphalt_of", "plain_of"]
 
 APRON = 0.6
 """How wide a strip of gravel around a house is, and so near to any no street comes, metres."""
@@ -26,8 +25,8 @@ APRON = 0.6
 TILE = 240.0
 """The plain is made in squares of so many metres."""
 
-_THREADS = 1 if sys.platform == "emscripten" else 2
-"""Shapely lets other threads run: on two processors two take half the time."""
+_SHARES = 2
+"""Tiles are in so many shares, each for a thread; they are the same where there are no threads."""
 
 _ROUND = 0.4142135623730951
 _ENDS = np.array(
@@ -36,8 +35,60 @@ _ENDS = np.array(
 """Streets end and meet as such an octagon; lanes have no ends of their own."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Asphalt:
+    """Roadways on the plain, which follow from footprints and roads alone.
+
+    Attributes
+    ----------
+    x, y
+        Where columns and rows of square tiles begin.
+    tiles
+        All of them, row by row.
+    narrow
+        (b,) each footprint with `APRON` around it, which no roadway covers.
+    near
+        Those of them that one comes near to.
+    laid
+        Polygons of roadways, which may overlap.
+    shown
+        (tiles) what of each is asphalt.
+    """
+
+    x: Floats
+    y: Floats
+    tiles: NDArray[np.object_]
+    narrow: NDArray[np.object_]
+    near: Ints
+    laid: NDArray[np.object_]
+    shown: NDArray[np.object_]
+
+
+def asphalt_of(offsets: Ints, corners: Floats, roads: Roads) -> Asphalt:
+    """Roadways, given the buildings' outer rings."""
+    narrow = _aprons(offsets, corners, np.full(len(offsets) - 1, APRON))
+    laid = _laid(roads, HALF[roads.kind])
+    # Only houses that a roadway comes near to take something from it.
+    near = np.unique(shapely.STRtree(laid).query(narrow, predicate="intersects")[0])
+    low = np.floor(corners.min(axis=0) / TILE) - 2
+    high = np.ceil(corners.max(axis=0) / TILE) + 2
+    columns, rows = (high - low).astype(int).tolist()
+    x, y = (low[k] * TILE + np.arange(n) * TILE for k, n in ((0, columns), (1, rows)))
+    xs, ys = (v.ravel() for v in np.meshgrid(x, y))
+    tiles = np.asarray(shapely.box(xs, ys, xs + TILE, ys + TILE), object)
+    shown = np.full(len(tiles), shapely.Polygon(), object)
+    some = np.unique(shapely.STRtree(laid).query(tiles, predicate="intersects")[0])
+    shown[some] = shapely.difference(_within(tiles[some], laid), _within(tiles[some], narrow[near]))
+    return Asphalt(x, y, tiles, narrow, near, laid, shown)
+
+
 def plain_of(
-    offsets: Ints, corners: Floats, paved: Floats, roads: Roads, ways: NDArray[np.object_]
+    offsets: Ints,
+    corners: Floats,
+    paved: Floats,
+    roads: Roads,
+    ways: NDArray[np.object_],
+    asphalt: Asphalt | None = None,
 ) -> Ground:
     """Ground.
 
@@ -51,53 +102,50 @@ def plain_of(
         Streets.
     ways
         Polygons of ways to doors and of places for cars.
+    asphalt
+        Of the same rings and roads, where it is there already.
     """
-    narrow = _aprons(offsets, corners, np.full(len(paved), APRON))
+    asphalt = asphalt or asphalt_of(offsets, corners, roads)
+    narrow, tiles = asphalt.narrow, asphalt.tiles
     wide = _aprons(offsets, corners, np.maximum(paved, APRON))
-    roadway = _laid(roads, HALF[roads.kind])
     walked = roads.take(np.flatnonzero(WALK[roads.kind] > 0))
     walks = _laid(walked, (HALF + WALK)[walked.kind])
-    gravel = np.concatenate([narrow[(paved > 0) & (paved <= APRON)], np.asarray(ways, object)])
-    # Only houses that a roadway comes near to take something from it.
-    near = np.unique(shapely.STRtree(roadway).query(narrow, predicate="intersects")[0])
+    gravel = _groups(np.concatenate([narrow[(paved > 0) & (paved <= APRON)], np.asarray(ways, object)]))
     stones = np.concatenate([walks, wide[paved > APRON]])
-    every = [roadway, stones, narrow[near], _groups(gravel)]
-    low = np.floor(corners.min(axis=0) / TILE) - 2
-    high = np.ceil(corners.max(axis=0) / TILE) + 2
-    columns, rows = (high - low).astype(int).tolist()
-    x, y = (low[k] * TILE + np.arange(n) * TILE for k, n in ((0, columns), (1, rows)))
-    xs, ys = (v.ravel() for v in np.meshgrid(x, y))
-    tiles = np.asarray(shapely.box(xs, ys, xs + TILE, ys + TILE), object)
-    built = np.unique(
-        shapely.STRtree(np.concatenate([*every, narrow])).query(tiles, predicate="intersects")[0]
-    )
-    own = tiles[built]
-    covers = _in_threads(own, every)
+    there = np.concatenate([asphalt.laid, stones, gravel, narrow])
+    built = np.unique(shapely.STRtree(there).query(tiles, predicate="intersects")[0])
+    covers = _in_threads(tiles[built], asphalt.shown[built], stones, gravel)
     pieces = Pieces()
     for parts, kind in zip(covers, (ASPHALT, PAVEMENT, COURT, GRASS), strict=True):
         _triangles(pieces, shapely.get_parts(parts), kind)
-    for parts in (np.delete(tiles, built), _frame(x, y)):
+    for parts in (np.delete(tiles, built), _frame(asphalt.x, asphalt.y)):
         _triangles(pieces, parts, GRASS)
     return pieces.ground()
 
 
 def _in_threads(
-    tiles: NDArray[np.object_], layers: Sequence[NDArray[np.object_]]
+    tiles: NDArray[np.object_],
+    asphalt: NDArray[np.object_],
+    stones: NDArray[np.object_],
+    gravel: NDArray[np.object_],
 ) -> list[NDArray[np.object_]]:
     """The covers of all tiles, kind by kind."""
-    if _THREADS == 1:
-        return _covers(tiles, layers)
-    shares = [tiles[part::_THREADS] for part in range(_THREADS)]
-    with ThreadPoolExecutor(_THREADS) as pool:
-        found = pool.map(lambda share: _covers(share, layers), shares)
-        return [np.concatenate(parts) for parts in zip(*found, strict=True)]
+    with Workers() as workers:
+        shares = [
+            workers.begin(_covers, tiles[part::_SHARES], asphalt[part::_SHARES], stones, gravel)
+            for part in range(_SHARES)
+        ]
+        return [np.concatenate(parts) for parts in zip(*(share() for share in shares), strict=True)]
 
 
-def _covers(tiles: NDArray[np.object_], layers: Sequence[NDArray[np.object_]]) -> list[NDArray[np.object_]]:
-    """What of each tile is asphalt, pavement, court and grass."""
-    road, stone, houses = (_within(tiles, layer) for layer in layers[:3])
-    soft = _within(tiles, layers[3], apart=True)
-    asphalt = shapely.difference(road, houses)
+def _covers(
+    tiles: NDArray[np.object_],
+    asphalt: NDArray[np.object_],
+    stones: NDArray[np.object_],
+    gravel: NDArray[np.object_],
+) -> list[NDArray[np.object_]]:
+    """What of each tile is asphalt, pavement, court and grass. No two pieces of gravel meet."""
+    stone, soft = _within(tiles, stones), _within(tiles, gravel, apart=True)
     hard = shapely.union(asphalt, stone)
     pavement, court = shapely.difference(stone, asphalt), shapely.difference(soft, hard)
     return [asphalt, pavement, court, shapely.difference(tiles, shapely.union(hard, soft))]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .chance import Floats
-from .rings import Ints, after, ring_numbers
+from .rings import Ints, after, polygons_of, ring_numbers
 from .roads import NO_ROADS, Roads
 from .roles import COURT, PARTY, ROLES, SIDE, STREET
 from .street_life import NO_CARS, NO_HEDGES, Cars, Hedges
@@ -173,6 +173,10 @@ class Plan:
     def building(self) -> Ints:
         """(n,) the building of each corner."""
         return np.asarray(self.ring_of)[ring_numbers(self.rings)]
+
+    def outlines(self) -> NDArray[np.object_]:
+        """Footprints without their courtyards, as shapely's polygons."""
+        return polygons_of(self.rings, self.corners, ~self.holes)
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:

@@ -1,9 +1,8 @@
-"""The plan of a real town: its footprints as they are, and what they do not tell inferred."""
+"""The houses of a real town: its footprints as they are, and what they do not tell inferred."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,26 +12,25 @@ from numpy.typing import NDArray
 
 from .chance import Floats, chance, length, pick
 from .characters import eaves_of, storeys_of, table_of
-from .chimneys import chimneys_of
 from .finishing import Characters, Pairs, finish, pairs_of, walls_of
 from .fitting import fit_fronts, single_fronts
-from .forecourts import cars_before, forecourts_of, hedges_before
 from .geojson import Outlines, read_outlines
-from .greenery import trees_of
+from .greenery import sites_of
 from .neighbours import Cut, cut_walls, with_hidden
 from .openness import gaps_of, look_out, roads_before
-from .passages import passages_of
-from .plains import APRON, plain_of
-from .plan import FLAT, GABLE, INDUSTRIAL, OUTBUILDING, PUBLIC, RESIDENTIAL, SHOP, Ground, Plan
-from .rings import Ints, after, areas, ring_numbers, take_rings
+from .passages import NO_PASSAGES, passages_of
+from .plains import APRON, asphalt_of
+from .plan import FLAT, GABLE, INDUSTRIAL, OUTBUILDING, PUBLIC, RESIDENTIAL, SHOP, Ground
+from .rings import Ints, after, areas, polygons_of, ring_numbers, take_rings
 from .roads import Roads, laid_out, told
-from .roadside import cars_along, lamps_along, people_along, trees_along
 from .roles import PARTY, STREET
 from .stages import Stages
 from .styles import Style
+from .surroundings import Standing
 from .tags import Use, has_shop, levels_of, metres_of, roof_of, use_of
+from .workers import Workers
 
-__all__ = ["real_plan"]
+__all__ = ["real_houses"]
 
 _TREES = 1.4
 """Trees for each house, at the most."""
@@ -65,27 +63,37 @@ _WANTED: Mapping[int, Mapping[str, float]] = {
 _KINDS = {Use.COMMERCE: SHOP, Use.INDUSTRY: INDUSTRIAL, Use.PUBLIC: PUBLIC, Use.OUTBUILDING: OUTBUILDING}
 
 
-def real_plan(
-    source: Mapping[str, Any] | str | Path, seed: int, styles: Sequence[Style], stages: Stages | None = None
-) -> Plan:
-    """A plan from GeoJSON. It raises what `read_outlines` raises."""
-    stages = stages or Stages()
+def real_houses(
+    source: Mapping[str, Any] | str | Path,
+    seed: int,
+    styles: Sequence[Style],
+    stages: Stages,
+    workers: Workers,
+) -> Standing:
+    """Houses from GeoJSON, and the streets that they look at. It raises what `read_outlines` raises."""
     stages.at(0.0, "footprints")
     outlines = read_outlines(source)
     stages.at(0.2, "neighbours")
+    houses = outlines.polygons()
+    index, offsets = take_rings(outlines.offsets, np.flatnonzero(~outlines.holes))
+    outer = outlines.corners[index]
+    roads = told(outlines.roads, houses)
+    # Where one can go between houses is worked out while other things are.
+    passages = None if len(roads) else workers.begin(passages_of, offsets, outer)
     building = np.asarray(outlines.ring_of)[ring_numbers(outlines.offsets)]
     cut = cut_walls(outlines.offsets, outlines.corners, building)
     owner = np.asarray(outlines.ring_of)[ring_numbers(cut.offsets)]
-    cut = with_hidden(cut, owner, outlines.polygons())
-    houses = np.asarray(outlines.polygons(), object)
-    index, offsets = take_rings(outlines.offsets, np.flatnonzero(~outlines.holes))
-    outer = outlines.corners[index]
-    sizes = _sizes(outlines)
-    stages.at(0.25, "streets")
-    roads = told(outlines.roads, houses)
-    if not len(roads):
-        roads = laid_out(passages_of(offsets, outer), offsets, outer, houses, sizes >= _SHED)
+    cut = with_hidden(cut, owner, houses)
     gaps = gaps_of(cut)
+    sizes = _sizes(outlines)
+    dense = _density(outlines, sizes)
+    standing = polygons_of(cut.offsets, cut.corners, ~outlines.holes)
+    stages.at(0.25, "streets")
+    between = passages() if passages is not None else NO_PASSAGES
+    sites = workers.begin(sites_of, cut.corners, standing, seed, _TREES)
+    if passages is not None:
+        roads = laid_out(between, offsets, outer, houses, sizes >= _SHED)
+    asphalt = workers.begin(asphalt_of, offsets, outer, roads)
     roles = look_out(cut, outlines.ring_of, outlines.holes, gaps, _apart(cut, gaps, roads))
     # Roles are found for walls that are cut already; where none is cut they hold for the whole.
     before = np.zeros(len(outlines.corners), np.uint8)
@@ -94,32 +102,17 @@ def real_plan(
     walls.role[:] = roles
     stages.at(0.3, "heights")
     pairs = pairs_of(walls)
-    characters, tops = _characters(outlines, cut, roles, pairs, styles, seed)
+    characters, tops = _characters(outlines, cut, roles, pairs, styles, sizes, dense, seed)
     given = np.array([roof_of(tags) for tags in outlines.tags])
     out = characters.kind == OUTBUILDING
     given = np.where((given < 0) & out, np.where(sizes < 60, FLAT, GABLE), given)
     stages.at(0.4, "roofs")
     plan = finish(walls, pairs, characters, styles, _NO_GROUND, seed, given, tops, outlines.left_out, stages)
-    stages.at(0.62, "ground")
-    courts = forecourts_of(plan, gaps, roads, houses, seed)
     names = np.array([one.name for one in styles])[characters.style]
     gardens = np.isin(names, _GARDENS) & ~out
     wide = np.where(gardens, APRON, np.where(characters.kind == RESIDENTIAL, 2.2, 5.0))
-    wide = np.where(_density(outlines, sizes) > 0.33, np.maximum(wide, 2.2), np.where(out, 0.0, wide))
-    plan = replace(plan, ground=plain_of(offsets, outer, wide, roads, courts.paved()))
-    stages.at(0.68, "trees")
-    lamps = lamps_along(plan, courts, roads, seed)
-    rows = trees_along(plan, courts, roads, lamps, seed)
-    things = trees_of(plan, seed, _TREES) + chimneys_of(plan, seed) + rows + lamps
-    stages.at(0.71, "street life")
-    cars = cars_before(plan, courts, seed) + cars_along(plan, courts, roads, seed)
-    return replace(
-        plan,
-        things=things + people_along(plan, courts, roads, cars, things, seed),
-        cars=cars,
-        roads=roads,
-        hedges=hedges_before(plan, courts, gardens, things, roads, seed),
-    )
+    wide = np.where(dense > 0.33, np.maximum(wide, 2.2), np.where(out, 0.0, wide))
+    return Standing(plan, offsets, outer, houses, gaps, roads, asphalt, sites, wide, gardens)
 
 
 def _apart(cut: Cut, gaps: Floats, roads: Roads) -> Floats:
@@ -143,14 +136,14 @@ def _characters(
     roles: NDArray[np.uint8],
     pairs: Pairs,
     styles: Sequence[Style],
+    size: Floats,
+    dense: Floats,
     seed: int,
 ) -> tuple[Characters, Floats]:
     """Uses, styles and heights, and the height of the ridge where it is told (else 0)."""
     count = len(outlines.tags)
     random = chance(seed, 30)
     own, choice, lower = random.random((3, count))
-    size = _sizes(outlines)
-    dense = _density(outlines, size)
     joined = _joined(cut, outlines, roles)
     use = np.array([use_of(tags) for tags in outlines.tags])
     known = use != Use.UNKNOWN

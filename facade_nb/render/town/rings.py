@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from .chance import Floats, length, millimetres
@@ -17,6 +18,7 @@ __all__ = [
     "inset",
     "line_offsets",
     "offsets_of",
+    "polygons_of",
     "ragged",
     "ring_numbers",
     "take_rings",
@@ -64,6 +66,13 @@ def take_rings(offsets: Ints, chosen: NDArray[np.integer]) -> tuple[Ints, Ints]:
     """Indices of the corners of some rings, in their order, and the offsets of these rings."""
     counts = np.diff(offsets)[chosen]
     return ragged(offsets[:-1][chosen], counts), offsets_of(counts)
+
+
+def polygons_of(offsets: Ints, corners: Floats, chosen: NDArray[np.bool_]) -> NDArray[np.object_]:
+    """Some rings as shapely's polygons."""
+    index, offsets = take_rings(offsets, np.flatnonzero(chosen))
+    rings = shapely.linearrings(corners[index], indices=ring_numbers(offsets))
+    return np.asarray(shapely.polygons(rings), object)
 
 
 def areas(corners: Floats, offsets: Ints) -> Floats:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .chance import Floats, chance, length, millimetres
 from .forecourts import Forecourts
-from .rings import Ints, ragged, ring_numbers
+from .rings import Ints, ragged
 from .roads import HALF, LANE, MAIN, WALK, Roads
 from .street_life import Cars, cars_like
 from .things import LAMP, LIME, MAPLE, PEOPLE, PERSON, Things
@@ -48,30 +48,28 @@ def _aside(way: Floats, by: Floats | float) -> Floats:
 
 
 def _free(
-    at: Floats, others: list[tuple[NDArray[np.object_], float]], roads: Roads, own: Ints, room: float
+    at: Floats,
+    others: list[tuple[NDArray[np.object_] | shapely.STRtree, float]],
+    roads: Roads,
+    own: Ints,
+    room: float,
 ) -> NDArray[np.bool_]:
     """Which points keep away from other things, and from the roadway of other roads than their own."""
     good = np.ones(len(at), bool)
     points = shapely.points(at)
     for shapes, distance in others:
         if len(shapes) and len(at):
-            good[shapely.STRtree(shapes).query(points, predicate="dwithin", distance=distance)[0]] = False
+            tree = shapes if isinstance(shapes, shapely.STRtree) else shapely.STRtree(shapes)
+            good[tree.query(points, predicate="dwithin", distance=distance)[0]] = False
     if len(at):
-        spot, road = shapely.STRtree(roads.lines()).query(
-            points, predicate="dwithin", distance=HALF[MAIN] + room
-        )
-        apart = np.round(shapely.distance(points[spot], roads.lines()[road]), 3)
+        lines = roads.lines()
+        spot, road = shapely.STRtree(lines).query(points, predicate="dwithin", distance=HALF[MAIN] + room)
+        apart = np.round(shapely.distance(points[spot], lines[road]), 3)
         good[spot[(road != own[spot]) & (apart < HALF[roads.kind[road]] + room)]] = False
     return good
 
 
-def _houses(plan: Plan) -> NDArray[np.object_]:
-    return np.asarray(
-        shapely.polygons(shapely.linearrings(plan.corners, indices=ring_numbers(plan.rings))), object
-    )[~plan.holes]
-
-
-def cars_along(plan: Plan, courts: Forecourts, roads: Roads, seed: int) -> Cars:
+def cars_along(plan: Plan, houses: shapely.STRtree, courts: Forecourts, roads: Roads, seed: int) -> Cars:
     """Cars parked at the edges of streets, none before a way or a drive."""
     random = chance(seed, 85)
     road, at, way = _spots(roads, np.flatnonzero(roads.kind < LANE), _SLOT, 9.0)
@@ -81,7 +79,7 @@ def cars_along(plan: Plan, courts: Forecourts, roads: Roads, seed: int) -> Cars:
     at = at + way * (1.2 * (jitter - 0.5))[:, None]
     at = millimetres(at + _aside(way, right * (HALF[roads.kind[road]] - 1.05)))
     good = (wish < 0.34) & _free(
-        at, [(_houses(plan), 3.0), (courts.ways, 3.2), (courts.places(), 3.2)], roads, road, 3.0
+        at, [(houses, 3.0), (courts.ways, 3.2), (courts.places(), 3.2)], roads, road, 3.0
     )
     kept = np.flatnonzero(good)
     kept = np.sort(kept[np.lexsort((kept, np.round(wish[kept], 6)))][: int(_CARS * len(plan)) + 4])
@@ -89,12 +87,12 @@ def cars_along(plan: Plan, courts: Forecourts, roads: Roads, seed: int) -> Cars:
     return cars_like(at[kept], heads, random)
 
 
-def lamps_along(plan: Plan, courts: Forecourts, roads: Roads, seed: int) -> Things:
+def lamps_along(plan: Plan, houses: shapely.STRtree, courts: Forecourts, roads: Roads, seed: int) -> Things:
     """Lamps at the edges of streets, on one side."""
     road, at, way = _spots(roads, np.flatnonzero(roads.kind < LANE), _APART, 6.0)
     right = np.where(chance(seed, 83).random(len(roads))[road] < 0.5, 1.0, -1.0)
     at = millimetres(at + _aside(way, right * (HALF[roads.kind[road]] + 0.45)))
-    good = _free(at, [(_houses(plan), 0.7), (courts.ways, 1.0), (courts.places(), 0.4)], roads, road, 0.4)
+    good = _free(at, [(houses, 0.7), (courts.ways, 1.0), (courts.places(), 0.4)], roads, road, 0.4)
     points = shapely.points(at[good])
     one, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=0.4 * _APART)
     alone = np.ones(len(points), bool)
@@ -102,7 +100,9 @@ def lamps_along(plan: Plan, courts: Forecourts, roads: Roads, seed: int) -> Thin
     return Things.of(at[good][alone][: int(_LAMPS * len(plan)) + 6], LAMP, 4.4, 0.8)
 
 
-def trees_along(plan: Plan, courts: Forecourts, roads: Roads, lamps: Things, seed: int) -> Things:
+def trees_along(
+    plan: Plan, houses: shapely.STRtree, courts: Forecourts, roads: Roads, lamps: Things, seed: int
+) -> Things:
     """Rows of trees along some streets, behind the pavement."""
     lined = chance(seed, 87).random(len(roads))
     some = np.flatnonzero((roads.kind == MAIN) | ((roads.kind < LANE) & (lined < 0.3)))
@@ -112,7 +112,7 @@ def trees_along(plan: Plan, courts: Forecourts, roads: Roads, lamps: Things, see
     at = millimetres(at + _aside(way, right * ((HALF + WALK)[roads.kind[road]] + 0.9)))
     good = _free(
         at,
-        [(_houses(plan), 3.2), (courts.ways, 1.4), (courts.places(), 1.0), (shapely.points(lamps.at), 2.0)],
+        [(houses, 3.2), (courts.ways, 1.4), (courts.places(), 1.0), (shapely.points(lamps.at), 2.0)],
         roads,
         road,
         1.2,
@@ -123,7 +123,13 @@ def trees_along(plan: Plan, courts: Forecourts, roads: Roads, lamps: Things, see
 
 
 def people_along(
-    plan: Plan, courts: Forecourts, roads: Roads, cars: Cars, things: Things, seed: int
+    plan: Plan,
+    houses: shapely.STRtree,
+    courts: Forecourts,
+    roads: Roads,
+    cars: Cars,
+    things: Things,
+    seed: int,
 ) -> Things:
     """People on pavements, and at the edges of streets that have none; clear of houses, cars, trees and lamps."""
     random = chance(seed, 84)
@@ -136,7 +142,7 @@ def people_along(
     # Cars are two metres wide: what keeps away from their middles that far keeps away from them.
     ends = cars.way * (cars.long / 2)[:, None]
     axes = shapely.linestrings(np.stack([cars.at - ends, cars.at + ends], axis=1))
-    good = (wish < 0.5) & _free(at, [(_houses(plan), 0.45), (stems, 0.75), (axes, 1.25)], roads, road, 0.4)
+    good = (wish < 0.5) & _free(at, [(houses, 0.45), (stems, 0.75), (axes, 1.25)], roads, road, 0.4)
     kept = np.flatnonzero(good)
     kept = np.sort(kept[np.lexsort((kept, np.round(wish[kept], 6)))][: int(_PEOPLE * len(plan)) + 6])
     kind = random.integers(0, PEOPLE, len(kept))

@@ -405,15 +405,8 @@ def triangulated(corners: Floats, offsets: Ints, polygon: Ints) -> Ints:
         found.append((base[:, None, None] + fan).reshape(-1, 3))
     mm = np.rint(corners * 1000).astype(np.int64)
     others = np.flatnonzero(~simple)
-    ends = np.flatnonzero(np.append(polygon[others][1:] != polygon[others][:-1], True)[: len(others)])
-    begin = 0
-    for end in ends.tolist():
-        rings = others[begin : end + 1]
-        begin = end + 1
-        index = ragged(offsets[rings], counts[rings])
-        own = mm[index] - mm[index[0]]
-        made = triangulate_int64(np.ascontiguousarray(own), offsets_of(counts[rings])[1:].astype(np.uint32))
-        found.append(index[np.asarray(made, np.int64).reshape(-1, 3)])
+    if len(others):
+        found.append(_clipped(mm, ragged(offsets[others], counts[others]), counts[others], polygon[others]))
     if not found:
         return np.zeros((0, 3), np.int64)
     triangles = np.concatenate(found)
@@ -421,3 +414,22 @@ def triangulated(corners: Floats, offsets: Ints, polygon: Ints) -> Ints:
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     turned = triangles[:, [0, 2, 1]]
     return np.where((area < 0)[:, None], turned, triangles)[area != 0]
+
+
+def _clipped(mm: Ints, index: Ints, counts: Ints, polygon: Ints) -> Ints:
+    """Triangles of polygons by cutting off ears: corners of their rings (`index`), so many each (`counts`)."""
+    ends = offsets_of(counts)
+    begin = np.flatnonzero(np.append(True, polygon[1:] != polygon[:-1]))
+    rings = np.append(begin, len(counts))
+    edges = ends[rings]
+    # Seen from its first corner a polygon's coordinates are small.
+    own = mm[index] - np.repeat(mm[index[edges[:-1]]], np.diff(edges), axis=0)
+    closing = (ends[1:] - np.repeat(edges[:-1], np.diff(rings))).astype(np.uint32)
+    made = [
+        triangulate_int64(own[first:last], closing[one:two])
+        for first, last, one, two in zip(
+            edges[:-1].tolist(), edges[1:].tolist(), rings[:-1].tolist(), rings[1:].tolist(), strict=True
+        )
+    ]
+    corners = np.concatenate(made).astype(np.int64) + np.repeat(edges[:-1], [len(own) for own in made])
+    return np.asarray(index[corners].reshape(-1, 3))

@@ -3,6 +3,9 @@
 A front is the solved layout at a canvas of about the lot's width, turned into rules by `grammar_of`; its sizes become
 shares, so that it may be stretched by a few per cent. All other walls of such a house have the materials of the front's
 edge, band by band, and windows at the heights of the front's, far enough from the corners that no room is seen twice.
+
+The text that comes of it ships (``gallery.town("solved")``), so that no process solves to draw a town; a test
+solves afresh and compares. After a change run ``scripts/fronts.py``.
 """
 
 from __future__ import annotations
@@ -10,7 +13,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from itertools import pairwise
 
 from ... import gallery
@@ -19,7 +21,7 @@ from ...solver.model.layout import Layout, PlacedShape
 from ..texture.from_layout import LayoutGrammar, grammar_of
 from ..texture.shape_rules import parts
 
-__all__ = ["SOLVED", "Solved", "solved_text"]
+__all__ = ["SOLVED", "Solved", "solve_text", "solved_text"]
 
 STRETCH = 0.05
 """A front may be so much wider or narrower, higher or lower than its canvas, as a share."""
@@ -79,9 +81,13 @@ SOLVED = (
 """Widths at which a design is solved to a proven optimum in less than a second."""
 
 
-@lru_cache(maxsize=1)
 def solved_text() -> str:
-    """All of them as namespaces, and one that they share for what they are put together from."""
+    """All of them as namespaces, and one that they share for what they are put together from, as shipped."""
+    return gallery.town("solved")
+
+
+def solve_text() -> str:
+    """The same, solved now."""
     known = parts()
     shared = "\n".join(f"  {line}" for line in known.values())
     return "\n\n".join([f"namespace parts {{\n{shared}\n}}", *(_text(solved) for solved in SOLVED)]) + "\n"

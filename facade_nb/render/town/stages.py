@@ -35,3 +35,8 @@ class Stages:
             raise TownStopped(f"the town was stopped before its {name}, at {share:.0%}")
         if self.progress is not None:
             self.progress(share, name)
+
+    def done(self) -> None:
+        """There is a town: nobody is asked any more whether it is wanted."""
+        if self.progress is not None:
+            self.progress(1.0, "")

@@ -17,13 +17,15 @@ from ..pipeline.scene import Scene
 from ..pipeline.viewpoint import Viewpoint
 from ..texture import Grammar
 from .generated import generate_plan
-from .mesh import Mesh, build_mesh
+from .mesh import Mesh, Mesher, build_mesh
 from .plan import KINDS, ROOFS, Plan
-from .real import real_plan
+from .real import real_houses
 from .rings import areas
 from .stages import Stages
 from .styles import STYLES, Style, town_grammar
+from .surroundings import surrounded
 from .viewpoints import View, viewpoint
+from .workers import Workers
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -89,7 +91,13 @@ class Town:
         """
         count, number = _whole(buildings, "buildings", 1, MOST), _whole(seed, "seed", 0, 2**31 - 1)
         stages = Stages(progress, should_stop)
-        return cls._meshed(generate_plan(count, number, STYLES, stages), stages)
+        with Workers() as workers:
+            grammar = workers.begin(_ready)
+            plan = generate_plan(count, number, STYLES, stages)
+            stages.at(0.75, "mesh")
+            mesh = build_mesh(plan, STYLES, grammar())
+            stages.done()
+            return cls(plan, mesh, grammar())
 
     @classmethod
     def from_geojson(
@@ -118,16 +126,19 @@ class Town:
             If `should_stop` said so.
         """
         number, stages = _whole(seed, "seed", 0, 2**31 - 1), Stages(progress, should_stop)
-        return cls._meshed(real_plan(source, number, STYLES, stages), stages)
-
-    @classmethod
-    def _meshed(cls, plan: Plan, stages: Stages) -> Town:
-        stages.at(0.75, "mesh")
-        grammar = town_grammar()
-        town = cls(plan, build_mesh(plan, STYLES, grammar), grammar)
-        if stages.progress is not None:
-            stages.progress(1.0, "")
-        return town
+        with Workers() as workers:
+            grammar = workers.begin(_ready)
+            found = real_houses(source, number, STYLES, stages, workers)
+            # Houses and ground become triangles as soon as they are there.
+            parts = [workers.begin(lambda: Mesher(STYLES, grammar()).houses(found.plan))]
+            plan = surrounded(
+                found, number, stages, workers,
+                lambda laid: parts.append(workers.begin(lambda: parts[0]().ground(laid.ground))),
+            )  # fmt: skip
+            stages.at(0.75, "mesh")
+            mesh = parts[1]().rest(plan)
+            stages.done()
+            return cls(plan, mesh, grammar())
 
     @property
     def left_out(self) -> Mapping[str, int]:
@@ -207,6 +218,11 @@ class Town:
             },
             index=pd.RangeIndex(len(plan), name="building"),
         )
+
+
+def _ready() -> Grammar:
+    """The town's grammar with what whoever draws it asks first: that takes as long as to read it."""
+    return town_grammar().ready()
 
 
 def _whole(value: object, name: str, least: int, most: int) -> int:

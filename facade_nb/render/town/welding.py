@@ -31,9 +31,13 @@ def welded(
     free = np.flatnonzero(~own & (owners != -1))
     some = np.flatnonzero(owners != -1)
     mm = np.rint(positions[some].astype(np.float64) * 1000).astype(np.int64)
-    order = np.lexsort((some, ~own[some], mm[:, 2], mm[:, 1], mm[:, 0], owners[some]))
-    spot, owner = mm[order], owners[some[order]]
-    new = np.append(True, (spot[1:] != spot[:-1]).any(axis=1) | (owner[1:] != owner[:-1]))
+    x, y, z = (mm - mm.min(axis=0, initial=0)).T
+    # Whole numbers below 2 ** 31: two keys hold all that is compared, and those that stay come first.
+    level = x << 32 | z << 1 | ~own[some]
+    house = (owners[some] - owners.min(initial=0)) << 31 | y
+    order = np.lexsort((level, house))
+    spot, owner = level[order] >> 1, house[order]
+    new = np.append(True, (spot[1:] != spot[:-1]) | (owner[1:] != owner[:-1]))
     first = some[order][np.flatnonzero(new)]
     becomes = np.arange(len(owners))
     # The first at a spot is one that stays, if there is one.

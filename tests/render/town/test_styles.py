@@ -16,7 +16,7 @@ from facade_nb.render.texture.atlas import pack
 from facade_nb.render.texture.program import children
 from facade_nb.render.texture.steps import Chosen, Step
 from facade_nb.render.tiles import TileSet
-from facade_nb.render.town.solved import SOLVED
+from facade_nb.render.town.solved import SOLVED, solve_text
 from facade_nb.render.town.sparing import SparingTiles
 from facade_nb.render.town.styles import STARTS, STYLES, Style, town_grammar, town_text
 from tests.render.town.walls import DOORS, OPENINGS, parts, shows
@@ -163,6 +163,10 @@ def test_the_storeys_of_a_solved_front_are_what_it_shows() -> None:
         assert style.fit(solved.height * 1.2) == 0
         assert style.suits(solved.width, solved.height)
         assert not style.suits(solved.width * 1.1, solved.height)
+
+
+def test_the_solved_fronts_that_ship_are_what_is_solved_now() -> None:
+    assert gallery.town("solved") == solve_text(), "run scripts/fronts.py"
 
 
 @pytest.mark.parametrize("style", STYLES, ids=lambda s: s.name)
