@@ -38,7 +38,7 @@ Ints = NDArray[np.int64]
 
 
 def apart(mesh: Mesh) -> Mesh:
-    """The mesh with bodies of which none has an edge where another one has."""
+    """The mesh with bodies of which none has an edge where another one has; it stays as large as it is."""
     count = int(mesh.bodies.max(initial=-1)) + 1
     if count < 2:
         return mesh
@@ -50,6 +50,7 @@ def apart(mesh: Mesh) -> Mesh:
     np.minimum.at(low, owner, points)
     np.maximum.at(high, owner, points)
     rank = np.argsort(np.argsort(-np.round((high - low).prod(axis=1), 9), kind="stable"), kind="stable")
+    ends = _ends(points, owner, rank)
     meets: dict[int, set[int]] = defaultdict(set)
     moved = points
     for _ in range(_ROUNDS):
@@ -59,8 +60,19 @@ def apart(mesh: Mesh) -> Mesh:
         for one, other in found:
             meets[one].add(other)
             meets[other].add(one)
-        moved = _drawn_in(points, owner, low, high, _times(meets, rank))
+        moved = np.where(ends, points, _drawn_in(points, owner, low, high, _times(meets, rank)))
     return mesh if moved is points else replace(mesh, vertices=moved, faces=at)
+
+
+def _ends(points: Floats, owner: Ints, rank: Ints) -> NDArray[np.bool_]:
+    """Which coordinates stay: for each end of the mesh, those of the largest body that reaches to it."""
+    found = np.zeros(points.shape, bool)
+    for axis in range(3):
+        values = points[:, axis]
+        for end in (values.min(), values.max()):
+            there = np.flatnonzero(values == end)
+            found[there[rank[owner[there]] == rank[owner[there]].min()], axis] = True
+    return found
 
 
 def _touching(points: Floats, faces: Ints, owner: Ints) -> set[tuple[int, int]]:
