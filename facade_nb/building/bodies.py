@@ -19,14 +19,18 @@ from ..render.meshing import Mesh, mesh_parts
 from ..render.parts import Block, Part
 from ..render.ruled import library_of
 from ..render.scene import Solid, build_scene
+from ..render.seating import Slope
 from .layout import BuildingLayout, SolvedFace
 from .roofline import is_dormer
 from .rules import Rules
 
-__all__ = ["Body", "Frame", "bodies_of", "deepest", "drawn_by", "house_end", "rules_of"]
+__all__ = ["NEAR", "Body", "Frame", "bodies_of", "deepest", "drawn_by", "house_end", "rules_of", "slope_of"]
 
 _END = 1e-4
 """Metres: so near its end a thing ends with the wall."""
+
+NEAR = 0.3
+"""Beyond the overhang the roof of a face reaches so far before the wall; what is nearer is another wing's, metres."""
 
 _DORMER = 12.0
 """How far a dormer goes back at most, metres."""
@@ -85,6 +89,13 @@ class Body:
     library: str = ""
 
 
+def slope_of(layout: BuildingLayout, own: SolvedFace) -> Slope:
+    """The roof over all as one sees it before a face."""
+    frame = Frame.of(own)
+    triangles = (layout.roofing.positions - frame.origin) @ frame.axes.T
+    return Slope(triangles, layout.building.roof.overhang + NEAR, layout.eaves)
+
+
 def rules_of(layout: BuildingLayout) -> Rules:
     """The texture grammars of all faces, as one."""
     return Rules.of(library_of(own.shown) for own in layout.faces)
@@ -109,7 +120,7 @@ def bodies_of(layout: BuildingLayout, own: SolvedFace, back: float) -> list[Body
     back
         How far walls go back: what is less deep is filled up behind.
     """
-    scene = build_scene(own.shown)
+    scene = build_scene(own.shown, over=slope_of(layout, own))
     made = [Body(solid, solid.index, solid.mesh(), solid.materials) for solid in scene.solids]
     made += _filling(layout, scene.solids, back)
     made += _dormers(layout, own, scene.solids)
@@ -160,8 +171,7 @@ def house_end(layout: BuildingLayout, own: SolvedFace, solid: Solid) -> float:
     left, _, right, top = solid.rect
     behind = solid.face - solid.depth
     steps: Floats = behind - _STEP * np.arange(1.0, round(_DORMER / _STEP) + 1)
-    frame = Frame.of(own)
-    triangles = (layout.roofing.positions - frame.origin) @ frame.axes.T
+    triangles = slope_of(layout, own).triangles
     ends = []
     for x in (left + _END, (left + right) / 2, right - _END):
         heights = _heights(triangles, x, steps)

@@ -6,7 +6,15 @@ from dataclasses import replace
 
 from ..design.model import Canvas, Design
 from ..render.ruled import library_of
-from ..solver.model.layout import AxisLayout, GroupLayout, Layout, PlacedShape, Rect
+from ..solver.model.layout import (
+    AxisLayout,
+    GroupLayout,
+    Layout,
+    PlacedLetter,
+    PlacedShape,
+    Rect,
+    RowLayout,
+)
 from .bodies import rules_of
 from .layout import BuildingLayout
 
@@ -23,8 +31,9 @@ def developed(layout: BuildingLayout) -> Layout:
     groups along y.
     """
     shapes: list[PlacedShape] = []
+    walls: list[tuple[PlacedLetter, ...]] = []
     holes: list[Rect] = []
-    stops: list[float] = []
+    stops = [0.0]
     at, rules = 0.0, rules_of(layout)
     for own in layout.faces:
         library = library_of(own.shown)
@@ -37,10 +46,13 @@ def developed(layout: BuildingLayout) -> Layout:
         for left, bottom, right, top in own.shown.holes:
             if bottom < layout.eaves - 1e-6:
                 holes.append((left + at, bottom, right + at, min(top, layout.eaves)))
-        stops += [at, at + own.face.length]
-        at += own.face.length + GAP
+        end = at + own.face.length
+        walls += [(PlacedLetter(own.face.name, at, end),), ()]  # the wall, then a gap that nothing fills
+        stops += [end, end + GAP]
+        at = end + GAP
     highest = max((own.shown.canvas.height for own in layout.faces), default=layout.eaves)
-    faces = GroupLayout(0.0, tuple(stops), ())
+    row = RowLayout("faces", "faces", tuple(walls[:-1]))
+    faces = GroupLayout(0.0, tuple(stops[:-1]), (row,))
     heights = {
         name: replace(group, columns=tuple(v for v in group.columns if v <= highest + 1e-9), rows=())
         for name, group in _heights(layout).items()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..render.apart import apart
 from ..render.baked import drawable, face_places, face_size
 from ..render.exchange.obj import Piece, files_of, obj_of
 from ..render.mesh import EMPTY, finish, paint, pictured
@@ -59,7 +60,7 @@ def parts_of(layout: BuildingLayout) -> Iterator[Part]:
     for own in layout.faces:
         frame, name = Frame.of(own), own.face.name
         for body in bodies_of(layout, own, back):
-            mesh = replace(body.mesh, vertices=frame.place(body.mesh.vertices))
+            mesh = apart(replace(body.mesh, vertices=frame.place(body.mesh.vertices)))
             if body.solid is None:
                 yield Part(f"{name}/filling", name, mesh, body.materials, library=body.library)
                 continue

@@ -10,16 +10,13 @@ from numpy.typing import NDArray
 
 from ..render.cuts import Cut
 from ..render.scene import build_scene, room_of
-from .bodies import Frame, house_end
+from .bodies import NEAR, Frame, house_end, slope_of
 from .layout import BuildingLayout
 from .roofline import is_dormer
 
 __all__ = ["Opening", "opened", "openings"]
 
 Floats = NDArray[np.float64]
-
-_BEFORE = 0.3
-"""Beyond the overhang an opening begins so far before the wall, metres."""
 
 _LEAST = 1e-8
 """Square metres: what is smaller of a triangle is nothing."""
@@ -49,10 +46,10 @@ def openings(layout: BuildingLayout) -> list[Opening]:
 
 
 def _openings(layout: BuildingLayout) -> Iterator[Opening]:
-    near = layout.building.roof.overhang + _BEFORE
+    near = layout.building.roof.overhang + NEAR
     for own in layout.faces:
         frame = Frame.of(own)
-        for solid in build_scene(own.shown).solids:
+        for solid in build_scene(own.shown, over=slope_of(layout, own)).solids:
             if not is_dormer(solid.shape, layout.eaves) or not (solid.geometry.full or solid.geometry.cuts):
                 continue
             for cut in room_of(solid):

@@ -59,6 +59,8 @@ def solve(
         If there is no layout, or none was found in time. It says of which wall, or of the heights, and why.
     """
     run = _Run(building, objective, time_limit, should_stop)
+    from .dormers import covered
+
     heights, widths = run.answers()
     parts = {key: run.joint.part(key, heights) for key in run.joint.designs}
     laid: dict[_Width, Layout] = {}
@@ -85,8 +87,10 @@ def solve(
         for own in building.corners.values()
         if own.kind == "quoins"
     }
-    return BuildingLayout(
-        building, solved, heights.layout, eaves, tuple(dict.fromkeys(warnings)), complete, strips
+    return covered(
+        BuildingLayout(
+            building, solved, heights.layout, eaves, tuple(dict.fromkeys(warnings)), complete, strips
+        )
     )
 
 

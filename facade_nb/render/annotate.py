@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 from ..solver.model.layout import Layout, Rect
+from .measured import Chain, ranges, within
 from .parts import Point
 from .style import Style, num
 
@@ -119,27 +119,21 @@ def draw_holes(holes: Sequence[Rect], frame: Frame, style: Style, prefix: str) -
 
 def draw_dimensions(layout: Layout, frame: Frame, style: Style) -> Iterable[str]:
     """Chains of dimensions along the foot and the left side: every boundary of the skin, then the whole."""
-    w, h = frame.canvas
     colour = style.faint
     base = frame.at(0, 0)[1] + 18
     side = frame.left - frame.right - 4  # clear of eaves
     lines, texts = [], []
-    for across, size in ((True, w), (False, h)):
-        stops = _stops(layout, across, size, 30 / frame.scale)
-        for level, chain in ((0, stops), (1, [0.0, size])):
-            if level and len(stops) == 2:
-                continue
+    for across in (True, False):
+        walls = ranges(layout, "x" if across else "y")
+        parts = _parts(layout, across, walls, 30 / frame.scale)
+        for level, chain in enumerate((parts,) if parts == walls else (parts, walls)):
             at = base + 16 * level if across else side - 18 * level
-            ends = [frame.at(s, 0)[0] if across else frame.at(0, s)[1] for s in chain]
-            lines.append(
-                f"M{num(ends[0])} {num(at)}H{num(ends[-1])}"
-                if across
-                else f"M{num(at)} {num(ends[0])}V{num(ends[-1])}"
-            )
-            for end in ends:
+            spans = [[frame.at(s, 0)[0] if across else frame.at(0, s)[1] for s in span] for span in chain]
+            for end in dict.fromkeys(end for span in spans for end in span):
                 x, y = (end, at) if across else (at, end)
                 lines.append(f"M{num(x - 3)} {num(y + 3)}l6 -6")
-            for a, b, p, q in zip(chain, chain[1:], ends, ends[1:], strict=False):
+            for (a, b), (p, q) in zip(chain, spans, strict=True):
+                lines.append(f"M{num(p)} {num(at)}H{num(q)}" if across else f"M{num(at)} {num(p)}V{num(q)}")
                 middle = (p + q) / 2
                 place = (
                     f'x="{num(middle)}" y="{num(at - 3)}"'
@@ -151,15 +145,11 @@ def draw_dimensions(layout: Layout, frame: Frame, style: Style) -> Iterable[str]
     yield f'<g {FONT} font-size="8.5" text-anchor="middle" fill="{colour}">{"".join(texts)}</g>'
 
 
-def _stops(layout: Layout, across: bool, size: float, least: float) -> list[float]:
-    """Boundaries of the solved columns of the axis, where there is room to write between them; else the ends alone."""
+def _parts(layout: Layout, across: bool, walls: Chain, least: float) -> Chain:
+    """Between the solved columns of the axis, where there is room to write between all; else the walls alone."""
     groups = (layout.x if across else layout.y).groups
-    stops = sorted({0.0, size, *(c for group in list(groups.values())[:1] for c in group.columns)})
-    kept = [stops[0]]
-    for stop in stops[1:]:
-        if stop - kept[-1] > 1e-6:
-            kept.append(stop)
-    return kept if all(b - a >= least for a, b in pairwise(kept)) else [0.0, size]
+    found = within(walls, sorted({c for group in list(groups.values())[:1] for c in group.columns}))
+    return found if all(b - a >= least for a, b in found) else walls
 
 
 def opening_rects(layout: Layout) -> list[Rect]:

@@ -310,8 +310,8 @@ _TABLE = (
     ),
     Geometry(
         "dormer", dormer, "window in a roof between cheeks, under a roof of its own",
-        "the roof comes 0.12 m forward and runs back into the slope, 1.3 times the height at least",
-        full=False, stand=lambda w, h, **told: 0.3, least=0.3,
+        "the roof comes 0.12 m forward and runs back into the slope, to where that covers it",
+        full=False, stand=lambda w, h, **told: 0.3, deep=lambda w, h, **told: 1.3 * h, least=0.3,
         slots=_WINDOW | {"roof": "metal", "cheek": "metal", "frame": "painted-wood"},
         own="painted-wood", unsuited=_PLAIN | {"glass"},
         modelled=True,

@@ -10,9 +10,10 @@ import numpy as np
 
 from ..design.files import write_atomically
 from ..solver.model.layout import Layout
+from .apart import apart
 from .baked import baked, drawable, face_places, face_size
 from .materials import find_material, rgb
-from .meshing import corner_normals, corner_places
+from .meshing import Mesh, corner_normals, corner_places
 from .scene import Scene, Solid, build_scene
 
 if TYPE_CHECKING:
@@ -39,8 +40,11 @@ def to_trimesh(scene: Scene) -> trimesh.Scene:
     result = trimesh.Scene()
     paints: dict[object, PBRMaterial] = {}
     made: dict[tuple[object, ...], str] = {}
+    alike: dict[tuple[object, ...], Mesh] = {}
     for solid in scene.solids:
-        local = solid.body()
+        local = alike.get((solid.parts, solid.cuts))
+        if local is None:
+            local = alike[solid.parts, solid.cuts] = apart(solid.body())
         normals, places = corner_normals(local), corner_places(local)
         place = np.eye(4)
         place[:3, 3] = (solid.rect[0], solid.rect[1], solid.face)

@@ -166,7 +166,8 @@ def loggia(w: float, h: float, d: float, *, depth: float = 1.4, parapet: str = "
 
 def dormer(w: float, h: float, d: float, *, roof: str = "gable") -> tuple[Part, ...]:
     """A dormer: a window in a roof between cheeks, under a roof of its own that runs back into the slope."""
-    run, wall = max(d, 1.3 * h), 0.16
+    wall = min(0.16, 0.5 * h)
+    run = max(d, wall + 0.02)
     eave = min(0.14, 0.08 * w)
     cheek = min(0.12, 0.1 * w)
     rise = {"gable": min(0.42 * w, 0.36 * h), "arch": min(0.24 * w, 0.26 * h)}.get(roof, min(0.16, 0.12 * h))

@@ -5,18 +5,21 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache, partial
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from ..design.errors import DesignError, Fault
 from ..solver.model.layout import Layout, PlacedShape, Rect
 from .cuts import Cut
-from .geometry import DEFAULT_GEOMETRY, Geometry, find_geometry
+from .geometry import find_geometry
 from .lettering import undrawn
-from .materials import Material, find_material, rgb
+from .materials import Material, rgb
 from .meshfile import file_geometry, is_file
-from .parts import Block, Part, Point, back, flip, front
+from .parts import Block, Part, Point, back, front
+from .roofed import before_roof, seated
 from .ruled import is_rule, library_of, material_of, rule_fault
+from .seating import Slope
+from .standing import Solid, place_of, solids_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,6 +35,7 @@ __all__ = [
     "build_scene",
     "drawing_faults",
     "room_of",
+    "within_roof",
     "without",
 ]
 
@@ -42,68 +46,6 @@ _LEAST = 1e-4
 
 class DrawingWarning(UserWarning):
     """Something of a design cannot be drawn as it says; the rest is."""
-
-
-@dataclass(frozen=True, slots=True)
-class Solid:
-    """One shape of the layout as a body.
-
-    Attributes
-    ----------
-    index
-        Which of `Layout.shapes` it is.
-    shape
-        That shape.
-    geometry
-        The geometry that made it.
-    face
-        Where its face is, z in metres: the shape's offset, or, if that is 0, where its geometry puts it.
-    depth
-        How far it goes back from the face, metres; at least to the plane of the façade.
-    parts
-        Its parts, in the frame of the shape (see `parts`).
-    materials
-        The material of each slot of its parts.
-    cuts
-        What later shapes open in its parts, but for rectangles in a plain box: there the parts are what is left.
-    """
-
-    index: int
-    shape: PlacedShape
-    geometry: Geometry = field(repr=False)
-    face: float
-    depth: float
-    parts: tuple[Part, ...] = field(repr=False)
-    materials: Mapping[str, str]
-    cuts: tuple[Cut, ...] = field(default=(), repr=False)
-
-    @property
-    def rect(self) -> Rect:
-        """Left, bottom, right, top, metres."""
-        return self.shape.rect
-
-    @property
-    def plane(self) -> float:
-        """Z of the surface that takes the shadow of its neighbours."""
-        return self.face - self.geometry.recess(self.depth)
-
-    def body(self) -> Mesh:
-        """Its triangles, in its own frame, with openings cut."""
-        from .meshing import mesh_parts
-
-        if not self.cuts:
-            return mesh_parts(self.parts)
-        from .carving import carved
-
-        return carved(self.parts, self.cuts)
-
-    def mesh(self) -> Mesh:
-        """Its triangles, in the scene's frame."""
-        from numpy import array
-
-        local = self.body()
-        corner = array([self.rect[0], self.rect[1], self.face])
-        return replace(local, vertices=local.vertices + corner)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -202,7 +144,7 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]], library:
     )
 
 
-def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
+def build_scene(layout: Layout, *, roof_depth: float | None = None, over: Slope | None = None) -> Scene:
     """Give every shape of a layout its body.
 
     A window of a higher layer opens the wall of a lower one, as it does when shapes are painted in order: a
@@ -215,6 +157,8 @@ def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
         A solved layout, or one read from JSON.
     roof_depth
         How far roofs go back, metres; None: as far as their shapes are thick.
+    over
+        The roof of a building over all, in the frame of this façade.
 
     Raises
     ------
@@ -225,10 +169,12 @@ def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
     -----
     DrawingWarning
         For each shape that cannot be drawn as the design says: a rule that the design's grammar does not have, a
-        mesh file that cannot be read. It is drawn plain. So it is for letters that a sign's lettering lacks.
+        mesh file that cannot be read. It is drawn plain. So it is for letters that a sign's lettering lacks. A dormer
+        that its roof does not cover is drawn as high as that does.
     """
-    solids = _cut(tuple(_solids(layout, roof_depth)))
-    faults = drawing_faults(layout)
+    solids, told = seated(tuple(solids_of(layout, roof_depth)), over)
+    solids = _cut(solids)
+    faults = (*_looks_faults(layout), *told)
     for fault in faults:
         warnings.warn(str(fault), DrawingWarning, stacklevel=2)
     return Scene((layout.canvas.width, layout.canvas.height), solids, library_of(layout), faults)
@@ -236,6 +182,28 @@ def build_scene(layout: Layout, *, roof_depth: float | None = None) -> Scene:
 
 def drawing_faults(layout: Layout) -> tuple[Fault, ...]:
     """What of a layout cannot be drawn as its design says, each with its shape and layer."""
+    faults = _looks_faults(layout)
+    if not any(map(before_roof, layout.shapes)):
+        return faults
+    try:
+        return (*faults, *seated(tuple(solids_of(layout, None)), None)[1])
+    except DesignError:  # who draws it tells that
+        return faults
+
+
+def within_roof(layout: Layout, over: Slope) -> tuple[Layout, tuple[Fault, ...]]:
+    """A layout before the roof of a building: dormers as high as that covers them, and what there is to say of it.
+
+    Raises
+    ------
+    DesignError
+        As `build_scene`.
+    """
+    solids, faults = seated(tuple(solids_of(layout, None)), over)
+    return (replace(layout, shapes=tuple(own.shape for own in solids)) if faults else layout), faults
+
+
+def _looks_faults(layout: Layout) -> tuple[Fault, ...]:
     found: dict[str, Fault] = {}
     library = library_of(layout)
     looks = {(shape.geometry, shape.material): shape for shape in layout.shapes}
@@ -249,12 +217,12 @@ def drawing_faults(layout: Layout) -> tuple[Fault, ...]:
 def _faults(shape: PlacedShape, library: str) -> Iterator[Fault]:
     """What of a shape cannot be drawn as its design says."""
     if is_rule(shape.material):
-        fault = rule_fault(library, shape.material, f"{_place(shape)}: material")
+        fault = rule_fault(library, shape.material, f"{place_of(shape)}: material")
         if fault is not None:
             yield fault
     if is_file(shape.geometry):
         try:
-            file_geometry(shape.geometry, f"{_place(shape)}: geometry")
+            file_geometry(shape.geometry, f"{place_of(shape)}: geometry")
         except DesignError as error:
             yield from error.faults
     else:
@@ -274,81 +242,7 @@ def _blanks(shape: PlacedShape) -> Iterator[Fault]:
             message = (
                 f"{parameter.name} of {geometry.name}: the lettering has no {letters}; a blank is left there"
             )
-            yield Fault(f"{_place(shape)}: geometry", message)
-
-
-def _place(shape: PlacedShape) -> str:
-    return f'shapes["{shape.x} {shape.y}"] in layer {shape.layer!r}'
-
-
-def _solids(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
-    faults: dict[str, Fault] = {}
-    for index, shape in enumerate(layout.shapes):
-        try:
-            geometry, own = _looks(shape)
-        except DesignError as error:
-            faults.update((str(fault), fault) for fault in error.faults)
-            continue
-        if faults:
-            continue  # nothing will be drawn: only look for the rest of the faults
-        left, bottom, right, top = shape.rect
-        width, height = right - left, top - bottom
-        face = shape.offset or geometry.face(width, height)
-        depth = max(shape.thickness, face, geometry.depth(width, height), 0.01)
-        if roof_depth is not None and geometry.roof:
-            depth = max(depth, roof_depth)
-        make = _parts if not is_file(shape.geometry) else partial(_fitted, geometry)
-        parts = make(shape.geometry, round(width, 6), round(height, 6), round(depth, 6), shape.mirrored)
-        materials = {"body": own, **geometry.slots}
-        for part in parts:
-            materials.setdefault(part.slot, own)
-        yield Solid(index, shape, geometry, face, depth, parts, materials)
-    if faults:
-        raise DesignError(faults.values())
-
-
-def _looks(shape: PlacedShape) -> tuple[Geometry, str]:
-    """The geometry of a shape, and the material of its body."""
-    try:
-        geometry = _geometry(shape.geometry)
-        find_material(shape.material)
-    except DesignError:  # told once more, with the place
-        place = _place(shape)
-        geometry = _geometry(shape.geometry, f"{place}: geometry")
-        find_material(shape.material, f"{place}: material")
-        raise
-    return geometry, geometry.material("body", shape.material)
-
-
-def _geometry(name: str, place: str = "geometry") -> Geometry:
-    """The geometry of that name; that of a file which cannot be drawn is a plain block."""
-    if not is_file(name):
-        return find_geometry(name, place)
-    try:
-        return file_geometry(name)
-    except DesignError:  # `drawing_faults` tells it
-        return find_geometry(DEFAULT_GEOMETRY)
-
-
-def _fitted(
-    geometry: Geometry, name: str, width: float, height: float, depth: float, mirrored: tuple[bool, bool]
-) -> tuple[Part, ...]:
-    if min(width, height) <= _LEAST:  # no room for parts
-        return ()
-    return flip(geometry.parts(width, height, depth), width, height, mirrored)
-
-
-@lru_cache(maxsize=2048)
-def _parts(
-    name: str, width: float, height: float, depth: float, mirrored: tuple[bool, bool]
-) -> tuple[Part, ...]:
-    geometry = find_geometry(name)
-    return _fitted(geometry, name, width, height, depth, mirrored if geometry.turns else (False, False))
-
-
-def forget() -> None:
-    """Let go of parts that were made by the names of their geometries."""
-    _parts.cache_clear()
+            yield Fault(f"{place_of(shape)}: geometry", message)
 
 
 def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:

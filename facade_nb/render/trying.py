@@ -11,7 +11,7 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 
 from . import geometry as geometries
-from . import ruled, scene
+from . import ruled, standing
 from .geometry import GEOMETRIES, Geometry
 from .texture import operators
 from .texture.batch import Batch
@@ -90,6 +90,6 @@ def _check(name: str, taken: Collection[str], form: str, what: str, such: str) -
 
 def _forget() -> None:
     """Let go of what was made by name: a name may mean something else now."""
-    scene.forget()
+    standing.forget()
     ruled.forget()
     shader.cache_clear()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from collections import Counter
 
 import numpy as np
@@ -14,8 +15,10 @@ from facade_nb import Building
 from facade_nb.__main__ import main
 from facade_nb.building import Roof
 from facade_nb.building.bodies import Frame, bodies_of, deepest
+from facade_nb.building.developed import GAP
 from facade_nb.building.mesh import parts_of
 from facade_nb.building.roofs import roofing
+from facade_nb.render import elevation_svg
 from tests.building.houses import FRONT, SIDE, corner_house
 
 # cjio has the whole process write JSON to six decimals from where it is imported on: that is taken back.
@@ -147,6 +150,34 @@ def test_drawings_of_all_walls():
     rows = layout.to_schedule().splitlines()[1:]
     windows = [row.split(",") for row in rows if row.split(",")[1] == "window"]
     assert sum(int(row[6]) for row in windows) == sum(shape.kind == "window" for shape in shapes)
+
+
+@pytest.mark.parametrize(
+    ("building", "lengths"),
+    [
+        (Building.ell(6.0, 5.0, (2.7, 2.4), FRONT), (6.0, 2.7, 3.6, 2.3, 2.4, 5.0)),
+        (Building.row([(4.5, FRONT), (6.0, SIDE)], 4.0), (4.5, 6.0, 4.0, 6.0, 4.5, 4.0)),
+        (Building.rectangle(4.5, 3.0, [FRONT, SIDE, None, None]), (4.5, 3.0, 4.5, 3.0)),
+    ],
+)
+def test_no_dimension_measures_what_lies_between_walls(building, lengths):
+    import ezdxf
+    import pypdf
+
+    layout = building.solve()
+    rows = {0: [], 90: []}
+    for dimension in ezdxf.read(io.StringIO(layout.to_dxf())).modelspace().query("DIMENSION"):
+        rows[int(dimension.dxf.angle)].append(dimension.get_measurement())
+    assert sorted(rows[0]) == pytest.approx(sorted(lengths), abs=1e-3)
+    assert sum(rows[90]) == pytest.approx(2 * max(rows[90]), abs=1e-3)  # the parts, and their sum
+    text = pypdf.PdfReader(io.BytesIO(layout.to_pdf())).pages[0].extract_text().splitlines()
+    assert {f"{length:.2f}" for length in lengths} <= set(text)
+    assert f"{sum(lengths):.2f} × {layout.developed.canvas.height:.2f} m" in text
+    written = {
+        float(n) for n in re.findall(r">(\d+\.\d\d)</text>", elevation_svg(layout.developed, dimensions=True))
+    }
+    assert {round(length, 2) for length in lengths} <= written
+    assert max(written) <= max(*lengths, layout.developed.canvas.height) and GAP not in written
 
 
 def test_the_command_line_solves_a_building(tmp_path, capsys):

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from facade_nb import Building
 from facade_nb.building import Roof
-from facade_nb.building.bodies import Frame
+from facade_nb.building.bodies import Frame, bodies_of
 from facade_nb.building.openings import Opening, opened
 from facade_nb.building.roofs import roofing
 from facade_nb.building.scene import over_all
@@ -85,3 +87,31 @@ def test_what_is_outside_of_a_room_stays():
     gone = np.mean((np.abs(on(triangles, 200_000, 2)) < 0.5).all(axis=1))
     assert area(rest) == pytest.approx(area(triangles) * (1 - gone), rel=0.005)
     assert area(opened(rest, [room])) == pytest.approx(area(rest))
+
+
+@pytest.mark.parametrize("geometry", ["dormer", "window"])
+def test_dormers_beside_a_hip_are_as_high_as_the_roof_has_room(geometry):
+    document = WALL | {
+        "symbols": WALL["symbols"] | {"C": {"size": 0.6}},
+        "patterns": WALL["patterns"] | {"gaps": "CECECEC"},
+        "shapes": WALL["shapes"] | {"E H": {"kind": "dormer", "geometry": geometry, "thickness": 0.2}},
+    }
+    building = Building.rectangle(
+        8.0, 7.0, [Design.from_dict(document), None, None, None], roof=Roof("hip", 3.5)
+    )
+    layout = building.solve()
+    shapes = [own for own in layout.faces[0].shown.shapes if own.kind == "dormer"]
+    tall = [own.rect[3] - own.rect[1] for own in shapes]
+    assert (
+        tall[0] == pytest.approx(tall[2], abs=2e-3)
+        and 0.3 < tall[0] < 1.5
+        and tall[1] == pytest.approx(1.8, abs=0.2)
+    )
+    for body in bodies_of(layout, layout.faces[0], 0.3):  # the hips rise by a metre in a metre
+        points = body.mesh.vertices
+        above = points[(points[:, 1] > layout.eaves + 0.01)]
+        assert (above[:, 1] - layout.eaves <= np.minimum(above[:, 0], 8.0 - above[:, 0]) + 0.01).all()
+    assert sum('shapes["E H"] in layer' in told for told in layout.warnings) == 2
+    flat = replace(building, roof=Roof("flat")).solve()
+    assert not any(own.kind == "dormer" for own in flat.faces[0].shown.shapes)
+    assert all("left out" in told for told in flat.warnings if "dormers" in told)

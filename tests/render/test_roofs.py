@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
 import trimesh
+from shapely import MultiPoint
 
-from facade_nb.render import GEOMETRIES, build_scene
+from facade_nb.render import GEOMETRIES, build_scene, drawing_faults
+from facade_nb.render.meshing import mesh_parts
 from facade_nb.render.scene import Solid
 from facade_nb.solver.model.layout import Canvas, Layout, PlacedShape
 
@@ -89,3 +93,38 @@ def test_two_dormers_and_a_roof_window_at_once() -> None:
     opened = bodies(whole)
     assert [inside(opened, (x, 4.0, -1.2)) for x in (2.5, 5.0, 7.5)] == [False, True, False]
     assert not inside(opened, (5.0, 5.0, -1.6)) and inside(opened, (5.0, 5.0, -2.2))
+
+
+@pytest.mark.parametrize("roof", [*ROOFS, "mansard(ends=hipped)", "hipped(ridge=0.1)", "gable"])
+def test_a_dormer_stands_within_its_roof_or_is_told_to_have_no_room(roof: str) -> None:
+    base = PlacedShape("roof", "R", "T", (0, 3, 10, 7), geometry=roof, thickness=6.0)
+    for look, left, foot in product(
+        ("dormer", "dormer(roof=flat)", "window"), (0.1, 1.2, 4.3, 8.6), (3.1, 4.4)
+    ):
+        rect = (left, foot, left + 1.3, foot + 1.6)
+        own = PlacedShape("dormers", "D", "Q", rect, kind="window", geometry=look)
+        layout = Layout("roofs", Canvas(10, 7), shapes=(base, own))
+        told = drawing_faults(layout)
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            whole, *shapes = build_scene(layout).solids
+        assert [str(own.message) for own in heard] == [str(fault) for fault in told]
+        parts = mesh_parts([part for part in whole.parts if part.slot in ("body", "upper", "gable")])
+        seen = MultiPoint(parts.vertices[:, :2] + (0, 3)).convex_hull.buffer(2e-3)
+        kept = [solid.mesh().vertices for solid in shapes]
+        assert all(seen.covers(MultiPoint(points[points[:, 1] >= foot][:, :2])) for points in kept)
+        high = max((points[:, 1].max() - foot for points in kept), default=0.0)
+        assert bool(told) == (high < 1.6 - 1e-3)
+        assert not told or (told[0].place, "out of the roof" in told[0].message) == (
+            "shapes[\"D Q\"] in layer 'dormers': geometry",
+            True,
+        )
+
+
+def test_a_dormer_stands_on_the_slope_and_goes_back_to_where_that_covers_it() -> None:
+    for foot in (3.0, 3.7, 4.6):
+        _, dormer = roofed("pitched", ("dormer", 0.0, (4.0, foot, 5.5, foot + 1.4)))
+        slope = -(3.2 + 0.3) / 4.0  # back, a metre up: the ridge is in the middle of a roof 6.4 m deep
+        ends = [0.3 + slope * (height - 3.0) for height in (foot, foot + 1.4)]
+        assert dormer.face == pytest.approx(ends[0], abs=1e-6) or foot == 3.0
+        assert dormer.face - dormer.depth == pytest.approx(ends[1] - 0.05, abs=1e-6)

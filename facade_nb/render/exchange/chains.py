@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Literal
 
 from ...design.model import Axis
 from ...solver.model.layout import Layout
+from ..measured import LEAST, Chain, ranges, within
 
 __all__ = [
     "FIRST",
@@ -44,9 +44,6 @@ ROWS = 0.8
 _MOST = 3
 """Chains of boundaries along an axis, before the total."""
 
-_LEAST = 1e-3
-"""Metres: closer boundaries are one."""
-
 
 def check_units(units: str) -> Units:
     """The units, if there are such. Raises ValueError otherwise."""
@@ -61,26 +58,29 @@ def scales() -> Sequence[int]:
     return (*SCALES, *(n * 10**k for k in range(2, 9) for n in (5, 10, 20)))
 
 
-def chains(layout: Layout, axis: Axis) -> tuple[tuple[float, ...], ...]:
+def chains(layout: Layout, axis: Axis) -> tuple[Chain, ...]:
     """The chains along an axis, nearest the façade first; the last is the total.
 
     Each alignment group has one, its boundaries of columns; those with most boundaries come first. A layout without
-    groups has a chain of its shapes' boundaries.
+    groups has a chain of its shapes' boundaries. Gaps between the walls of a building are measured in none: there each
+    wall has a total of its own.
     """
     size = layout.canvas.width if axis == "x" else layout.canvas.height
+    walls = ranges(layout, axis)
     found = [group.columns for group in layout.along(axis).groups.values()]
     if not found:
         low = 0 if axis == "x" else 1
         found = [tuple(shape.rect[k] for shape in layout.shapes for k in (low, low + 2))]
-    distinct: dict[tuple[float, ...], None] = {}
+    distinct: dict[Chain, None] = {}
     for stops in found:
         kept = [0.0]
         for stop in sorted(stops):
-            if stop - kept[-1] >= _LEAST and size - stop >= _LEAST:
+            if stop - kept[-1] >= LEAST and size - stop >= LEAST:
                 kept.append(stop)
-        if len(kept) > 1:
-            distinct.setdefault(tuple(round(stop, 4) for stop in (*kept, size)))
-    return (*sorted(distinct, key=lambda chain: -len(chain))[:_MOST], (0.0, size))
+        chain = within(walls, [round(stop, 4) for stop in (*kept, size)])
+        if chain != within(walls, (0.0, size)):
+            distinct.setdefault(chain)
+    return (*sorted(distinct, key=lambda chain: -len(chain))[:_MOST], walls)
 
 
 def label(length: float, units: Units) -> str:
@@ -96,14 +96,14 @@ def label(length: float, units: Units) -> str:
     return f"{feet}'-{text if whole else f'0 {text}'}" if feet else text
 
 
-def levels(stops: Sequence[float], scale: float, units: Units) -> tuple[int | None, ...]:
+def levels(chain: Chain, scale: float, units: Units) -> tuple[int | None, ...]:
     """The row of each text of a chain: 0 where it fits between its ends, else 1 or 2; None: there is no room.
 
     Texts of a row never touch one another (`offset` has where the rows lie). `scale` is as in 1:50.
     """
     ends = {1: -1e9, 2: -1e9}
     found: list[int | None] = []
-    for a, b in pairwise(stops):
+    for a, b in chain:
         wide = width(label(b - a, units)) + 0.8
         start, end = (1000 * stop / scale for stop in (a, b))
         if wide <= end - start:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from io import StringIO
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -143,7 +142,7 @@ def _draw_dimensions(
     for axis in ("x", "y"):
         at = min(bottom if axis == "x" else left, 0.0) - FIRST * mm
         for chain in chains(layout, axis):
-            for (a, b), level in zip(pairwise(chain), levels(chain, scale, units), strict=True):
+            for (a, b), level in zip(chain, levels(chain, scale, units), strict=True):
                 written = "<>" if units == "m" else label(b - a, units)
                 place = at - offset(axis, level) * mm if level else None
                 middle = (a + b) / 2

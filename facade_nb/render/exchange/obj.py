@@ -162,10 +162,14 @@ def write_obj(layout: Layout, path: str | Path) -> Path:
 
 
 def _piece(solid: Solid, library: str = "") -> Piece:
+    from ..apart import apart
+
     shape = solid.shape
     x, y = shape.number
     name = f"{shape.layer}/{shape.x}[{x}] {shape.y}[{y}]"
-    own = Piece(name, f"{shape.layer}/{shape.x} {shape.y}", solid.mesh(), solid.materials, library=library)
+    own = Piece(
+        name, f"{shape.layer}/{shape.x} {shape.y}", apart(solid.mesh()), solid.materials, library=library
+    )
     if not any(drawable(library, material) for material in solid.materials.values()):
         return own
     size = face_size(solid.rect)

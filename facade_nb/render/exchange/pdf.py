@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 from io import BytesIO
-from itertools import pairwise, product
+from itertools import product
 from math import ceil, floor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,6 +16,7 @@ from ...design.files import write_atomically
 from ...solver.model.layout import Layout, Rect
 from ..baked import SHARP, face_size
 from ..materials import mix
+from ..measured import ranges
 from ..ruled import library_of, material_of, rule_pixels
 from ..scene import Scene, build_scene, without
 from .chains import FIRST, PITCH, TEXT, Units, chains, check_units, label, levels, offset
@@ -211,17 +212,17 @@ class _Pen:
         line = corner[1 if across else 0] - FIRST
         canvas.setStrokeColor("#000000")
         for chain in chains(layout, axis):
-            ends = [self.at(stop, stop)[0 if across else 1] for stop in chain]
+            spans = [tuple(self.at(stop, stop)[0 if across else 1] for stop in span) for span in chain]
+            ends = list(dict.fromkeys(end for span in spans for end in span))
             canvas.setLineWidth(0.13)
-            self._stroke(across, ends[0], line, ends[-1], line)
+            for p, q in spans:
+                self._stroke(across, p, line, q, line)
             for end in ends:
                 self._stroke(across, end, line - 1.0, end, line + 1.2)
             canvas.setLineWidth(0.3)
             for end in ends:
                 self._stroke(across, end - 0.7, line - 0.7, end + 0.7, line + 0.7)
-            for (a, b), (p, q), level in zip(
-                pairwise(chain), pairwise(ends), levels(chain, scale, units), strict=True
-            ):
+            for (a, b), (p, q), level in zip(chain, spans, levels(chain, scale, units), strict=True):
                 if level is None:
                     continue
                 canvas.saveState()
@@ -248,7 +249,7 @@ class _Pen:
         canvas.rect(left, bottom, wide, tall, fill=1)
         canvas.line(left, bottom + 11, left + wide, bottom + 11)
         canvas.setLineWidth(0.18)
-        size = (layout.canvas.width, layout.canvas.height)
+        size = (sum(b - a for a, b in ranges(layout, "x")), layout.canvas.height)
         told = " × ".join(label(length, units) for length in size) + (" m" if units == "m" else "")
         fields = (
             ("Scale", f"1:{self.sheet.scale} (A3)", 24.0),

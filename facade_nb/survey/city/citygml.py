@@ -8,6 +8,7 @@ import numpy as np
 
 from ...design.errors import quoted
 from ...design.fields import Faults
+from .globe import Globe, in_degrees
 from .model import Hole, Object, Points, Surface
 from .xml import Element
 
@@ -22,7 +23,6 @@ _SURFACES = (
 _LEVELS = ("lod3", "lod4", "lod2")
 """Geometries, the first one that there is."""
 _INSIDE = ("Room", "BuildingRoom", "Storey", "BuildingUnit")
-_DEGREES = ("4326", "4979", "4258", "CRS84")
 
 
 def objects_of(root: Element, faults: Faults) -> Iterator[Object]:
@@ -31,20 +31,37 @@ def objects_of(root: Element, faults: Faults) -> Iterator[Object]:
         faults.add(root.place, "expected a CityModel")
         return
     polygons = {own.id: own for own in root.walk() if own.id and own.name in _GEOMETRIES}
-    number = 0
+    globe = None
     for own in root.walk():
         srs = own.attributes.get("srsName", "")
-        if any(name in srs for name in _DEGREES):
-            faults.add(own.place, f"expected coordinates in metres, found the degrees of {quoted(srs)}")
-            return
+        if globe is None and in_degrees(srs):
+            globe = Globe.of(srs)
+            if globe is None:
+                faults.add(
+                    own.place,
+                    f"expected coordinates in metres, or a name that tells the order of latitude and longitude "
+                    f"(urn:ogc:def:crs:EPSG::4979); found the degrees of {quoted(srs)}",
+                )
+                return
+    number = 0
+    for own in root.walk():
         if own.name in _BUILDINGS:
             number += 1
-            yield _object(own, own.id or f"building {number}", polygons, faults)
+            found = _object(own, own.id or f"building {number}", polygons, faults)
+            if globe is not None:
+                inside = [one for one in own.walk() if one.name == "ImplicitGeometry"]
+                for one in inside[:1]:
+                    faults.add(
+                        one.place, "expected coordinates in metres: an ImplicitGeometry is in none of degrees"
+                    )
+                globe.flatten(found)
+            yield found
 
 
+_FACES = ("Polygon", "PolygonPatch", "Triangle", "Rectangle")
 _GEOMETRIES = (
-    "Polygon", "Surface", "PolygonPatch", "CompositeSurface", "OrientableSurface", "MultiSurface", "Solid",
-    "MultiSolid", "CompositeSolid", "MultiGeometry", "ImplicitGeometry",
+    *_FACES, "Surface", "TriangulatedSurface", "Tin", "Shell", "CompositeSurface", "OrientableSurface",
+    "MultiSurface", "Solid", "MultiSolid", "CompositeSolid", "MultiGeometry", "ImplicitGeometry",
 )  # fmt: skip
 _IMPLICIT = "ImplicitRepresentation"
 _RELATIVE = ("relativeGMLGeometry", "relativeGeometry")
@@ -61,6 +78,8 @@ def _object(building: Element, name: str, polygons: dict[str, Element], faults: 
             made.surfaces.append(surface)
         elif own.name in _OPENINGS:
             hole = Hole(_OPENINGS[own.name], own.id, own.place, _polygons(own, polygons, faults))
+            if not hole.polygons and any(one.name in _OPENINGS for one in own.walk()):
+                continue  # a window of CityGML 3 whose own surfaces follow
             if not hole.polygons:
                 faults.add(
                     hole.place,
@@ -165,7 +184,7 @@ def _within(best: Element, polygons: dict[str, Element], faults: Faults) -> list
         else:
             inner = [own]
         for one in inner:
-            if one.name in ("Polygon", "PolygonPatch"):
+            if one.name in _FACES:
                 ring = _ring(one, faults)
                 if ring is not None:
                     found.append(ring[::-1] if _turned(one, best) else ring)

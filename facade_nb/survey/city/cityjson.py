@@ -177,8 +177,13 @@ def _geometry(name: str, geometry: Mapping[str, Any], place: str, vertices: Poin
         else:
             surfaces[k] = Surface(label, where)
     depth = _DEPTHS[geometry["type"]]
-    numbers = list(_flattened(semantics.get("values"), depth))
     boundaries = list(_flattened(geometry.get("boundaries"), depth))
+    numbers = list(_valued(semantics.get("values"), geometry.get("boundaries"), depth))
+    for k in surfaces:
+        children = told[k].get("children", [])
+        for child in children if isinstance(children, list) else []:
+            if isinstance(child, int) and child in holes and parents[child] is None:
+                parents[child] = k
     if len(numbers) != len(boundaries):
         faults.add(
             f"{place}.semantics.values",
@@ -239,6 +244,17 @@ def _flattened(value: Any, depth: int) -> Iterator[Any]:
             yield from _flattened(member, depth - 1)
         else:
             yield member
+
+
+def _valued(value: Any, boundary: Any, depth: int) -> Iterator[Any]:
+    """The value of each surface; null where a whole shell, or all, has none."""
+    if value is None:
+        yield from (None for _ in _flattened(boundary, depth))
+    elif depth and isinstance(value, list) and isinstance(boundary, list) and len(value) == len(boundary):
+        for own, around in zip(value, boundary, strict=True):
+            yield from _valued(own, around, depth - 1)
+    else:
+        yield from _flattened(value, depth)
 
 
 def _polygon(boundary: Any, place: str, vertices: Points, faults: Faults) -> Points | None:

@@ -123,6 +123,11 @@ class Plane:
         off = corners - self.origin
         return np.stack([off @ self.right, off @ self.up], axis=1)
 
+    def off(self, other: Plane) -> float:
+        """How far another plane is from being this one, whichever way it looks: by its turn first, then metres."""
+        turn = 1 - abs(float(self.normal @ other.normal))
+        return 1e3 * max(turn - (1 - _PARALLEL), 0.0) + abs(float((other.origin - self.origin) @ self.normal))
+
     def holds(self, other: Plane) -> bool:
         """Whether another plane is the same for a façade."""
         if float(self.normal @ other.normal) < _PARALLEL:
@@ -162,8 +167,30 @@ def facades(own: Object) -> list[Facade]:
 
 
 def _surfaces(own: Object) -> list[Surface]:
-    """The surfaces; an opening that is in none is a surface by itself, of no extent but its own."""
-    return [*own.surfaces, *(Surface("", hole.place, [], [hole]) for hole in own.loose)]
+    """The surfaces, by plane; an opening that is in none is a surface by itself, of no extent but its own."""
+    loose = (Surface("", hole.place, [], [hole]) for hole in own.loose)
+    return [*(part for surface in own.surfaces for part in _by_plane(surface)), *loose]
+
+
+def _by_plane(surface: Surface) -> list[Surface]:
+    """A surface that goes around a corner, as one for each plane; an opening is in the plane that it lies in."""
+    planes: list[tuple[Plane, Surface]] = []
+    for corners in surface.polygons:
+        plane = Plane.of([corners])
+        if plane is None:
+            continue
+        part = next((part for known, part in planes if known.holds(plane)), None)
+        if part is None:
+            part = Surface(surface.name, surface.place)
+            planes.append((plane, part))
+        part.polygons.append(corners)
+    if len(planes) < 2 or not surface.holes:
+        return [surface]
+    for hole in surface.holes:
+        own = Plane.of(hole.polygons)
+        near = [(known.off(own), k) for k, (known, _) in enumerate(planes)] if own is not None else []
+        planes[min(near)[1] if near else 0][1].holes.append(hole)
+    return [part for _, part in planes]
 
 
 def _flat(surface: Surface) -> bool:
@@ -208,9 +235,11 @@ def _facade(own: Object, plane: Plane, members: Sequence[Surface]) -> Facade:
 def _called(own: Object, found: Sequence[Facade], faults: Sequence[str]) -> list[Facade]:
     """Façades with names: that of the building where it has one façade, else those of walls, or numbers."""
     named = []
+    firsts = [facade.others[0] for facade in found if facade.others]
     for number, facade in enumerate(found, 1):
         numbered = f"{own.name}/{number}"
-        first = own.name if len(found) == 1 else (facade.others or (numbered,))[0]
+        alone = bool(facade.others) and firsts.count(facade.others[0]) == 1  # a wall around a corner is two
+        first = own.name if len(found) == 1 else facade.others[0] if alone else numbered
         others = tuple(dict.fromkeys(o for o in (numbered, *facade.others) if o != first))
         told = (*faults, *facade.faults)
         named.append(Facade(first, others, facade.width, facade.height, facade.openings, told))
