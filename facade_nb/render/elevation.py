@@ -9,8 +9,9 @@ from typing import Any
 
 from ..solver.model.layout import Layout
 from .annotate import Frame, draw_dimensions, draw_empty, draw_holes, draw_survey
-from .ink import Defs, draw_parts, inline, polygon_path
+from .ink import Defs, draw_parts, inline
 from .materials import DEFAULT_MATERIAL
+from .polygons import polygons_path
 from .relief import Edges, Relief, Segment
 from .scene import Scene, Solid, build_scene
 from .style import FINE, HEAVY, MEDIUM, Style, find_style, num
@@ -140,7 +141,7 @@ def draw_facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bo
         for solid in solids:
             yield _shape(solid, defs, frame, ids=ids)
         if shade:
-            d = "".join(polygon_path([frame.at(x, y) for x, y in polygon]) for polygon in shade)
+            d = polygons_path(shade, frame)
             yield (
                 f'<path class="shadow" d="{d}" fill="{style.shadow}" fill-opacity="{style.shade}" '
                 'pointer-events="none"/>'

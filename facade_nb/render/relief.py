@@ -19,6 +19,7 @@ from ..solver.model.layout import Rect
 from .ink import clip, hull
 from .meshing import triangulate
 from .parts import Block, Moulding, Point, Polyhedron, Prism, Turned, front, outline
+from .polygons import clip_all
 from .scene import Scene, Solid
 from .silhouette import pieces
 from .style import LIGHT
@@ -117,37 +118,54 @@ class Relief:
                     found[layer][kind].append((at, p, at, q) if upright else (p, at, q, at))
         return [Edges(tuple(outer), tuple(deep), tuple(joint)) for outer, deep, joint in found]
 
-    def shadows(self) -> list[list[list[Point]]]:
+    def shadows(self) -> list[list[NDArray[np.float64]]]:
         """The polygons in shade on the skin, layer by layer, each clipped to the surface it falls on.
 
         They overlap; fill them with the non-zero rule. All run the same way round.
         """
-        result: list[list[list[Point]]] = [[] for _ in self.layers]
+        result: list[list[NDArray[np.float64]]] = [[] for _ in self.layers]
         casters = self._casters
         receivers = self._receivers
         if not casters or not receivers:
             return result
         boxes = np.array([_bounds(caster.points) for caster in casters])
         near, far = np.array([c.z0 for c in casters]), np.array([c.z1 for c in casters])
-        for plane, group in groupby(receivers, key=lambda own: own[1]):
+        plain = np.array([caster.box and not caster.body for caster in casters])
+        home = {index: n for n, (_, _, _, members) in enumerate(receivers) for index in members}
+        within = np.array([-1 if caster.of is None else home.get(caster.of, -1) for caster in casters])
+        where: list[NDArray[np.int64]] = []  # of each meeting of a box and a receiver: the receiver,
+        which: list[NDArray[np.int64]] = []  # the box,
+        moved: list[
+            NDArray[np.float64]
+        ] = []  # and how far along the light its shadow begins and ends, metres
+        for plane, group in groupby(enumerate(receivers), key=lambda own: own[1][1]):
             own = list(group)
             reach = far - plane
             near_enough = np.flatnonzero(reach > 1e-4)
             reach = reach[near_enough]
-            start = np.maximum(near[near_enough] - plane, 0.0).tolist()
+            start = np.maximum(near[near_enough] - plane, 0.0)
             left, low, right, high = boxes[near_enough].T
             right, low = right + reach * LIGHT[0], low - reach * LIGHT[1]
-            x0, y0, x1, y1 = np.array([rect for _, _, rect, _ in own]).T[:, :, None]
+            x0, y0, x1, y1 = np.array([rect for _, (_, _, rect, _) in own]).T[:, :, None]
             hit = (left < x1) & (right > x0) & (low < y1) & (high > y0)
-            ends, number = reach.tolist(), near_enough.tolist()
-            for n, k in zip(*(found.tolist() for found in np.nonzero(hit)), strict=True):
-                layer, _, rect, members = own[n]
-                caster = casters[number[k]]
-                if caster.of in members:
-                    continue
-                polygon = clip(_swept(caster, start[k], ends[k]), rect)
-                if len(polygon) > 2:
-                    result[layer].append(polygon)
+            numbers = np.array([n for n, _ in own])
+            hit &= within[near_enough] != numbers[:, None]  # nothing throws shadow on itself
+            swift = hit & plain[near_enough]
+            rows, found = np.nonzero(swift)
+            where.append(numbers[rows])
+            which.append(near_enough[found])
+            moved.append(np.stack([start[found], reach[found]], axis=1))
+            for n, k in np.argwhere(hit & ~swift).tolist():
+                layer, _, rect, _ = own[n][1]
+                cut = clip(_swept(casters[near_enough[k]], start[k], reach[k]), rect)
+                if len(cut) > 2:
+                    result[layer].append(np.array(cut))
+        all_of_them = np.concatenate(where).tolist()
+        rects = np.array([rect for _, _, rect, _ in receivers])[all_of_them]
+        swept = _swept_boxes(boxes[np.concatenate(which)], np.concatenate(moved))
+        for n, polygon in zip(all_of_them, clip_all(swept, rects), strict=True):
+            if len(polygon) > 2:
+                result[receivers[n][0]].append(polygon)
         return result
 
     @cached_property
@@ -258,24 +276,25 @@ def _of_parts(solid: Solid) -> Iterable[_Caster]:
 
 
 def _swept(caster: _Caster, a: float, b: float) -> list[Point]:
-    """The shadow's outline, counter-clockwise, between the caster moved `a` and `b` metres along the light."""
+    """The shadow's outline, counter-clockwise, between the caster moved `a` and `b` metres along the light.
+
+    Of boxes, which are many, `_swept_boxes` tells it.
+    """
     if caster.body:
         plane = caster.z1 - b
         return hull(
             (x + t * LIGHT[0], y - t * LIGHT[1]) for x, y, z in caster.body for t in (max(z - plane, 0.0),)
         )
-    if not caster.box:
-        return hull((x + t * LIGHT[0], y - t * LIGHT[1]) for t in (a, b) for x, y in caster.points)
-    (x0, y0), _, (x1, y1), _ = caster.points
-    ax, ay, bx, by = a * LIGHT[0], a * LIGHT[1], b * LIGHT[0], b * LIGHT[1]
-    return [
-        (x0 + ax, y0 - ay),
-        (x0 + bx, y0 - by),
-        (x1 + bx, y0 - by),
-        (x1 + bx, y1 - by),
-        (x1 + ax, y1 - ay),
-        (x0 + ax, y1 - ay),
-    ]
+    return hull((x + t * LIGHT[0], y - t * LIGHT[1]) for t in (a, b) for x, y in caster.points)
+
+
+def _swept_boxes(boxes: NDArray[np.float64], moved: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same of boxes x0, y0, x1, y1, each with its own `a` and `b`: six corners of each."""
+    x0, y0, x1, y1 = boxes.T
+    (ax, bx), (ay, by) = LIGHT[0] * moved.T, LIGHT[1] * moved.T
+    across = np.stack([x0 + ax, x0 + bx, x1 + bx, x1 + bx, x1 + ax, x0 + ax], axis=1)
+    up = np.stack([y0 - ay, y0 - by, y0 - by, y1 - by, y1 - ay, y1 - ay], axis=1)
+    return np.stack([across, up], axis=2)
 
 
 def _convex(points: Sequence[Point]) -> Iterable[Sequence[Point]]:
