@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from .annotate import Frame
 
-__all__ = ["clip_all", "polygons_path"]
+__all__ = ["clip_all", "polygons_path", "segments_path"]
 
 
 def clip_all(polygons: NDArray[np.float64], boxes: NDArray[np.float64]) -> list[NDArray[np.float64]]:
@@ -22,25 +22,30 @@ def clip_all(polygons: NDArray[np.float64], boxes: NDArray[np.float64]) -> list[
     What comes of each is what `ink.clip` makes of it.
     """
     count, corners = polygons.shape[:2]
-    if not count:
-        return []
-    points, many = polygons, np.full(count, corners)
+    points = np.concatenate([polygons, np.zeros((count, 4, 2))], axis=1)  # a cut adds one corner at most
+    many = np.full(count, corners)
+    numbers = np.arange(corners + 4)
     for axis, side, sign in ((0, 0, 1), (0, 2, -1), (1, 1, 1), (1, 3, -1)):
-        inside = sign * (points[:, :, axis] - boxes[:, side, None])
-        there = np.arange(points.shape[1]) < many[:, None]
-        if not (there & (inside < 0)).any():
+        beyond = sign * (points[:, :, axis] - boxes[:, side, None]) < 0
+        rows = np.flatnonzero((beyond & (numbers < many[:, None])).any(axis=1))
+        if not len(rows):
             continue
-        last = np.maximum(many - 1, 0)[:, None]
-        before = np.concatenate([np.take_along_axis(points, last[:, :, None], 1), points[:, :-1]], axis=1)
-        was = np.concatenate([np.take_along_axis(inside, last, 1), inside[:, :-1]], axis=1)
-        crosses = there & ((inside >= 0) != (was >= 0))
-        t = np.divide(was, was - inside, out=np.zeros_like(was), where=crosses)[:, :, None]
+        own, there = points[rows], numbers < many[rows, None]
+        now = sign * (own[:, :, axis] - boxes[rows, side, None])
+        last = many[rows] - 1
+        before = np.roll(own, 1, axis=1)
+        before[:, 0] = own[np.arange(len(rows)), last]
+        was = np.roll(now, 1, axis=1)
+        was[:, 0] = now[np.arange(len(rows)), last]
+        inside = (now >= 0) & there
+        crosses = there & ((now >= 0) != (was >= 0))
+        t = np.divide(was, was - now, out=np.zeros_like(was), where=crosses)[:, :, None]
         # Of each side of the polygon: where it crosses the box's side, and the corner that it leads to.
-        both = np.stack([before + t * (points - before), points], axis=2).reshape(count, -1, 2)
-        kept = np.stack([crosses, there & (inside >= 0)], axis=2).reshape(count, -1)
-        many = kept.sum(axis=1)
-        order = np.argsort(~kept, axis=1, kind="stable")[:, : max(int(many.max()), 1)]
-        points = np.take_along_axis(both, order[:, :, None], 1)
+        both = np.stack([before + t * (own - before), own], axis=2).reshape(len(rows), -1, 2)
+        kept = np.stack([crosses, inside], axis=2).reshape(len(rows), -1)
+        order = np.argsort(~kept, axis=1, kind="stable")[:, : corners + 4]
+        points[rows] = np.take_along_axis(both, order[:, :, None], 1)
+        many[rows] = kept.sum(axis=1)
     return [own[:n] for own, n in zip(points, many.tolist(), strict=True)]
 
 
@@ -68,6 +73,19 @@ def polygons_path(polygons: Sequence[NDArray[np.float64]], frame: Frame) -> str:
         drawn.append("z")
         start = end
     return "".join(drawn)
+
+
+def segments_path(segments: Sequence[tuple[float, float, float, float]], frame: Frame) -> str:
+    """Upright and level lines, in metres, as the data of one path."""
+    ends = np.array(segments)
+    ways = [*frame.at(*ends[:, :2].T), *frame.at(*ends[:, 2:].T)]
+    pixels = [np.rint(100 * way).astype(np.int64).tolist() for way in ways]
+    return "".join(
+        [
+            f"M{_text(x)} {_text(y)}" + (f"V{_text(below)}" if x == right else f"H{_text(right)}")
+            for x, y, right, below in zip(*pixels, strict=True)
+        ]
+    )
 
 
 @lru_cache(maxsize=1 << 15)
