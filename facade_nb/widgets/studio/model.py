@@ -19,7 +19,7 @@ from ...solver.resized import resized
 from ..shared.history import History, Undoable
 from ..shared.turns import by_turns
 from . import newcomers
-from .background import FIRST, QUICK, LatestSolver, Outcome, Solve
+from .background import FIRST, QUICK, Known, LatestSolver, Outcome, Solve
 from .fields import Path
 from .handles import Linkable
 from .newcomers import Newcomers
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from .whole import Whole
 
 __all__ = ["Draft", "FacadeModel", "Selection"]
+
+_SOLVE = solve
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +80,9 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         Seconds after which a search that takes longer is shown as it stands, while it goes on; None: never.
     quick
         Seconds of the processor: where the last two searches took longer, an edited design is shown at once with the
-        structure that it had (`facade_nb.solver.resized`), while it is searched.
+        structure that it had, while it is searched.
+    known
+        What tells that: by default `facade_nb.solver.resized.resized`, and nothing beside another `solve`.
 
     Notes
     -----
@@ -120,6 +124,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         solve: Solve = solve,
         first: float | None = FIRST,
         quick: float = QUICK,
+        known: Known | None = None,
     ) -> None:
         super().__init__(design=_read(design) if design is not None else Design())
         self.time_limit, self._first = time_limit, first
@@ -134,7 +139,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         self._outcomes: deque[Outcome] = deque()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._begin_links()
-        self._solver = LatestSolver(self._post, solve, resized, quick)
+        self._solver = LatestSolver(self._post, solve, known or (resized if solve is _SOLVE else None), quick)
         self._solve()
         self._changed()
 

@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
+from facade_nb.solver.resized import resized
 from facade_nb.solver.solution import forget
 from facade_nb.widgets import FacadeModel
 from facade_nb.widgets.studio.background import FIRST
@@ -112,7 +113,7 @@ def test_an_edit_is_shown_with_the_structure_that_there_was_before_it_is_searche
         return solve(design)
 
     async def session() -> Line:
-        model = FacadeModel(house(), solve=searched, quick=-1.0)
+        model = FacadeModel(house(), solve=searched, quick=-1.0, known=resized)
         line = Line(model)
         await _until(lambda: not model.busy)
         line.updates.clear()
