@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
 from html import escape
 from typing import Any
 
 from ..solver.model.layout import Layout
 from .annotate import Frame, draw_dimensions, draw_empty, draw_holes, draw_survey
-from .ink import Defs, draw_parts, inline, polygon_path
+from .ink import Defs, draw_parts, inline
 from .materials import DEFAULT_MATERIAL
-from .relief import Edges, Relief, Segment
+from .polygons import polygons_path, segments_path
+from .relief import Edges, Relief
 from .scene import Scene, Solid, build_scene
 from .style import FINE, HEAVY, MEDIUM, Style, find_style, num
 
@@ -140,7 +142,7 @@ def draw_facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bo
         for solid in solids:
             yield _shape(solid, defs, frame, ids=ids)
         if shade:
-            d = "".join(polygon_path([frame.at(x, y) for x, y in polygon]) for polygon in shade)
+            d = polygons_path(shade, frame)
             yield (
                 f'<path class="shadow" d="{d}" fill="{style.shadow}" fill-opacity="{style.shade}" '
                 'pointer-events="none"/>'
@@ -156,12 +158,8 @@ def _shape(solid: Solid, defs: Defs, frame: Frame, *, ids: bool) -> str:
     w, h = (right - left) * frame.scale, (top - bottom) * frame.scale
     head = "<g>"
     if ids:
-        label = f"{shape.layer}: {shape.x} {shape.y}, {shape.kind} ({shape.geometry}, {shape.material})"
-        head = (
-            f'<g data-shape="{solid.index}" data-layer="{escape(shape.layer)}" data-x="{escape(shape.x)}" '
-            f'data-y="{escape(shape.y)}" data-number="{shape.number[0]} {shape.number[1]}">'
-            f"<title>{escape(label)}</title>"
-        )
+        of, title = _called(shape.layer, shape.x, shape.y, shape.kind, shape.geometry, shape.material)
+        head = f'<g data-shape="{solid.index}"{of} data-number="{shape.number[0]} {shape.number[1]}">{title}'
     cell = f'<rect class="cell" x="{num(x)}" y="{num(y)}" width="{num(w)}" height="{num(h)}" fill='
     if solid.geometry.name == "box" or not solid.parts:
         material = defs.material(solid.materials["body"])
@@ -182,21 +180,20 @@ def _shape(solid: Solid, defs: Defs, frame: Frame, *, ids: bool) -> str:
     return f'{head}{cell}"none" pointer-events="all"/>{drawn}</g>'
 
 
+@lru_cache(maxsize=4096)
+def _called(layer: str, x: str, y: str, kind: str, geometry: str, material: str) -> tuple[str, str]:
+    """The attributes that say whose a shape is, and its title."""
+    attributes = f' data-layer="{escape(layer)}" data-x="{escape(x)}" data-y="{escape(y)}"'
+    return attributes, f"<title>{escape(f'{layer}: {x} {y}, {kind} ({geometry}, {material})')}</title>"
+
+
 def _lines(edges: Edges, frame: Frame, style: Style) -> Iterable[str]:
     for segments, weight in ((edges.joint, FINE), (edges.depth, MEDIUM), (edges.outline, HEAVY)):
         if segments:
             yield (
-                f'<path d="{_segments(segments, frame)}" stroke="{style.ink}" stroke-width="{weight}" '
+                f'<path d="{segments_path(segments, frame)}" stroke="{style.ink}" stroke-width="{weight}" '
                 f'stroke-linecap="square" fill="none" pointer-events="none"/>'
             )
-
-
-def _segments(segments: Iterable[Segment], frame: Frame) -> str:
-    d = ""
-    for x0, y0, x1, y1 in segments:
-        (px, py), (qx, qy) = frame.at(x0, y0), frame.at(x1, y1)
-        d += f"M{num(px)} {num(py)}" + (f"V{num(qy)}" if x0 == x1 else f"H{num(qx)}")
-    return d
 
 
 def _ground(frame: Frame, style: Style) -> Iterable[str]:

@@ -10,7 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import groupby
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from ..solver.model.layout import Rect
 from .ink import clip, hull
 from .meshing import triangulate
 from .parts import Block, Moulding, Point, Polyhedron, Prism, Turned, front, outline
+from .polygons import clip_all
 from .scene import Scene, Solid
 from .silhouette import pieces
 from .style import LIGHT
@@ -33,6 +34,9 @@ _MANY = 60
 
 _COURSES = frozenset({"cornice", "ledge", "pitched", "mansard"})
 """Geometries that run on from cell to cell without a joint."""
+
+_AT_ONCE = 1_000_000
+"""Pairs of what throws and what takes shadow that are looked at together: of a few megabytes."""
 
 Segment = tuple[float, float, float, float]
 
@@ -59,6 +63,15 @@ class _Caster:
     of: int | None = None
     box: bool = True
     body: tuple[tuple[float, float, float], ...] = ()
+
+
+class _Boxes(NamedTuple):
+    """Casters that are boxes, together: their rectangles, depths, and solids if they are part of the skin, else -1."""
+
+    bounds: NDArray[np.float64]
+    near: NDArray[np.float64]
+    far: NDArray[np.float64]
+    of: NDArray[np.int64]
 
 
 class Relief:
@@ -117,37 +130,50 @@ class Relief:
                     found[layer][kind].append((at, p, at, q) if upright else (p, at, q, at))
         return [Edges(tuple(outer), tuple(deep), tuple(joint)) for outer, deep, joint in found]
 
-    def shadows(self) -> list[list[list[Point]]]:
+    def shadows(self) -> list[list[NDArray[np.float64]]]:
         """The polygons in shade on the skin, layer by layer, each clipped to the surface it falls on.
 
         They overlap; fill them with the non-zero rule. All run the same way round.
         """
-        result: list[list[list[Point]]] = [[] for _ in self.layers]
-        casters = self._casters
+        result: list[list[NDArray[np.float64]]] = [[] for _ in self.layers]
         receivers = self._receivers
-        if not casters or not receivers:
+        boxes, odd = self._casters
+        if not receivers:
             return result
-        boxes = np.array([_bounds(caster.points) for caster in casters])
-        near, far = np.array([c.z0 for c in casters]), np.array([c.z1 for c in casters])
-        for plane, group in groupby(receivers, key=lambda own: own[1]):
-            own = list(group)
-            reach = far - plane
-            near_enough = np.flatnonzero(reach > 1e-4)
-            reach = reach[near_enough]
-            start = np.maximum(near[near_enough] - plane, 0.0).tolist()
-            left, low, right, high = boxes[near_enough].T
-            right, low = right + reach * LIGHT[0], low - reach * LIGHT[1]
-            x0, y0, x1, y1 = np.array([rect for _, _, rect, _ in own]).T[:, :, None]
-            hit = (left < x1) & (right > x0) & (low < y1) & (high > y0)
-            ends, number = reach.tolist(), near_enough.tolist()
-            for n, k in zip(*(found.tolist() for found in np.nonzero(hit)), strict=True):
-                layer, _, rect, members = own[n]
-                caster = casters[number[k]]
-                if caster.of in members:
-                    continue
-                polygon = clip(_swept(caster, start[k], ends[k]), rect)
+        planes = np.array([plane for _, plane, _, _ in receivers])[:, None]
+        rects = np.array([rect for _, _, rect, _ in receivers])
+        home = {index: n for n, (_, _, _, members) in enumerate(receivers) for index in members}
+        within = np.array([home.get(index, -1) for index in boxes.of.tolist()], dtype=int)
+        for first in range(0, len(receivers), step := max(1, _AT_ONCE // max(1, len(boxes.of)))):
+            rows = slice(first, first + step)
+            reach = boxes.far - planes[rows]
+            left, low, right, high = boxes.bounds.T
+            x0, y0, x1, y1 = rects[rows].T[:, :, None]
+            hit = (reach > 1e-4) & (left < x1) & (right + reach * LIGHT[0] > x0)
+            hit &= (low - reach * LIGHT[1] < y1) & (high > y0)
+            hit &= within != np.arange(first, first + len(reach))[:, None]  # nothing throws shadow on itself
+            where, which = np.nonzero(hit)
+            ends = reach[where, which]
+            where += first
+            starts = np.maximum(boxes.near[which] - planes[where, 0], 0.0)
+            swept = _swept_boxes(boxes.bounds[which], starts, ends)
+            for n, polygon in zip(where.tolist(), clip_all(swept, rects[where]), strict=True):
                 if len(polygon) > 2:
-                    result[layer].append(polygon)
+                    result[receivers[n][0]].append(polygon)
+        for caster in odd:
+            x0, y0, x1, y1 = _bounds(caster.points)
+            for layer, plane, rect, _ in receivers:
+                end = caster.z1 - plane
+                if (
+                    end > 1e-4
+                    and x0 < rect[2]
+                    and x1 + end * LIGHT[0] > rect[0]
+                    and y0 - end * LIGHT[1] < rect[3]
+                    and y1 > rect[1]
+                ):
+                    cut = clip(_swept(caster, max(caster.z0 - plane, 0.0), end), rect)
+                    if len(cut) > 2:
+                        result[layer].append(np.array(cut))
         return result
 
     @cached_property
@@ -163,8 +189,10 @@ class Relief:
         ]
 
     @cached_property
-    def _casters(self) -> list[_Caster]:
-        casters: list[_Caster] = []
+    def _casters(self) -> tuple[_Boxes, list[_Caster]]:
+        """What throws shadow: boxes, which are many, and all else."""
+        made: list[_Boxes] = []
+        odd: list[_Caster] = []
         planes = np.array([*(round(solid.plane, 4) for solid in self._skin), np.nan])
         stands = np.array([solid.geometry.name not in ("cornice", "ledge") for solid in self._skin] + [False])
         heights = np.where(stands, planes, np.nan)[self._top]
@@ -177,17 +205,35 @@ class Relief:
             starts, ends = np.nonzero(turns > 0), np.nonzero(turns < 0)
             for row, start, end in zip(*(own.tolist() for own in (*starts, ends[1])), strict=True):
                 rects.append(((xs[start], ys[row], xs[end], ys[row + 1]), []))
-            casters += [_Caster(_corners(rect), float(levels[0]), float(level)) for rect, _ in _joined(rects)]
-        alike: dict[tuple[object, ...], list[_Caster]] = {}
+            joined = np.array([rect for rect, _ in _joined(rects)])
+            ones = np.ones(len(joined))
+            made.append(_Boxes(joined, levels[0] * ones, level * ones, np.full(len(joined), -1)))
+        alike: dict[tuple[object, ...], list[Solid]] = defaultdict(list)
         for solid in self.scene.solids:
-            if solid.geometry.full and solid.geometry.name == "box":
-                continue
-            # Shapes of one kind and size have the very same parts.
-            key = (id(solid.parts), solid.geometry.name, solid.geometry.full, solid.face, solid.plane)
-            if key not in alike:
-                alike[key] = list(_of_parts(solid))
-            casters += [_moved(own, solid) for own in alike[key]]
-        return casters
+            if not solid.geometry.full or solid.geometry.name != "box":
+                # Shapes of one kind and size have the very same parts.
+                key = (id(solid.parts), solid.geometry.name, solid.geometry.full, solid.face, solid.plane)
+                alike[key].append(solid)
+        for solids in alike.values():
+            plain: list[_Caster] = []
+            for own in _of_parts(solids[0]):
+                if own.box:
+                    plain.append(own)
+                else:
+                    odd += [_moved(own, solid) for solid in solids]
+            if plain:
+                made.append(_standing(plain, solids))
+        empty = _Boxes(np.empty((0, 4)), np.empty(0), np.empty(0), np.empty(0, int))
+        return _Boxes(*map(np.concatenate, zip(empty, *made, strict=True))), odd
+
+
+def _standing(casters: Sequence[_Caster], solids: Sequence[Solid]) -> _Boxes:
+    """Boxes that are told from a solid's corner, at the place of each of some solids."""
+    corners = np.array([solid.rect[:2] * 2 for solid in solids])
+    bounds = np.array([_bounds(own.points) for own in casters]) + corners[:, None]
+    near, far = np.array([(own.z0, own.z1) for own in casters] * len(solids)).T
+    of = [-1 if own.of is None else solid.index for solid in solids for own in casters]
+    return _Boxes(bounds.reshape(-1, 4), near, far, np.array(of))
 
 
 def _moved(caster: _Caster, solid: Solid) -> _Caster:
@@ -258,24 +304,27 @@ def _of_parts(solid: Solid) -> Iterable[_Caster]:
 
 
 def _swept(caster: _Caster, a: float, b: float) -> list[Point]:
-    """The shadow's outline, counter-clockwise, between the caster moved `a` and `b` metres along the light."""
+    """The shadow's outline, counter-clockwise, between the caster moved `a` and `b` metres along the light.
+
+    Of boxes, which are many, `_swept_boxes` tells it.
+    """
     if caster.body:
         plane = caster.z1 - b
         return hull(
             (x + t * LIGHT[0], y - t * LIGHT[1]) for x, y, z in caster.body for t in (max(z - plane, 0.0),)
         )
-    if not caster.box:
-        return hull((x + t * LIGHT[0], y - t * LIGHT[1]) for t in (a, b) for x, y in caster.points)
-    (x0, y0), _, (x1, y1), _ = caster.points
+    return hull((x + t * LIGHT[0], y - t * LIGHT[1]) for t in (a, b) for x, y in caster.points)
+
+
+def _swept_boxes(
+    boxes: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The same of boxes x0, y0, x1, y1, each with its own `a` and `b`: six corners of each."""
+    x0, y0, x1, y1 = boxes.T
     ax, ay, bx, by = a * LIGHT[0], a * LIGHT[1], b * LIGHT[0], b * LIGHT[1]
-    return [
-        (x0 + ax, y0 - ay),
-        (x0 + bx, y0 - by),
-        (x1 + bx, y0 - by),
-        (x1 + bx, y1 - by),
-        (x1 + ax, y1 - ay),
-        (x0 + ax, y1 - ay),
-    ]
+    across = np.stack([x0 + ax, x0 + bx, x1 + bx, x1 + bx, x1 + ax, x0 + ax], axis=1)
+    up = np.stack([y0 - ay, y0 - by, y0 - by, y1 - by, y1 - ay, y1 - ay], axis=1)
+    return np.stack([across, up], axis=2)
 
 
 def _convex(points: Sequence[Point]) -> Iterable[Sequence[Point]]:
@@ -305,10 +354,10 @@ def _joined(rects: Sequence[tuple[Rect, list[int]]]) -> list[tuple[Rect, list[in
     for axis in (0, 1):
         lo, hi, other, end = axis, axis + 2, 1 - axis, 3 - axis
         ordered = sorted(
-            rects, key=lambda item: (round(item[0][other], 6), round(item[0][end], 6), item[0][lo])
+            [(round(rect[other], 6), round(rect[end], 6), rect[lo], n) for n, (rect, _) in enumerate(rects)]
         )
         done: list[tuple[Rect, list[int]]] = []
-        for rect, members in ordered:
+        for rect, members in [rects[n] for *_, n in ordered]:
             if done:
                 last, before = done[-1]
                 same = abs(last[other] - rect[other]) < 1e-6 and abs(last[end] - rect[end]) < 1e-6

@@ -282,7 +282,7 @@ def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
             d, (left, bottom) = solid.depth, solid.rect[:2]
             blocks = tuple(Block(r[0] - left, r[1] - bottom, r[2] - left, r[3] - bottom, -d, 0) for r in rest)
             solid = replace(solid, parts=blocks)
-        done.append(replace(solid, cuts=tuple(cuts)))
+        done.append(replace(solid, cuts=tuple(cuts)) if cuts else solid)
     return tuple(done)
 
 

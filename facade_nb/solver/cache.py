@@ -78,7 +78,8 @@ class Cache:
     answers
         Answers of an axis, or of both where a counter ties them, by all that they depend on (`solution`).
     earlier
-        What was found last for problems that differ in sizes, bounds and canvas only (`solution`).
+        What was found last for problems that differ in sizes, bounds and canvas only, and for those with the same rows
+        in their groups (`solution`).
     groups
         The best structures of a group and its bound, so that groups that an edit leaves alone are not searched again
         (`selection.axis`).

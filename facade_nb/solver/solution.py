@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
@@ -34,7 +34,17 @@ from .trace import Recorder, stage
 from .words.enumeration import across
 from .words.instances import Range
 
-__all__ = ["TOLERANCES", "AxisAnswer", "compose", "forget", "solve", "solve_axis"]
+__all__ = [
+    "TOLERANCES",
+    "AxisAnswer",
+    "compose",
+    "forget",
+    "kept_as",
+    "last_as",
+    "solve",
+    "solve_axis",
+    "spelled_as",
+]
 
 TOLERANCES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5)
 """Fractions of the canvas; the paper's schedule, and, by its last, what the default objective works within."""
@@ -289,7 +299,8 @@ class _Run:
         """Search axes unless they are the same as when they were last asked for."""
         if self.trace is not None:
             return find(axes)
-        key = (tuple(self.problems[axis] for axis in axes), self.objective, self.tolerances, self.search)
+        problems = tuple(self.problems[axis] for axis in axes)
+        key = kept_as(problems, self.objective, self.tolerances, self.search)
         known: dict[Axis, tuple[AxisSearch, Best]] | None = CACHE.answers.get(key)
         if known is None:
             known = find(axes)
@@ -318,7 +329,7 @@ class _Run:
         if self.trace is not None or self.search != "best":
             return self._best(walk)
         problem = walk.problem
-        key = (problem.axis, problem.groups, problem.patterns, self.objective)
+        key = spelled_as(problem, self.objective)
         before: Solved | None = CACHE.earlier.get(key)
         cap = inf
         with suppress(Stopped):  # then there is no time for the search either, which knows what to do
@@ -332,7 +343,9 @@ class _Run:
                 other = adopted(walk, before)
                 best.solved = other if other is not None and other.beats(best.solved) else best.solved
         if best.solved is not None and not self.trial:
-            CACHE.earlier.put(key, best.solved, max(tuning.ANSWER_BYTES / 2, best.solved.weight))
+            weight = max(tuning.ANSWER_BYTES / 2, best.solved.weight)
+            CACHE.earlier.put(key, best.solved, weight)
+            CACHE.earlier.put(last_as(problem, self.objective), best.solved, weight)
         return best
 
     def _best(self, walk: AxisSearch, cap: float = inf) -> Best:
@@ -636,6 +649,26 @@ class _Run:
                 holes,
                 [f"There are {len(holes)} holes; the time was over before they were explained."],
             )
+
+
+def kept_as(
+    problems: tuple[AxisProblem, ...],
+    objective: Objective,
+    tolerances: tuple[float, ...] = TOLERANCES,
+    search: str = "best",
+) -> Hashable:
+    """What a complete answer is kept under."""
+    return problems, objective, tolerances, search
+
+
+def spelled_as(problem: AxisProblem, objective: Objective) -> Hashable:
+    """What the answer found last for the same patterns is kept under, whatever the sizes."""
+    return problem.axis, problem.groups, problem.patterns, objective
+
+
+def last_as(problem: AxisProblem, objective: Objective) -> Hashable:
+    """What the answer found last on an axis is kept under, whatever has been edited but its groups' rows."""
+    return problem.axis, problem.groups, objective
 
 
 _Rank = tuple[float, int, float, tuple[int, ...]]

@@ -95,7 +95,7 @@ def main() -> None:
 def print_latency() -> None:
     """Time keystrokes and steps of a drag beside the empty widget, in turns."""
     print(
-        f"{'input to repaint, ms':38} {'median':>8} {'p95':>8} {'ratio':>8} {'ratio':>8} {'solver':>8}   "
+        f"{'input to repaint, ms':38} {'median':>8} {'p95':>8} {'ratio':>8} {'ratio':>8} {'search':>8}   "
         "goal: ratios 1.5, 2"
     )
     for design in TYPED:
@@ -114,7 +114,10 @@ def print_latency() -> None:
 
 
 def _rows(lab: Notebook, design: str) -> tuple[dict[str, list[float]], dict[str, list[float]]]:
-    """What each kind of input took, and what of it the solver did, milliseconds."""
+    """What each kind of input took, and how long the search after it went on, milliseconds.
+
+    What is painted first may be the layout that is known before the search has come to its end.
+    """
     page = lab.page
     width = float(lab.python("studio.model.design.canvas.width"))
     field, texts = TYPED[design]

@@ -7,7 +7,7 @@ finds within it, with the same ties as without.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import inf
 
 from ..alignment.elements import Option
@@ -20,9 +20,12 @@ from .axis import AxisSearch, Solved
 __all__ = ["adopted", "upper_bound"]
 
 
-def adopted(walk: AxisSearch, other: Solved) -> Solved | None:
-    """Another search's answer, priced and sized as here; None: its words do not fit, or not within the tolerance."""
-    candidate = _now(walk, other.candidate)
+def adopted(walk: AxisSearch, other: Solved, *, respelled: bool = False) -> Solved | None:
+    """Another search's answer, priced and sized as here; None: its words do not fit, or not within the tolerance.
+
+    With `respelled` a pattern may be written in another way by now: what counts is that its word is one still.
+    """
+    candidate = _respelled(walk, other.candidate) if respelled else _now(walk, other.candidate)
     if candidate is None:
         return None
     case = walk.case(candidate)
@@ -70,6 +73,29 @@ def _now(walk: AxisSearch, before: Candidate) -> Candidate | None:
     return Candidate(words, before.counters)
 
 
+def _respelled(walk: AxisSearch, before: Candidate) -> Candidate | None:
+    """The candidate with the same letters, whatever its counters; None: there is none, or they contradict another."""
+    words: dict[str, Word] = {}
+    counters: dict[str, int] = {}
+    for name, own in walk.words().items():
+        wanted = before.words.get(name)
+        word = None if wanted is None else _same(own, wanted) or _alike_in(own, wanted, counters)
+        if word is None or any(counters.setdefault(name, n) != n for name, n in word.counters.items()):
+            return None
+        words[name] = word
+    return Candidate(words, counters)
+
+
+def _alike_in(words: Sequence[Word], wanted: Word, counters: Mapping[str, int]) -> Word | None:
+    """The word with these letters that agrees with some counters, if there is one."""
+    spelling = _spelling(wanted)
+    for word in words:
+        agrees = all(counters.get(name, n) == n for name, n in word.counters.items())
+        if agrees and len(word.letters) == len(wanted.letters) and _spelling(word) == spelling:
+            return word
+    return None
+
+
 def _same(words: Sequence[Word], wanted: Word) -> Word | None:
     spelling = None
     for word in words:
@@ -82,8 +108,20 @@ def _same(words: Sequence[Word], wanted: Word) -> Word | None:
     return None
 
 
-def _spelling(word: Word) -> list[tuple[str, bool, bool]]:
-    return [(letter.symbol, letter.mirrored, letter.transparent) for letter in word.letters]
+def _spelling(word: Word) -> list[tuple[object, ...]]:
+    """All that says of a word's letters which columns they may share: with other qualifiers it is another word."""
+    return [
+        (
+            own.symbol,
+            own.mirrored,
+            own.transparent,
+            own.opaque,
+            own.attached,
+            own.unoccludable,
+            own.size is None,
+        )
+        for own in word.letters
+    ]
 
 
 def _priced(groups: Sequence[Group], other: Solved, cluster: Sequence[int]) -> Priced | None:

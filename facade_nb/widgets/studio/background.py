@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from ...design import Design, NoLayout
 from ...solver import Layout, solve
 
-__all__ = ["FIRST", "LatestSolver", "Outcome", "Solve"]
+__all__ = ["FIRST", "Known", "LatestSolver", "Outcome", "Solve"]
+
+Known = Callable[..., Layout | None]
+"""What tells at once what is known of a design: ``known(design, should_stop=…) -> Layout | None``."""
 
 Solve = Callable[..., Layout]
 """What solves: ``solve(design, time_limit=…, should_stop=…) -> Layout``."""
@@ -45,6 +49,9 @@ class Outcome:
 FIRST = 0.06
 """Seconds after which an edit is shown as the search has it by then, while it goes on."""
 
+QUICK = 0.02
+"""Seconds of the processor: where a search takes no longer, it is waited for; nothing is shown before it."""
+
 _SHOWN = 0.25
 """Seconds for which the search lets the first layout be drawn, at most, before it goes on."""
 
@@ -56,6 +63,7 @@ class LatestSolver:
 
     A search that takes long is begun twice: what it has after its first moment is delivered, and then it goes on to its
     end. What is delivered last is the same as without: of the first moment the search knows a bound, and no more.
+    Where something is known of the design without a search, that is delivered first, and the search is begun once.
 
     Parameters
     ----------
@@ -63,16 +71,30 @@ class LatestSolver:
         Called in the worker thread with every `Outcome`, also with those superseded meanwhile.
     solve
         The function that solves, by default `facade_nb.solve`.
+    known
+        What tells at once what is known of an edited design, such as `facade_nb.solver.resized.resized`; None: nothing.
+    quick
+        Seconds of the processor: where one of the last two searches took no longer, the next one is waited for instead.
     """
 
-    def __init__(self, deliver: Callable[[Outcome], None], solve: Solve = solve) -> None:
+    def __init__(
+        self,
+        deliver: Callable[[Outcome], None],
+        solve: Solve = solve,
+        known: Known | None = None,
+        quick: float = QUICK,
+    ) -> None:
         self._deliver = deliver
         self._solve = solve
+        self._known = known
+        self._quick = quick
+        self._took: deque[float] = deque((0.0,), maxlen=2)
         self._condition = threading.Condition()
         self._next: tuple[int, Design, float | None, bool, float | None] | None = None
         self._latest = 0
         self._ended = 0
         self._shown = 0
+        self._told = 0
         self._thread: threading.Thread | None = None
 
     def submit(
@@ -123,6 +145,13 @@ class LatestSolver:
             self._shown = revision
             self._condition.notify_all()
 
+    def glimpse(self, timeout: float) -> bool:
+        """Wait until something has been delivered of the newest submission; whether that came within `timeout`."""
+        with self._condition:
+            return self._condition.wait_for(
+                lambda: self._thread is None or self._told == self._latest, timeout
+            )
+
     def join(self, timeout: float | None = None) -> bool:
         """Wait until nothing is being solved; returns whether that came within `timeout` seconds."""
         with self._condition:
@@ -143,14 +172,33 @@ class LatestSolver:
             more = {"trace": True} if traced else {}
             begun: Outcome | None = None
             if first is not None and not traced and (time_limit is None or time_limit > first):
-                begun = self._run(revision, design, first, more)
+                begun = self._at_once(revision, design) or self._run(revision, design, first, more)
                 if not self._goes_on(begun, first):
-                    self._deliver(begun)
+                    self._tell(begun)
                     continue
                 if begun.layout is not None:
-                    self._deliver(replace(begun, proving=True))
+                    self._tell(replace(begun, proving=True))
                     self._let_show(revision)
-            self._deliver(_together(begun, self._run(revision, design, time_limit, more)))
+            self._tell(_together(begun, self._run(revision, design, time_limit, more)))
+
+    def _tell(self, outcome: Outcome) -> None:
+        self._deliver(outcome)
+        with self._condition:
+            self._told = outcome.revision
+            self._condition.notify_all()
+
+    def _at_once(self, revision: int, design: Design) -> Outcome | None:
+        """What is known of a design before it is searched, where the search will take long."""
+        if self._known is None or min(self._took) <= self._quick:
+            return None
+        began = time.perf_counter()
+        try:
+            layout = self._known(design, should_stop=lambda: self._superseded(revision))
+        except Exception:  # the search will say what is wrong
+            return None
+        return (
+            None if layout is None else Outcome(revision, design, layout, None, time.perf_counter() - began)
+        )
 
     def _superseded(self, revision: int) -> bool:
         return self._latest != revision or self._ended >= revision
@@ -171,7 +219,7 @@ class LatestSolver:
     def _run(
         self, revision: int, design: Design, time_limit: float | None, more: Mapping[str, bool]
     ) -> Outcome:
-        began = time.perf_counter()
+        began, worked = time.perf_counter(), time.thread_time()
         layout: Layout | None = None
         error: Exception | None = None
         try:
@@ -185,6 +233,8 @@ class LatestSolver:
             error = none
         except Exception as unexpected:  # the edge of the thread: it must reach the user, not die here
             error = unexpected
+        if layout is not None and layout.complete:
+            self._took.append(time.thread_time() - worked)
         return Outcome(revision, design, layout, error, time.perf_counter() - began)
 
 

@@ -167,12 +167,13 @@ class Channel(Scenery):
             self._failure = traceback.format_exc()
         # Most designs are solved in a moment. Waiting it out here, without the interpreter's lock, spares the two
         # threads from passing it back and forth, and the event loop a turn.
-        self.model.wait(_MOMENT)
+        self.model.glimpse(_MOMENT)
         self._answering = False
         if self._later is not None and self._answered.get("client") != tag["client"]:
             self.publish()  # the answer to another view, which waits for it
         self._answered = tag
         self._publish_soon()
+        self.model.go_on()
         if reply is not None:
             self.send({**reply, **tag})
 

@@ -15,10 +15,11 @@ from traitlets import Bool, Float, Instance, Int, Unicode
 
 from ...design import Design, DesignError, FacadeError, Fault, NoLayout
 from ...solver import Layout, Trace, solve
+from ...solver.resized import resized
 from ..shared.history import History, Undoable
 from ..shared.turns import by_turns
 from . import newcomers
-from .background import FIRST, LatestSolver, Outcome, Solve
+from .background import FIRST, QUICK, Known, LatestSolver, Outcome, Solve
 from .fields import Path
 from .handles import Linkable
 from .newcomers import Newcomers
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from .whole import Whole
 
 __all__ = ["Draft", "FacadeModel", "Selection"]
+
+_SOLVE = solve
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +78,11 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         The function that solves; `facade_nb.solve` by default.
     first
         Seconds after which a search that takes longer is shown as it stands, while it goes on; None: never.
+    quick
+        Seconds of the processor: where the last two searches took longer, an edited design is shown at once with the
+        structure that it had, while it is searched.
+    known
+        What tells that: by default `facade_nb.solver.resized.resized`, and nothing beside another `solve`.
 
     Notes
     -----
@@ -115,6 +123,8 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         time_limit: float = 10.0,
         solve: Solve = solve,
         first: float | None = FIRST,
+        quick: float = QUICK,
+        known: Known | None = None,
     ) -> None:
         super().__init__(design=_read(design) if design is not None else Design())
         self.time_limit, self._first = time_limit, first
@@ -129,7 +139,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         self._outcomes: deque[Outcome] = deque()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._begin_links()
-        self._solver = LatestSolver(self._post, solve)
+        self._solver = LatestSolver(self._post, solve, known or (resized if solve is _SOLVE else None), quick)
         self._solve()
         self._changed()
 
@@ -264,6 +274,21 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
         self._arrive()
         return done
 
+    def glimpse(self, seconds: float) -> None:
+        """Block until there is something to show of the present design, or for so many seconds.
+
+        A search that goes on waits until that has been shown: see `go_on`.
+        """
+        self._solver.glimpse(seconds)
+        with self.turn:
+            if self._collect():
+                self._changed()
+
+    def go_on(self) -> None:
+        """What there is of a search that goes on has been shown."""
+        if self.proving:
+            self._solver.go_on(self._revision)
+
     def stop(self) -> None:
         """End the solve under way: the best layout that it has found is taken; without one, the last one stays."""
         self._solver.stop()
@@ -329,8 +354,7 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
     def _arrive(self) -> None:
         if self._collect():
             self._changed()
-            if self.proving:
-                self._solver.go_on(self._revision)
+            self.go_on()
 
     def _collect(self) -> bool:
         """Take over the outcomes that have come, drop those of superseded solves; whether one counted."""

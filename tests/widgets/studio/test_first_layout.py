@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from facade_nb import Design, Layout, NoLayout, gallery, solve
+from facade_nb.solver.resized import resized
 from facade_nb.solver.solution import forget
 from facade_nb.widgets import FacadeModel
 from facade_nb.widgets.studio.background import FIRST
@@ -98,3 +99,56 @@ def test_an_answer_is_the_same_after_a_search_that_was_cut_short() -> None:
     assert after.shapes == alone.shapes
     assert after.x.cost == alone.x.cost
     assert after.y.cost == alone.y.cost
+
+
+def test_an_edit_is_shown_with_the_structure_that_there_was_before_it_is_searched() -> None:
+    forget()
+    asked: list[float] = []
+    go = threading.Event()
+
+    def searched(design: Design, **options: object) -> Layout:
+        asked.append(design.canvas.width)
+        if len(asked) > 1:
+            go.wait()  # what is shown is there before anything is searched
+        return solve(design)
+
+    async def session() -> Line:
+        model = FacadeModel(house(), solve=searched, quick=-1.0, known=resized)
+        line = Line(model)
+        await _until(lambda: not model.busy)
+        line.updates.clear()
+        line.set("canvas/width", "7")
+        await _until(lambda: model.proving)
+        shown = model.layout
+        assert shown is not None
+        assert shown.canvas.width == 7.0
+        assert not shown.complete
+        assert not shown.warnings  # the status line says that the search goes on
+        go.set()
+        await _until(lambda: not model.busy)
+        assert model.layout is not None
+        assert model.layout.shapes == shown.shapes
+        assert model.layout.complete
+        return line
+
+    line = asyncio.run(session())
+    first, last = next(update for update in line.updates if "svg" in update), line.updates[-1]
+    assert first["status"]["proving"]
+    assert "svg" not in last
+    assert last["status"]["solved"]["proven"]
+    assert asked == [6.0, 7.0]  # and it is searched once
+
+
+def test_a_search_that_is_quick_is_waited_for() -> None:
+    """What comes before the answer is of use only where that takes long."""
+
+    async def session() -> Line:
+        model = FacadeModel(house(), first=9.0, quick=1e9)
+        line = Line(model)
+        await _until(lambda: not model.busy)
+        line.updates.clear()
+        line.set("canvas/width", "7")
+        await _until(lambda: not model.busy)
+        return line
+
+    assert not any(update["status"]["proving"] for update in asyncio.run(session()).updates)

@@ -1,0 +1,96 @@
+"""Many polygons at once: what a drawing has hundreds of is cut, and written, in a few steps for all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .annotate import Frame
+
+__all__ = ["clip_all", "polygons_path", "segments_path"]
+
+
+def clip_all(polygons: NDArray[np.float64], boxes: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Convex polygons of equally many corners, (n, m, 2), each cut to its box x0, y0, x1, y1.
+
+    What comes of each is what `ink.clip` makes of it.
+    """
+    count, corners = polygons.shape[:2]
+    points = np.concatenate([polygons, np.zeros((count, 4, 2))], axis=1)  # a cut adds one corner at most
+    many = np.full(count, corners)
+    numbers = np.arange(corners + 4)
+    for axis, side, sign in ((0, 0, 1), (0, 2, -1), (1, 1, 1), (1, 3, -1)):
+        beyond = sign * (points[:, :, axis] - boxes[:, side, None]) < 0
+        rows = np.flatnonzero((beyond & (numbers < many[:, None])).any(axis=1))
+        if not len(rows):
+            continue
+        own, there = points[rows], numbers < many[rows, None]
+        now = sign * (own[:, :, axis] - boxes[rows, side, None])
+        last = many[rows] - 1
+        before = np.roll(own, 1, axis=1)
+        before[:, 0] = own[np.arange(len(rows)), last]
+        was = np.roll(now, 1, axis=1)
+        was[:, 0] = now[np.arange(len(rows)), last]
+        inside = (now >= 0) & there
+        crosses = there & ((now >= 0) != (was >= 0))
+        t = np.divide(was, was - now, out=np.zeros_like(was), where=crosses)[:, :, None]
+        # Of each side of the polygon: where it crosses the box's side, and the corner that it leads to.
+        both = np.stack([before + t * (own - before), own], axis=2).reshape(len(rows), -1, 2)
+        kept = np.stack([crosses, inside], axis=2).reshape(len(rows), -1)
+        order = np.argsort(~kept, axis=1, kind="stable")[:, : corners + 4]
+        points[rows] = np.take_along_axis(both, order[:, :, None], 1)
+        many[rows] = kept.sum(axis=1)
+    return [own[:n] for own, n in zip(points, many.tolist(), strict=True)]
+
+
+def polygons_path(polygons: Sequence[NDArray[np.float64]], frame: Frame) -> str:
+    """Closed polygons, in metres, as the data of one path, as short as it gets: to a hundredth of a pixel."""
+    if not polygons:
+        return ""
+    points = np.concatenate(polygons)
+    xs, ys = (np.rint(100 * pixels).astype(np.int64).tolist() for pixels in frame.at(*points.T))
+    drawn: list[str] = []
+    start = 0
+    for polygon in polygons:
+        end = start + len(polygon)
+        x, y = xs[start], ys[start]
+        drawn.append(f"M{_text(x)} {_text(y)}")
+        for k in range(start + 1, end):
+            was, above, x, y = x, y, xs[k], ys[k]
+            if x == was:
+                if y != above:
+                    drawn.append("V" + _text(y))
+            elif y == above:
+                drawn.append("H" + _text(x))
+            else:
+                drawn.append(f"L{_text(x)} {_text(y)}")
+        drawn.append("z")
+        start = end
+    return "".join(drawn)
+
+
+def segments_path(segments: Sequence[tuple[float, float, float, float]], frame: Frame) -> str:
+    """Upright and level lines, in metres, as the data of one path."""
+    ends = np.array(segments)
+    ways = [*frame.at(*ends[:, :2].T), *frame.at(*ends[:, 2:].T)]
+    pixels = [np.rint(100 * way).astype(np.int64).tolist() for way in ways]
+    return "".join(
+        [
+            f"M{_text(x)} {_text(y)}" + (f"V{_text(below)}" if x == right else f"H{_text(right)}")
+            for x, y, right, below in zip(*pixels, strict=True)
+        ]
+    )
+
+
+@lru_cache(maxsize=1 << 15)
+def _text(hundredths: int) -> str:
+    """Hundredths as a decimal number."""
+    whole, rest = divmod(abs(hundredths), 100)
+    sign = "-" if hundredths < 0 else ""
+    return f"{sign}{whole}.{rest:02}".rstrip("0") if rest else f"{sign}{whole}"
