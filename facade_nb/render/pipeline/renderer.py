@@ -16,7 +16,7 @@ from ..texture.shaders import room, rooms_for, shader
 from ..texture.uploads import Upload, grammar_upload
 from .frame import Frame, in_view, runs_of
 from .hidden import hidden, nearest_first
-from .passes import BUFFERS, PASSES, Buffer, Pass, arranged, shared
+from .passes import BUFFERS, PASSES, Buffer, Pass, arranged, emptied, shared
 from .scene import Scene
 from .vertices import VERTEX
 
@@ -207,7 +207,7 @@ class Renderer:
                     program[name].value = value
         if own.draws == "mesh":
             if not own.adds:
-                target.clear(depth=1.0)
+                self._empty_images(own, frame)
             context.enable(
                 (context.BLEND if own.sums else context.DEPTH_TEST) | (0 if own.both else context.CULL_FACE)
             )
@@ -222,13 +222,26 @@ class Renderer:
                 context.enable(context.BLEND)
                 context.blend_func = context.ONE_MINUS_DST_ALPHA, context.ONE
             elif own.seen and not own.sky:
-                target.clear()
+                self._empty_images(own, frame)
             if own.seen:  # the screen lies as far away as can be
                 context.enable(context.DEPTH_TEST)
                 context.depth_func = "<=" if own.sky else ">"
             mesh.render(context.TRIANGLES, vertices=3)
             context.depth_func = "<"
             context.disable(context.BLEND | context.DEPTH_TEST)
+
+    def _empty_images(self, own: Pass, frame: Frame) -> None:
+        """Empty what a pass draws into, as far as that is read where it draws nothing."""
+        target = self._targets[own.name]
+        needed = emptied(own, [one for one in self.passes if frame.runs(one.when)], self._whole)
+        colours = [name for name in own.writes if self.buffers[name].kind != "depth"]
+        masks = [(name in needed,) * 4 for name in colours]
+        if masks:
+            target.color_mask = masks[0] if len(masks) == 1 else tuple(masks)
+        target.clear(depth=1.0)
+        if masks:
+            target.color_mask = (True,) * 4 if len(masks) == 1 else ((True,) * 4,) * len(masks)
+            target.use()  # only then does the mask hold
 
     def _draw_mesh(self, own: Pass, mesh: Any, uniforms: dict[str, Any]) -> None:
         """Draw the chunks that are in view; where software draws, only those that are not hidden all over."""
