@@ -62,6 +62,7 @@ class Renderer:
         self._images: dict[str, Any] = {}
         self._targets: dict[str, Any] = {}
         self._programs: dict[tuple[str, ...], Any] = {}
+        self._given: dict[tuple[str, ...], frozenset[str]] = {}  # what each program asks for: to list it takes long
         self._meshes: dict[tuple[str, ...], Any] = {}
         self._tiles: dict[str, Any] = {}  # the painter's
         self._atlases: dict[bool, Atlas] = {}
@@ -118,6 +119,7 @@ class Renderer:
         fragment = shader(own.fragment, frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=defines)
         program = self.painter.program(shader(own.vertex), fragment)
         self._programs[key] = program
+        self._given[key] = frozenset(program)
         if own.draws == "mesh":
             content = _content(program)
             array = context.vertex_array(
@@ -189,18 +191,19 @@ class Renderer:
         if key not in self._programs:
             self._make(key, own)
         context, program, mesh = self._context, self._programs[key], self._meshes[key]
+        asks = self._given[key]
         target = self._targets[own.name]
         target.use()
         target.viewport = (0, 0, *target.size)
         for unit, (name, image) in enumerate(
             {**self._tiles, **self._held, **{n: self._images[n] for n in own.reads}}.items()
         ):
-            if name in program:
+            if name in asks:
                 image.use(unit)
                 program[name].value = unit
         given = {**uniforms, "from_world": uniforms[own.through]} if own.through else uniforms
         for name, value in given.items():
-            if name in program:
+            if name in asks:
                 if isinstance(value, np.ndarray):
                     program[name].write(np.ascontiguousarray(value.T, np.float32).tobytes())
                 else:
