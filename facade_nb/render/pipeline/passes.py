@@ -91,8 +91,9 @@ class Pass:
     defines
         Given to the shader.
     seen
-        For a pass that draws the screen: a buffer of depths. Only pixels in which that has something are drawn, all
-        others hold zeros: a software renderer, too, passes over those without running the shader.
+        For a pass that draws the screen: a buffer of depths. Only pixels in which that has something are drawn: a
+        software renderer, too, passes over the others without running the shader. They hold zeros in what is read there
+        (`emptied`). Such a pass reads the mesh's images, and those of others like it, at its own pixel alone.
     sky
         It draws the other pixels, those in which that buffer has nothing; what there is stays.
     sums
@@ -274,7 +275,7 @@ def emptied(own: Pass, passes: Sequence[Pass], whole: Iterable[str] = ("picture"
     def matters(name: str) -> bool:
         drawn = [one for one in passes if one.sky and one.seen == asked and name in one.writes]
         read = [one for one in passes if name in one.reads and (one.seen != asked or one.sky)]
-        return name in left or bool(read) and not drawn
+        return name in left or (bool(read) and not drawn)
 
     return frozenset(filter(matters, own.writes))
 
