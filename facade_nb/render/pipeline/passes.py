@@ -23,6 +23,7 @@ __all__ = [
     "Buffer",
     "Pass",
     "arranged",
+    "emptied",
     "image_bytes",
     "seen_through",
     "shared",
@@ -90,8 +91,9 @@ class Pass:
     defines
         Given to the shader.
     seen
-        For a pass that draws the screen: a buffer of depths. Only pixels in which that has something are drawn, all
-        others hold zeros: a software renderer, too, passes over those without running the shader.
+        For a pass that draws the screen: a buffer of depths. Only pixels in which that has something are drawn: a
+        software renderer, too, passes over the others without running the shader. They hold zeros in what is read there
+        (`emptied`). Such a pass reads the mesh's images, and those of others like it, at its own pixel alone.
     sky
         It draws the other pixels, those in which that buffer has nothing; what there is stays.
     sums
@@ -252,6 +254,30 @@ def shared(
             found[name] = next(like, name)
             free_after[found[name]] = last[name]
     return found
+
+
+def emptied(own: Pass, passes: Sequence[Pass], whole: Iterable[str] = ("picture",)) -> frozenset[str]:
+    """Which buffers have to be empty before a pass draws: those that are read where it draws nothing.
+
+    What is read only by passes that draw no more than what is seen, or what is drawn by one of the sky, may hold there
+    what it likes. Software spends as long on emptying all images as on some passes.
+
+    Parameters
+    ----------
+    passes
+        All passes that run, among them this one.
+    whole
+        Buffers that are read after the last pass.
+    """
+    left = frozenset(whole)
+    asked = own.seen or next(iter(own.writes[-1:]), "")
+
+    def matters(name: str) -> bool:
+        drawn = [one for one in passes if one.sky and one.seen == asked and name in one.writes]
+        read = [one for one in passes if name in one.reads and (one.seen != asked or one.sky)]
+        return name in left or (bool(read) and not drawn)
+
+    return frozenset(filter(matters, own.writes))
 
 
 def _like(own: Buffer) -> tuple[object, ...]:

@@ -16,7 +16,7 @@ from ..texture.shaders import room, rooms_for, shader
 from ..texture.uploads import Upload, grammar_upload
 from .frame import Frame, in_view, runs_of
 from .hidden import hidden, nearest_first
-from .passes import BUFFERS, PASSES, Buffer, Pass, arranged, shared
+from .passes import BUFFERS, PASSES, Buffer, Pass, arranged, emptied, shared
 from .scene import Scene
 from .vertices import VERTEX
 
@@ -62,6 +62,7 @@ class Renderer:
         self._images: dict[str, Any] = {}
         self._targets: dict[str, Any] = {}
         self._programs: dict[tuple[str, ...], Any] = {}
+        self._given: dict[tuple[str, ...], frozenset[str]] = {}  # what each program asks for: to list it takes long
         self._meshes: dict[tuple[str, ...], Any] = {}
         self._tiles: dict[str, Any] = {}  # the painter's
         self._atlases: dict[bool, Atlas] = {}
@@ -118,6 +119,7 @@ class Renderer:
         fragment = shader(own.fragment, frames=frames, seeds=seeds, rooms=rooms, bits=bits, defines=defines)
         program = self.painter.program(shader(own.vertex), fragment)
         self._programs[key] = program
+        self._given[key] = frozenset(program)
         if own.draws == "mesh":
             content = _content(program)
             array = context.vertex_array(
@@ -189,25 +191,26 @@ class Renderer:
         if key not in self._programs:
             self._make(key, own)
         context, program, mesh = self._context, self._programs[key], self._meshes[key]
+        asks = self._given[key]
         target = self._targets[own.name]
         target.use()
         target.viewport = (0, 0, *target.size)
         for unit, (name, image) in enumerate(
             {**self._tiles, **self._held, **{n: self._images[n] for n in own.reads}}.items()
         ):
-            if name in program:
+            if name in asks:
                 image.use(unit)
                 program[name].value = unit
         given = {**uniforms, "from_world": uniforms[own.through]} if own.through else uniforms
         for name, value in given.items():
-            if name in program:
+            if name in asks:
                 if isinstance(value, np.ndarray):
                     program[name].write(np.ascontiguousarray(value.T, np.float32).tobytes())
                 else:
                     program[name].value = value
         if own.draws == "mesh":
             if not own.adds:
-                target.clear(depth=1.0)
+                self._empty_images(own, frame)
             context.enable(
                 (context.BLEND if own.sums else context.DEPTH_TEST) | (0 if own.both else context.CULL_FACE)
             )
@@ -222,13 +225,26 @@ class Renderer:
                 context.enable(context.BLEND)
                 context.blend_func = context.ONE_MINUS_DST_ALPHA, context.ONE
             elif own.seen and not own.sky:
-                target.clear()
+                self._empty_images(own, frame)
             if own.seen:  # the screen lies as far away as can be
                 context.enable(context.DEPTH_TEST)
                 context.depth_func = "<=" if own.sky else ">"
             mesh.render(context.TRIANGLES, vertices=3)
             context.depth_func = "<"
             context.disable(context.BLEND | context.DEPTH_TEST)
+
+    def _empty_images(self, own: Pass, frame: Frame) -> None:
+        """Empty what a pass draws into, as far as that is read where it draws nothing."""
+        target = self._targets[own.name]
+        needed = emptied(own, [one for one in self.passes if frame.runs(one.when)], self._whole)
+        colours = [name for name in own.writes if self.buffers[name].kind != "depth"]
+        masks = [(name in needed,) * 4 for name in colours]
+        if masks:
+            target.color_mask = masks[0] if len(masks) == 1 else tuple(masks)
+        target.clear(depth=1.0)
+        if masks:
+            target.color_mask = (True,) * 4 if len(masks) == 1 else ((True,) * 4,) * len(masks)
+            target.use()  # only then does the mask hold
 
     def _draw_mesh(self, own: Pass, mesh: Any, uniforms: dict[str, Any]) -> None:
         """Draw the chunks that are in view; where software draws, only those that are not hidden all over."""

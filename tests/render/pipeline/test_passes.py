@@ -25,6 +25,7 @@ from facade_nb.render.pipeline.passes import (
     Buffer,
     Pass,
     arranged,
+    emptied,
     seen_through,
     used,
     without,
@@ -75,6 +76,17 @@ class TestPasses:
             cells = [", ".join(f"`{name}`" for name in names) for names in (own.reads, own.writes)]
             row = f"| {own.name} | {cells[0]} | {cells[1]} | {own.tells} |".replace("|  |", "| |")
             assert row in page
+
+    def test_what_is_read_where_nothing_was_drawn_is_emptied_first(self) -> None:
+        by_name = {own.name: own for own in PASSES}
+        day = [own for own in PASSES if own.when != "lamps"]
+        assert emptied(by_name["G-buffer"], day) == {"facing"}
+        assert emptied(by_name["grammar"], day) == {"normal", "specular"}
+        assert emptied(by_name["grammar"], PASSES) == {"color", "normal", "specular"}  # pools of light ask it
+        assert emptied(by_name["light"], day) == emptied(by_name["air"], day) == set()
+        assert emptied(by_name["air"], [own for own in day if not own.sky]) == {"air"}
+        assert emptied(by_name["G-buffer"], day, ("place", "along")) == {"place", "facing", "along"}
+        assert emptied(by_name["shadow near"], day) == {"shadow_near"}
 
     def test_sizes_of_buffers(self) -> None:
         sizes = {own.name: own.size((101, 60)) for own in BUFFERS}

@@ -271,6 +271,20 @@ def test_every_buffer_can_be_looked_at(renderer: Renderer) -> None:
         assert values.std() > 1, name
 
 
+def test_the_picture_does_not_hang_on_what_images_held_before(
+    street: list[Facade], drawn: dict[str, np.ndarray]
+) -> None:
+    """Images that no longer need be emptied hold no numbers here."""
+    with renderer_of(Scene.of_facades(street), choose_device()) as fresh, fresh.painter.entered():
+        fresh.draw(frame(fresh))
+        for name, image in fresh._images.items():
+            if fresh.buffers[name].kind != "depth":
+                image.write(b"\xff" * len(image.read(alignment=1)), alignment=1)
+        assert np.isnan(fresh._read("place")).all()
+        assert (fresh.draw(frame(fresh))["picture"] == drawn["picture"]).all()
+        assert np.isnan(fresh._read("place")).any()
+
+
 def test_a_pass_can_be_another(street: list[Facade]) -> None:
     """Passes are data: without antialiasing what is toned is the picture."""
     passes = [own for own in PASSES if own.name != "edges"]

@@ -89,19 +89,29 @@ Surface evaluate(Question question) {
           code = int(head.r);
         }
       } while (descends(code) || divides(code) || chooses(code));
+      vec4 numbers = record(now.rule, 1);
+#ifdef RELIEF
+      bool beyond = ends(code) && unmet(now, head, numbers);
+#endif
       do {
 #ifdef RELIEF
-        if (ends(code) && unmet(now, head)) strike(now, head);
+        if (beyond) strike(now, head, numbers);
 #endif
         do {
-          if (ends(code)) {
-            int skipped = code == OP_SKIP ? int(head.Skip_l) : 0;
-            if (code > OP_SKIP && code <= OP_MATALPHA) skipped = terminal(now, head);
-            head = next_layer(now, skipped) ? enter(now, taken) : END;
-            code = int(head.r);
-          }
+          Shown shown = plainly(head, numbers);
+          if (looks(code, head)) shown = looked_up(now, head, numbers);
+          do {
+            if (ends(code)) {
+              if (code == OP_MAT || code == OP_MATALPHA) terminal(now, head, shown);
+              head = next_layer(now, shown.skipped) ? enter(now, taken) : END;
+              code = int(head.r);
+              numbers = record(now.rule, 1);
+              shown = plainly(head, numbers);
+            }
+          } while (ends(code) && !looks(code, head));
 #ifdef RELIEF
-        } while (ends(code) && !unmet(now, head));
+          beyond = ends(code) && unmet(now, head, numbers);
+        } while (ends(code) && !beyond);
 #else
         } while (ends(code));
 #endif

@@ -77,21 +77,21 @@ bool passable(int source, int marks) { return source > 0 && frame_count > 0 && (
 
 // Whether the ray has yet to be followed into the material's relief. Materials of a scope most often share one, and others
 // have none: so a loop of its own goes on from material to material, and the search lies outside of it.
-bool unmet(State now, vec4 head) {
+// `numbers`: its second record.
+bool unmet(State now, vec4 head, vec4 numbers) {
   int code = int(head.r);
   int source = int(head.Mat_m1);
   of_relief = fetch(tile_table, of_tile_table, vec2(0, abs(source) - 1));
   int heights = int(of_relief.g) / 8;
   relieved = (code == OP_MAT || code == OP_MATALPHA) && source != 0 && heights != 0 && faded(now, of_relief.b) > 0.0;
   bool past = passable(source, int(of_relief.g));
-  bool same = heights == struck_heights && past == struck_past && record(now.rule, 1) == struck_numbers;
+  bool same = heights == struck_heights && past == struck_past && numbers == struck_numbers;
   return relieved && !(same && now.at == struck_at && now.scope == struck_scope);
 }
 
 // Follows it; `unmet` has looked at the material.
-void strike(State now, vec4 head) {
+void strike(State now, vec4 head, vec4 numbers) {
   int source = int(head.Mat_m1);
-  vec4 numbers = record(now.rule, 1);
   vec4 known = of_relief;
   int heights = int(known.g) / 8;
   int marks = int(known.g) & 7;
