@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pipeline.scene import CHUNK
+from ..pipeline.vertices import turning
 from ..texture import Grammar
 from .chance import Floats, length
 from .cornices import add_cornices
@@ -85,7 +86,7 @@ def build_mesh(plan: Plan, styles: Sequence[Style], grammar: Grammar) -> Mesh:
     add_cars(faces, plan.cars, names, -2)
     add_hedges(faces, plan.hedges, names, -2 - len(plan.cars))
     solids = faces.count
-    stand(faces, plan.things, grammar)
+    stand(faces, plan.things, grammar, plan)
     return _chunked(faces, plan, facades, cells, (built, ground, solids))
 
 
@@ -239,7 +240,7 @@ def _chunked(faces: Faces, plan: Plan, facades: int, cells: Ints, ends: tuple[in
     chunks["first"] = 3 * begin
     chunks["count"] = 3 * np.diff(np.append(begin, len(triangles)))
     # What turns reaches as far on all sides as it is large.
-    turns = (vertices["normal"] == 0).all(axis=1)
+    turns = turning(vertices)
     reach = np.where(turns[:, None], 0.5 * np.abs(vertices["size"]).sum(axis=1, keepdims=True), 0)
     reach = reach.astype(np.float32)
     low, high = ((position + sign * reach)[triangles] for sign in (-1, 1))
