@@ -15,7 +15,7 @@ from ..texture.grammar import Grammar
 from ..texture.joining import joined
 from ..texture.noise import Seed
 from ..texture.uploads import Upload, seeds_upload
-from .vertices import VERTEX
+from .vertices import VERTEX, turning
 
 __all__ = ["CHUNK", "Scene"]
 
@@ -82,7 +82,7 @@ class Scene:
         if not len(self.chunks):
             return np.zeros(0, bool)
         first = self.indices[self.chunks["first"]]
-        return np.asarray((self.vertices["normal"][first] == 0).all(axis=1))
+        return turning(self.vertices[first])
 
     @cached_property
     def box(self) -> NDArray[np.float64]:

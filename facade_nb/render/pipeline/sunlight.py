@@ -15,16 +15,19 @@ from .viewpoint import Frustum
 
 __all__ = ["MAPS", "Sunlight", "skylight", "sunlight"]
 
-_NEAR, _RISE, _MOST = 55.0, 2.4, 700.0
-"""Half the side of the fine map, metres: for an eye on the ground, more for each metre of height, at most."""
+_NEAR, _RISE, _MOST = 60.0, 2.4, 700.0
+"""Half the side of the fine map, metres: for an eye on the ground, more for each metre above that, at most."""
 
-_FAR = 3000.0
-"""Half the side of the coarse map, metres, at most."""
+_STANDS = 2.0
+"""Up to that height an eye is on the ground, metres."""
+
+_FAR, _WIDER = 3000.0, 8.0
+"""Half the side of the coarse map, metres, at most; and so many times that of the fine one it is."""
 
 _PAD = 0.1
 """Metres around what a view of all of it shows."""
 
-MAPS = {"near": _NEAR, "rise": _RISE, "most": _MOST, "far": _FAR}
+MAPS = {"near": _NEAR, "rise": _RISE, "stands": _STANDS, "most": _MOST, "far": _FAR, "wider": _WIDER}
 """The same, for who draws the maps elsewhere."""
 
 
@@ -59,18 +62,26 @@ def sunlight(
     low, high = box
     middle = (low + high) / 2
     whole = float(np.sqrt(((high - low) ** 2).sum())) / 2 + 1.0
-    half = min(near or _NEAR + _RISE * max(float(frustum.eye[1]), 0.0), _MOST, whole)
+    half = min(near or _stepped(_NEAR + _RISE * max(float(frustum.eye[1]) - _STANDS, 0.0)), _MOST, whole)
     level = frustum.ahead * (1.0, 0.0, 1.0)
     spot = frustum.eye + level * (0.7 * half)
     spot[1] = 0.0
     spot = np.clip(spot, low, high)
-    all_of_it = min(whole, _FAR)
+    all_of_it = min(whole, _FAR if near else min(_FAR, _WIDER * half))
     centre = middle if all_of_it == whole else np.clip(frustum.eye * (1.0, 0.0, 1.0), low, high)
     return Sunlight(
         _parallel(axes, spot, half, box),
         _parallel(axes, centre, all_of_it, box),
         (2 * half / SHADOW, 2 * all_of_it / SHADOW),
     )
+
+
+def _stepped(wanted: float) -> float:
+    """A fine map that is so large at least. It grows in steps: within one, shadows do not swim as one rises."""
+    half = _NEAR
+    while half < min(wanted, _MOST):
+        half *= sqrt(2.0)
+    return half
 
 
 def skylight(towards: tuple[float, float, float], box: NDArray[np.float64], rays: int) -> dict[str, Any]:

@@ -6,8 +6,9 @@ Only the place differs among the vertices of a façade. The rest is the same at 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["SEEDS", "VERTEX"]
+__all__ = ["SEEDS", "VERTEX", "turning"]
 
 VERTEX = np.dtype(
     [
@@ -34,7 +35,8 @@ seed
     Of the façade, metres: whole multiples of 1/64 from 0 to below 16384, which a 32-bit float holds exactly.
 normal
     Unit vector out of the façade. Zeros: it turns to whoever looks, the sun too. The four corners of such a quad have
-    the position of its middle, and it is open where the tile is that the uppermost colour of its rule paints.
+    the position of its middle, and it is open where the tile is that the uppermost colour of its rule paints. Numbers
+    below a quarter are zeros to all but lamps, whose light they bound (`town.lamplight`).
 tangent
     Unit vector along the façade's width. Height runs along the cross product of normal and tangent. Of what turns: the
     axis about which it does, up, or zeros, for all ways.
@@ -44,3 +46,8 @@ Triangles are counter-clockwise where their front is seen.
 
 SEEDS = 1 << 20
 """A seed is below so many steps of 1/64 m."""
+
+
+def turning(vertices: np.ndarray) -> NDArray[np.bool_]:
+    """Which vertices are of what turns to whoever looks: as ``standing.glsl`` has it."""
+    return np.asarray((vertices["normal"].astype(np.float64) ** 2).sum(axis=-1) < 0.25)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..pipeline.scene import CHUNK
+from ..pipeline.vertices import turning
 from ..texture import Grammar
 from .chance import Floats, length
 from .cornices import add_cornices
@@ -115,7 +116,7 @@ class Mesher:
         add_hedges(faces, plan.hedges, self._names, -2 - len(plan.cars))
         faces.weld(mark)
         solids = faces.count
-        stand(faces, plan.things, self._grammar)
+        stand(faces, plan.things, self._grammar, plan)
         return _chunked(faces, plan, self._facades, self._cells, (houses, ground, solids))
 
 
@@ -271,7 +272,7 @@ def _chunked(faces: Faces, plan: Plan, facades: int, cells: Ints, ends: tuple[in
     chunks["first"] = 3 * begin
     chunks["count"] = 3 * np.diff(np.append(begin, len(triangles)))
     # What turns reaches as far on all sides as it is large.
-    turns = np.flatnonzero((vertices["normal"] == 0).all(axis=1))
+    turns = np.flatnonzero(turning(vertices))
     reach = (0.5 * np.abs(vertices["size"][turns]).sum(axis=1)).astype(np.float32)
     corners = triangles.ravel()
     for axis in range(3):

@@ -13,88 +13,127 @@ from .street_life import Cars, Hedges
 
 __all__ = ["RULES", "add_cars", "add_hedges"]
 
-_HALF, _ROOF, _BELT, _NOSE, _LOW = 0.86, 0.6, 0.93, 0.74, 0.02
-"""Half the width of a car and of its roof; its height below the windows, at its nose, and of its lower edge, metres."""
+_HALF, _END, _ROOF = 0.86, 0.66, 0.62
+"""Half the width of a car, of its ends, which are rounded, and of its roof, metres."""
+
+_SILL, _FRONT, _BACK = 0.2, 0.54, 0.6
+"""Heights of the lower edge of a body, and of where its ends begin to slope, in front and behind, metres."""
+
+_ROUND = 0.17
+"""So far from its ends a car has its whole width, metres."""
+
+_WHEEL, _AXLE = 0.66, 0.14
+"""How wide a wheel is, metres; which part of a side that wheels leave free lies before the first (``car.WheelRow``)."""
+
+_TREAD, _GROUND = (0.3, 0.18), 0.005
+"""Half the width of what shows of a wheel below the sill, above and below, and its lower edge (``car.Tread``)."""
 
 _SHAPES = (
-    # From the tail: where the rear window begins and ends, where the windscreen ends and begins, as parts of the
-    # length; height of the roof, metres.
-    (0.015, 0.13, 0.55, 0.70, 1.46),
-    (0.14, 0.30, 0.58, 0.71, 1.42),
-    (0.01, 0.05, 0.72, 0.84, 1.85),
+    # From the tail: where the rear window begins (metres) and ends, where the roof is highest, where the windscreen
+    # ends and begins, as parts of the length; heights of the roof there, of the bonnet's end, and below the windows.
+    (0.17, 0.09, 0.34, 0.53, 0.715, 1.37, 1.46, 1.38, 0.74, 0.94),
+    (0.62, 0.29, 0.43, 0.55, 0.70, 1.33, 1.41, 1.34, 0.72, 0.92),
+    (0.17, 0.055, 0.36, 0.55, 0.70, 1.38, 1.45, 1.37, 0.73, 0.93),
+    (0.17, 0.04, 0.5, 0.745, 0.87, 1.85, 1.89, 1.79, 0.88, 1.04),
 )
 
 RULES = (
-    *(f"car.{name}" for name in ("Side", "Cabin", "Screen", "Paint", "Front", "Back")),
+    *(
+        f"car.{name}"
+        for name in ("Side", "Cabin", "Screen", "Paint", "Front", "Back", "Nose", "Stern", "Tread")
+    ),
+    *(f"car.{name}" for name in ("Lamp", "Tail", "NoseLit", "SternLit", "LampLit", "TailLit")),
     "hedge.Leaves",
 )
 """Rules that their planes begin with."""
 
 Places = Mapping[str, tuple[int, int]]
 Corner = tuple[Floats, Floats, Floats]
+"""How far ahead, to the left, and up (c,), metres."""
 
 
 def add_cars(faces: Faces, cars: Cars, places: Places, first: int) -> None:
     """Add cars; their owners are numbers from `first` downwards, below those of no one."""
     if not len(cars):
         return
-    tail, back, front, cowl, top = np.array(_SHAPES)[cars.kind].T
-    long = cars.long
-
-    def x(part: Floats | float) -> Floats:
-        return (np.broadcast_to(part, long.shape) - 0.5) * long
-
-    def z(height: float) -> Floats:
-        return np.full(len(cars), height)
-
-    def profile(points: Sequence[tuple[Floats, Floats, float]], side: float) -> list[Corner]:
-        """Corners (along, aside, up) on one side, from (along, up, half the width)."""
-        return [(a, np.full(len(cars), side * half), up) for a, up, half in points]
-
-    body = [
-        (x(0.0), z(_LOW), _HALF), (x(1.0), z(_LOW), _HALF), (x(1.0), z(_NOSE), _HALF), (x(cowl), z(_BELT), _HALF),
-        (x(0.0), z(_BELT), _HALF),
-    ]  # fmt: skip
-    cabin = [
-        (x(tail), z(_BELT), _HALF),
-        (x(cowl), z(_BELT), _HALF),
-        (x(front), top, _ROOF),
-        (x(back), top, _ROOF),
-    ]
-    tail_, cowl_, front_, back_ = cabin
-    owner = first - np.arange(len(cars))
+    tail, back, mid, front, cowl, back_up, mid_up, front_up, nose_up, belt = np.array(_SHAPES)[cars.kind].T
+    long, count = cars.long, len(cars)
+    owner = first - np.arange(count)
     axes = {"x": cars.way, "y": np.column_stack([-cars.way[:, 1], cars.way[:, 0]])}
-    seed = cars.seed / 64.0
+    lean = (_HALF - _ROOF) / (mid_up - belt)  # walls of the cabin are flat, also where the roof is bent
 
-    def add(corners: list[Corner], along: str, sign: float, rule: str) -> None:
+    def at(ahead: Floats | float, aside: Floats | float, up: Floats | float) -> Corner:
+        """Aside and up; ahead of the tail."""
+        spots = [np.broadcast_to(np.asarray(own, float), (count,)) for own in (ahead, aside, up)]
+        return spots[0] - long / 2, spots[1], spots[2]
+
+    def add(corners: list[Corner], along: str, sign: float, rule: str | tuple[str, str]) -> None:
+        """A plane; of two rules the second is that of cars on their way."""
         points = [
             np.column_stack([cars.at + axes["x"] * a[:, None] + axes["y"] * b[:, None], c])
             for a, b, c in corners
         ]
-        way = np.column_stack([sign * axes[along], np.zeros(len(cars))])
-        start = np.tile(np.array(places[rule], float), (len(cars), 1))
-        faces.planes(millimetres(np.stack(points, axis=1)), way, start, seed, owner)
+        way = np.column_stack([sign * axes[along], np.zeros(count)])
+        still, moving = (rule, rule) if isinstance(rule, str) else rule
+        start = np.where(cars.moves[:, None], places[moving], places[still]).astype(float)
+        faces.planes(millimetres(np.stack(points, axis=1)), way, start, cars.seed / 64.0, owner)
 
-    def across(lower: tuple[Floats, Floats, float], upper: tuple[Floats, Floats, float]) -> list[Corner]:
-        """A plane from side to side, that one sees from in front: its lower edge and its upper one."""
+    def across(lower: tuple[Floats | float, ...], upper: tuple[Floats | float, ...]) -> list[Corner]:
+        """A plane from side to side, that one sees from in front: its edges as ahead, half the width, up."""
         return [
-            *profile([lower], -1.0),
-            *profile([lower], 1.0),
-            *profile([upper], 1.0),
-            *profile([upper], -1.0),
+            at(end[0], sign * end[1], end[2])
+            for end, sign in ((lower, -1.0), (lower, 1.0), (upper, 1.0), (upper, -1.0))
         ]
 
-    for side, sign in ((-1.0, 1.0), (1.0, -1.0)):
-        for shape, rule in ((body, "car.Side"), (cabin, "car.Cabin")):
-            corners = profile(shape, side)
-            add(corners if side < 0 else corners[::-1], "x", sign, rule)
-    add(across(body[1], body[2]), "y", 1.0, "car.Front")
-    add(across(body[2], cowl_), "y", 1.0, "car.Paint")
-    add(across(cowl_, front_), "y", 1.0, "car.Screen")
-    add(across(front_, back_), "y", 1.0, "car.Paint")
-    add(across(tail_, back_)[::-1], "y", -1.0, "car.Screen")
-    add(across(body[4], tail_)[::-1], "y", -1.0, "car.Paint")
-    add(across(body[0], body[4])[::-1], "y", -1.0, "car.Back")
+    def half(up: Floats) -> Floats:
+        return _HALF - lean * (up - belt)
+
+    nose, axle = long - _ROUND, _ROUND + _AXLE * (long - 2 * _ROUND - 2 * _WHEEL) + _WHEEL / 2
+    lamps, tails = ("car.Lamp", "car.LampLit"), ("car.Tail", "car.TailLit")
+    for side in (-1.0, 1.0):
+        turned = slice(None, None, 1 if side < 0 else -1)
+
+        def wall(spots: Sequence[tuple[Floats | float, Floats | float]], side: float = side) -> list[Corner]:
+            return [at(ahead, side * _HALF, up) for ahead, up in spots]
+
+        wheels = [axle, long - axle]
+        below = [(own + sign * _TREAD[0], _SILL) for own in wheels for sign in (-1.0, 1.0)]
+        body = wall([
+            (_ROUND, _SILL), *below, (nose, _SILL), (nose, _FRONT), (nose, nose_up), (cowl * long, belt), (tail, belt),
+            (_ROUND, belt), (_ROUND, _BACK),
+        ])  # fmt: skip
+        add(body[turned], "x", -side, "car.Side")
+        for k, own in enumerate(wheels):
+            low = [(own - _TREAD[1], _GROUND), (own + _TREAD[1], _GROUND)]
+            add(wall([*low, *below[2 * k : 2 * k + 2][::-1]])[turned], "x", -side, "car.Tread")
+        cabin = [
+            at(ahead, side * half(up), up)
+            for ahead, up in (
+                (tail, belt), (cowl * long, belt), (front * long, front_up), (mid * long, mid_up),
+                (back * long, back_up),
+            )
+        ]  # fmt: skip
+        add(cabin[turned], "x", -side, "car.Cabin")
+        tip, edge = at(long, side * _END, _FRONT), at(nose, side * _HALF, _FRONT)
+        low_tip, low_edge = at(long, side * _END, _SILL), at(nose, side * _HALF, _SILL)
+        add([low_edge, low_tip, tip, edge][turned], "y", 1.0, "car.Paint")
+        add([edge, tip, at(nose, side * _HALF, nose_up)][turned], "y", 1.0, lamps)
+        tip, edge = at(0.0, side * _END, _BACK), at(_ROUND, side * _HALF, _BACK)
+        low_tip, low_edge = at(0.0, side * _END, _SILL), at(_ROUND, side * _HALF, _SILL)
+        add([low_tip, low_edge, edge, tip][turned], "y", -1.0, "car.Paint")
+        add([tip, edge, at(_ROUND, side * _HALF, belt)][turned], "y", -1.0, tails)
+    roof = [(own * long, half(up), up) for own, up in ((front, front_up), (mid, mid_up), (back, back_up))]
+    window, screen, hood = (tail, _HALF, belt), (cowl * long, _HALF, belt), (nose, _HALF, nose_up)
+    add(across((long, _END, _SILL), (long, _END, _FRONT)), "y", 1.0, "car.Front")
+    add(across((long, _END, _FRONT), hood), "y", 1.0, ("car.Nose", "car.NoseLit"))
+    add(across(hood, screen), "y", 1.0, "car.Paint")
+    add(across(screen, roof[0]), "y", 1.0, "car.Screen")
+    add(across(roof[0], roof[1]), "y", 1.0, "car.Paint")
+    add(across(roof[1], roof[2]), "y", 1.0, "car.Paint")
+    add(across(window, roof[2])[::-1], "y", -1.0, "car.Screen")
+    add(across((_ROUND, _HALF, belt), window)[::-1], "y", -1.0, "car.Paint")
+    add(across((0.0, _END, _BACK), (_ROUND, _HALF, belt))[::-1], "y", -1.0, ("car.Stern", "car.SternLit"))
+    add(across((0.0, _END, _SILL), (0.0, _END, _BACK))[::-1], "y", -1.0, "car.Back")
 
 
 def add_hedges(faces: Faces, hedges: Hedges, places: Places, first: int) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from .chance import Floats, chance, length, millimetres
 from .footprints import District
@@ -32,7 +33,10 @@ __all__ = [
 _SLOT, _CLEAR = 6.0, 9.5
 """From one parked car to the next, and from a crossing to the first, metres."""
 
-_CARS, _PEOPLE, _HEDGES = 0.22, 0.16, 0.4
+_KINDS, _LONG = (0.42, 0.66, 0.89), np.array([3.7, 4.3, 4.3, 4.5])
+"""Up to which part of all cars each kind goes, and how long one is at least, metres."""
+
+_CARS, _PEOPLE, _HEDGES = 0.16, 0.16, 0.4
 """So many of each there are at the most for each house: so memory stays in bounds."""
 
 _SQUARE = 70.0
@@ -50,7 +54,9 @@ class Cars:
     way
         (c, 2) unit vectors: where it heads.
     kind
-        (c,) 0 hatchback, 1 saloon, 2 van.
+        (c,) 0 hatchback, 1 saloon, 2 estate, 3 van.
+    moves
+        (c,) whether it is on its way: then its lamps are lit by night.
     long
         (c,) metres.
     seed
@@ -60,6 +66,7 @@ class Cars:
     at: Floats
     way: Floats
     kind: Ints
+    moves: NDArray[np.bool_]
     long: Floats
     seed: Ints
 
@@ -85,7 +92,12 @@ class Hedges:
 
 
 NO_CARS = Cars(
-    np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0, np.int64), np.zeros(0), np.zeros((0, 2), np.int64)
+    np.zeros((0, 2)),
+    np.zeros((0, 2)),
+    np.zeros(0, np.int64),
+    np.zeros(0, bool),
+    np.zeros(0),
+    np.zeros((0, 2), np.int64),
 )
 NO_HEDGES = Hedges(np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0), np.zeros(0))
 
@@ -147,18 +159,23 @@ def cars_of(cells: Cells, built: Ints, houses: int, seed: int) -> Cars:
     at = kerbs.foot[edge] + kerbs.unit[edge] * along[chosen, None] - kerbs.inward[edge] * aside[chosen, None]
     # One drives on the right: the kerb lies on the right of who goes the other way than its edge.
     back = np.where(parked & (turned[chosen] < 0.12), 1.0, -1.0)
-    kind = np.searchsorted([0.58, 0.88], kind[chosen], side="right")
-    long = np.array([3.7, 4.3, 4.6])[kind] + np.round(0.3 * size[chosen], 2)
-    seeds = random.integers(0, 1 << 20, (len(chosen), 2))
-    return Cars(millimetres(at), kerbs.unit[edge] * back[:, None], kind, millimetres(long), seeds)
+    way = kerbs.unit[edge] * back[:, None]
+    return _cars(millimetres(at), way, ~parked, kind[chosen], size[chosen], random)
+
+
+def _cars(
+    at: Floats, way: Floats, moves: NDArray[np.bool_], kind: Floats, size: Floats, random: np.random.Generator
+) -> Cars:
+    """Cars at places; of what kind and how long each is follows from two numbers from 0 to 1."""
+    sort = np.searchsorted(_KINDS, kind, side="right")
+    long = _LONG[sort] + np.round(0.3 * size, 2)
+    return Cars(at, way, sort, moves, millimetres(long), random.integers(0, 1 << 20, (len(at), 2)))
 
 
 def cars_like(at: Floats, way: Floats, random: np.random.Generator) -> Cars:
     """Cars at places, of all kinds, as they are parked in streets."""
     kind, size = random.random((2, len(at)))
-    sort = np.searchsorted([0.58, 0.88], kind, side="right")
-    long = np.array([3.7, 4.3, 4.6])[sort] + np.round(0.3 * size, 2)
-    return Cars(at, way, sort, millimetres(long), random.integers(0, 1 << 20, (len(at), 2)))
+    return _cars(at, way, np.zeros(len(at), bool), kind, size, random)
 
 
 def people_of(plan: Plan, cells: Cells, built: Ints, things: Things, seed: int) -> Things:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,11 @@ from numpy.typing import NDArray
 from ..texture import Grammar
 from .chance import Floats, millimetres
 from .faces import Faces
+from .lamplight import packed, reaches
 from .rings import Ints
+
+if TYPE_CHECKING:
+    from .plan import Plan
 
 __all__ = [
     "BIRCH",
@@ -110,7 +115,7 @@ _CROWNS = ((0.02, -0.01, 0.66, 0.78), (0.19, 0.04, 0.5, 0.6), (-0.17, -0.08, 0.5
 """Crowns of a large tree: where they stand beside its trunk, and how high and wide they are, as parts of its size."""
 
 
-def stand(faces: Faces, things: Things, grammar: Grammar) -> None:
+def stand(faces: Faces, things: Things, grammar: Grammar, plan: Plan) -> None:
     """Add things to a mesh. They belong to no building; the seed of people tells them apart."""
     places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
     rule = np.array([places[name] for name in _RULES], float)
@@ -132,7 +137,10 @@ def stand(faces: Faces, things: Things, grammar: Grammar) -> None:
     posts = things.take(small | (things.kind >= SPRUCE))
     size = np.column_stack([posts.wide, posts.tall])
     seed = np.where((posts.kind >= PERSON)[:, None], _seeds(posts.at), 0.0)
-    _turning(faces, posts.at, posts.foot + posts.tall / 2, size, rule[posts.kind], seed, upright=True)
+    shade = np.zeros((len(posts), 3))
+    lamps = posts.kind == LAMP
+    shade[lamps] = packed(reaches(plan, posts.at[lamps]))
+    _turning(faces, posts.at, posts.foot + posts.tall / 2, size, rule[posts.kind], seed, shade, upright=True)
 
 
 def _seeds(at: Floats) -> Floats:
@@ -148,11 +156,16 @@ def _turning(
     size: Floats,
     start: Floats,
     seed: Floats | None = None,
+    shade: Floats | None = None,
     *,
     upright: bool,
 ) -> None:
-    """Quads that turn to whoever looks: all four corners have the place of the middle (see `VERTEX`)."""
+    """Quads that turn to whoever looks: all four corners have the place of the middle (see `VERTEX`).
+
+    `shade`: (t, 3) what lamps have in the place of a normal (`lamplight.packed`).
+    """
     count = len(at)
+    normal = np.zeros((count, 3)) if shade is None else shade[:, [0, 2, 1]] * (1, -1, 1)
     size = millimetres(size)
     spots = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     corners = 4 * np.arange(count)[:, None]
@@ -162,7 +175,7 @@ def _turning(
         np.repeat(size, 4, axis=0),
         np.repeat(start, 4, axis=0),
         np.zeros((4 * count, 2)) if seed is None else np.repeat(seed, 4, axis=0),
-        np.zeros((4 * count, 3)),
+        np.repeat(normal, 4, axis=0),
         np.tile([0.0, 0.0, 1.0 if upright else 0.0], (4 * count, 1)),
         np.full(4 * count, -1),
         np.concatenate([corners + np.array([0, 1, 2]), corners + np.array([0, 2, 3])]),

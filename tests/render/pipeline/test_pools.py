@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 
 from facade_nb.render import Grammar
 from facade_nb.render.pipeline import Scene, Viewpoint, choose_device, renderer_of
@@ -12,6 +13,8 @@ from facade_nb.render.pipeline.scene import CHUNK
 from facade_nb.render.pipeline.vertices import VERTEX
 from facade_nb.render.texture.daytime import Daytime
 from facade_nb.render.town import Town
+from facade_nb.render.town.chance import direction
+from facade_nb.render.town.lamplight import DIRECTIONS, FREE, REACH, packed, unpacked
 from facade_nb.render.town.things import LAMP
 
 PIXELS = (96, 72)
@@ -22,8 +25,8 @@ Post -> Mat(Color, 0, 0.1, 0.1, 0.1, 1)
 """
 
 
-def scene(size: tuple[float, float]) -> Scene:
-    """A floor of 80 m, and what turns in its middle."""
+def scene(size: tuple[float, float], walls: np.ndarray | None = None) -> Scene:
+    """A floor of 80 m, and what turns in its middle; how far it is from there to walls, in steps."""
     grammar = Grammar.parse(GRAMMAR)
     places = dict(zip(grammar.encoding.names, grammar.encoding.positions, strict=True))
     made = np.zeros((2, 4), VERTEX)
@@ -33,6 +36,7 @@ def scene(size: tuple[float, float]) -> Scene:
     floor["normal"], floor["tangent"] = (0, 1, 0), (1, 0, 0)
     post["place"], post["size"], post["start"] = SPOTS * size, size, places["Post"]
     post["position"], post["tangent"] = (0, size[1] / 2, 0), (0, 1, 0)
+    post["normal"] = 0 if walls is None else packed(walls[None])[0]
     corners = np.array([0, 1, 2, 0, 2, 3], np.uint32) + 4 * np.arange(2, dtype=np.uint32)[:, None]
     chunks = np.zeros(2, CHUNK)
     chunks["first"], chunks["count"] = (0, 6), 6
@@ -62,6 +66,47 @@ def test_it_is_bright_below_a_lamp_at_night(eye: tuple[float, float, float]) -> 
     assert abs(day - also) < 0.02 * day  # by day lamps are out
     plain = lit((0.7, 1.8), 23.0, eye)
     assert abs(plain[0] - plain[1]) < 0.02 * plain[1]
+
+
+def test_its_light_does_not_go_through_walls() -> None:
+    """A wall 3 m east of a lamp: the floor is lit as before on this side, and behind it as if there were no lamp."""
+    angle = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+    walls = np.ceil(FREE * 3 / REACH / np.maximum(np.cos(angle), 0.01)).clip(1, FREE).astype(int)
+    looks = Looks(haze=0.0, occlusion=False, smooth=False, shadow=False)
+    found = []
+    for own in (scene((0.8, 4.4)), scene((0.8, 4.4), walls), scene((0.7, 4.4))):
+        frame = Frame(
+            own, Viewpoint((0, 30.0, 0.1), 0.0, -89.9, 60.0).frustum(PIXELS), Daytime.at(23.0), PIXELS, looks
+        )
+        with renderer_of(own, choose_device()) as renderer:
+            found.append(renderer.draw(frame, ["light"])["light"][PIXELS[1] // 2 + 6, :, :3].sum(axis=1))
+    x = (np.arange(PIXELS[0]) + 0.5 - PIXELS[0] / 2) * (60 * np.tan(np.pi / 6) / PIXELS[0])
+    free, walled, dark = found
+    assert np.allclose(free[x < 2.9], walled[x < 2.9], rtol=0.01)
+    assert np.allclose(walled[x > 5.5], dark[x > 5.5], rtol=0.01)
+    assert (free > 1.1 * dark)[(x > 5.5) & (x < 6.5)].all()
+
+
+def test_a_lamp_knows_the_walls_around_it() -> None:
+    town = Town.generate(400, 3)
+    plan, things = town.plan, town.plan.things
+    own = town.vertices[(np.abs(town.vertices["size"] - (0.8, 4.4)) < 1e-3).all(axis=1)]
+    at, first = np.unique(own["position"][:, [0, 2]] * (1, -1), axis=0, return_index=True)
+    steps = unpacked(own["normal"][first])
+    assert len(at) == (things.kind == LAMP).sum() and (steps < FREE).any(axis=1).sum() > 0.7 * len(at)
+    high = np.flatnonzero(plan.eaves[plan.building] >= 4.0)
+    walls = shapely.union_all(
+        shapely.linestrings(np.stack([plan.corners[high], plan.corners[plan.following[high]]], axis=1))
+    )
+    ways = direction(np.arange(DIRECTIONS) / DIRECTIONS)
+    for spot, found in list(zip(at, steps, strict=True))[::9]:
+        rays = shapely.linestrings(np.stack([np.tile(spot, (DIRECTIONS, 1)), spot + REACH * ways], axis=1))
+        hits = shapely.intersection(rays, walls)
+        far = np.where(shapely.is_empty(hits), REACH, shapely.distance(shapely.points(spot), hits))
+        assert (np.abs(found * REACH / FREE - far - REACH / FREE / 2) <= REACH / FREE / 2 + 1e-3)[
+            far < REACH
+        ].all()
+        assert (found[far == REACH] == FREE).all()
 
 
 def test_nothing_but_lamps_has_their_size() -> None:

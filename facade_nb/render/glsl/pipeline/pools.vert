@@ -4,7 +4,7 @@
 layout(location = 0) in vec3 position;  // the middle of the lamp
 layout(location = 1) in vec2 place;
 layout(location = 2) in vec2 size;
-layout(location = 5) in vec3 normal;
+layout(location = 5) in vec3 normal;  // how far it is to walls (lamplight.py)
 
 uniform mat4 from_world;  // to clip space
 uniform vec3 eye;
@@ -12,6 +12,7 @@ uniform vec3 across;
 uniform vec3 upward;
 
 flat out vec3 lantern;  // from the eye
+flat out ivec3 walls;
 
 const vec2 LAMP = vec2(0.8, 4.4);  // nothing else that turns is as wide and as tall (things.py)
 const float LIGHT = 3.95;          // metres above its foot
@@ -20,6 +21,7 @@ const float REACH = 13.0;          // metres
 void main() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   lantern = vec3(0.0);
+  walls = ivec3(normal * 4194304.0 + 0.5);
   if (dot(normal, normal) > 0.25 || any(greaterThan(abs(size - LAMP), vec2(0.001)))) return;
   vec2 corner = sign(place - 0.5 * size);
   lantern = position + vec3(0.0, LIGHT - 0.5 * LAMP.y, 0.0) - eye;

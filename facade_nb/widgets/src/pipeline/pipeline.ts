@@ -24,6 +24,7 @@ interface Held {
   size: Pixels;
 }
 
+const OPENING = ["grammar", "atlas", "tile_table"]; // textures that say where leaves are open: maps are drawn by them, too
 const POOL = 3; // sizes of pictures whose buffers are kept
 
 const SHOW = `#version 300 es
@@ -76,7 +77,8 @@ export class Pipeline {
   private images = new Map<string, Held>();
   private frames = new Map<string, WebGLFramebuffer>();
   private sizes: string[] = [];
-  private kept = new Map<string, string>();
+  /** What each map holds: by which matrix and mesh it was begun, and which passes are over. */
+  private kept = new Map<string, { key: string; over: Set<string> }>();
   /** Parts of the mesh and rows of textures that the card has not got yet. */
   private due: { name: string; at: number; end: number }[] = [];
   private version = 0;
@@ -131,6 +133,7 @@ export class Pipeline {
       if (old && !context().lost) gl?.deleteTexture(old.texture);
       this.held.delete(name);
       this.due = this.due.filter((part) => part.name !== name);
+      if (OPENING.includes(name)) this.version += 1;
     }
     this.source = source;
   }
@@ -148,7 +151,7 @@ export class Pipeline {
   /** Say that bytes of vertices, indices or a texture have changed. */
   changed(name: string, at = 0, end = Infinity): void {
     this.due.push({ name, at, end });
-    if (["vertices", "indices", "atlas", "tile_table"].includes(name)) this.version += 1; // leaves are open where tiles are
+    if (name === "vertices" || name === "indices" || OPENING.includes(name)) this.version += 1;
   }
 
   /** Whether the shaders are there; those that are not are compiled beside the page, where the browser can do so. */
@@ -161,7 +164,30 @@ export class Pipeline {
   /** Whether a pass need not run: its maps depend on one matrix, the mesh and its leaves, and these are as they were. */
   fresh(pass: Pass, values: Values): boolean {
     const key = this.keyOf(pass, values);
-    return key !== "" && this.kept.get(pass.name) === key;
+    const holds = (name: string) => this.kept.get(name)?.key === key && this.kept.get(name)?.over.has(pass.name);
+    return key !== "" && pass.writes.every(holds);
+  }
+
+  /**
+   * Note that a piece of a pass is drawn into its maps; says whether they are to be cleared before. What was begun by the same
+   * matrix stays: drawing it again changes nothing, and another view may be about it. What is added to a map of another matrix
+   * spoils it, and only its last piece makes a pass whole.
+   */
+  private note(pass: Pass, values: Values, first: boolean, last: boolean): boolean {
+    const key = this.keyOf(pass, values);
+    const begins = first && !pass.adds;
+    if (key === "") return begins;
+    let clears = false;
+    for (const name of pass.writes) {
+      let own = this.kept.get(name);
+      if (own?.key !== key) {
+        own = { key: begins ? key : "", over: new Set() };
+        clears = begins;
+      }
+      if (last) own.over.add(pass.name);
+      this.kept.set(name, own);
+    }
+    return clears;
   }
 
   private keyOf(pass: Pass, values: Values): string {
@@ -170,13 +196,13 @@ export class Pipeline {
   }
 
   /**
-   * Run a pass: of the mesh some runs of indices, in the rows from low to high. `first`: it is its first piece.
+   * Run a pass: of the mesh some runs of indices, in the rows from low to high. `first`, `last`: it is that piece of it.
    */
   run(
     pass: Pass,
     values: Values,
     pixels: Pixels,
-    piece: { runs?: Pixels[]; rows?: Pixels; first?: boolean } = {},
+    piece: { runs?: Pixels[]; rows?: Pixels; first?: boolean; last?: boolean } = {},
   ): void {
     const gl = this.gl();
     if (gl.isContextLost()) return;
@@ -194,13 +220,12 @@ export class Pipeline {
       gl.enable(pass.sums ? gl.BLEND : gl.DEPTH_TEST);
       gl.blendFunc(gl.ONE, gl.ONE);
       gl.depthFunc(gl.LESS);
-      if ((piece.first ?? true) && !pass.adds) this.clear(gl, pass);
+      if (this.note(pass, values, piece.first ?? true, piece.last ?? true)) this.clear(gl, pass);
       if (!pass.both) gl.enable(gl.CULL_FACE);
       gl.bindVertexArray(this.array(gl, pass, program));
       this.draw(gl, halved(piece.runs ?? [], this.source.turning ?? Number.POSITIVE_INFINITY, !!pass.turning));
       gl.bindVertexArray(null);
       for (const state of [gl.CULL_FACE, gl.DEPTH_TEST, gl.BLEND]) gl.disable(state);
-      this.kept.set(pass.name, this.keyOf(pass, values));
     } else if (pass.seen) {
       if (!pass.sky) this.clear(gl, pass);
       gl.enable(gl.DEPTH_TEST);

@@ -63,19 +63,20 @@ export function use(
 ): void {
   const uniforms = finish(gl, own);
   gl.useProgram(own.program);
-  let unit = 0;
+  const samplers: [WebGLUniformLocation, WebGLTexture | null][] = [];
   for (const [name, { at, type }] of uniforms) {
-    if (type === gl.SAMPLER_2D || type === gl.INT_SAMPLER_2D) {
-      const read = texture(name) ?? null; // it may be made now, and then is bound elsewhere
-      gl.activeTexture(gl.TEXTURE0 + unit);
-      gl.bindTexture(gl.TEXTURE_2D, read);
-      gl.uniform1i(at, unit);
-      unit += 1;
-    } else {
+    if (type === gl.SAMPLER_2D || type === gl.INT_SAMPLER_2D) samplers.push([at, texture(name) ?? null]);
+    else {
       const value = values[name];
       if (value !== undefined) give(gl, at, type, value);
     }
   }
+  // A texture that is made only now is bound while it is filled: so all are there before any is bound for good.
+  samplers.forEach(([at, read], unit) => {
+    gl.activeTexture(gl.TEXTURE0 + unit);
+    gl.bindTexture(gl.TEXTURE_2D, read);
+    gl.uniform1i(at, unit);
+  });
 }
 
 function give(gl: WebGL2RenderingContext, at: WebGLUniformLocation, type: number, value: Value): void {

@@ -61,18 +61,27 @@ export function sunlightOf(
   const [low, high] = [box.slice(0, 3), box.slice(3)] as [Vector, Vector];
   const middle = low.map((value, k) => (value + (high[k] as number)) / 2) as Vector;
   const whole = Math.hypot(...low.map((value, k) => (high[k] as number) - value)) / 2 + 1;
-  const half = Math.min(own.near + own.rise * Math.max(frustum.eye[1], 0), own.most, whole);
+  // A map whose size is given does not grow, and then the other one is of all.
+  const half = Math.min(own.rise ? stepped(own, frustum.eye[1]) : own.near, own.most, whole);
   const clip = (at: Vector) =>
     at.map((value, k) => Math.min(Math.max(value, low[k] as number), high[k] as number)) as Vector;
   const [ex, , ez] = frustum.eye;
   const spot = clip(around ?? [ex + frustum.ahead[0] * 0.7 * half, 0, ez + frustum.ahead[2] * 0.7 * half]);
-  const all = Math.min(whole, own.far);
+  const all = Math.min(whole, own.rise ? Math.min(own.far, own.wider * half) : own.far);
   const centre = all === whole ? middle : clip([ex, 0, ez]);
   return {
     near: parallel(axes, spot, half, low, high, own.side),
     far: parallel(axes, centre, all, low, high, own.side),
     texels: [(2 * half) / own.side, (2 * all) / own.side],
   };
+}
+
+/** Half the side of the fine map for an eye at a height: it grows in steps, within which shadows do not swim. */
+function stepped({ near, rise, stands, most }: Head["sunlight"], height: number): number {
+  const wanted = near + rise * Math.max(height - stands, 0);
+  let half = near;
+  while (half < Math.min(wanted, most)) half *= Math.SQRT2;
+  return half;
 }
 
 /** The nearest whole number; of two the even one, as NumPy does. */

@@ -214,7 +214,7 @@ export function painting(
         else runs.shift();
       }
       const start = performance.now();
-      pipeline?.run(pass, values, pixels, { runs: own, first });
+      pipeline?.run(pass, values, pixels, { runs: own, first, last: !runs.length });
       pipeline?.finish();
       add(start);
       const drawn = own.reduce((sum, [, count]) => sum + count, 0);
