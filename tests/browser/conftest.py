@@ -31,20 +31,24 @@ def traced(name, **more):
 """
 
 LONG = (
-    "houses",
-    "thirty",
-    "lost_kernel",
     "town",
     "flying",
     "texture",
-    "keys",
+    "houses",
+    "lost_kernel",
     "studio",
     "solver_page",
-    "building",
-    "applications",
-    "questions",
-    "stage",
     "marimo",
+    "thirty",
+    "applications",
+    "building",
+    "stage",
+    "keys",
+    "solver",
+    "walls",
+    "panel",
+    "parts",
+    "questions",
 )
 """Files of tests, those that take the longest first: begun last, one would keep a process waiting for another."""
 

@@ -42,6 +42,15 @@ _FLAGS = [
     "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",  # no network: what works here works offline
 ]
 
+_UNNEEDED = (
+    "apputils-extension:announcements",
+    "debugger-extension",
+    "extensionmanager-extension",
+    "notebook-extension:execution-indicator",
+    "notebook-extension:log-output",
+)
+"""Parts of JupyterLab that no test and no other part needs: they would draw, or ask, as often as a kernel speaks."""
+
 _HARMLESS = (
     "t.on is not a function",  # pythreejs, for every light
     "schema",  # Notebook 7.6.5, for every notebook
@@ -79,7 +88,7 @@ def serve(root: Path, app: App) -> Iterator[tuple[str, str]]:
     with tempfile.TemporaryDirectory() as name:
         home = Path(name)
         (home / "labconfig").mkdir()
-        quiet = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
+        quiet = {"disabledExtensions": {f"@jupyterlab/{name}": True for name in _UNNEEDED}}
         (home / "labconfig" / "page_config.json").write_text(json.dumps(quiet), encoding="utf-8")
         command = {
             "voila": ["voila", str(root), "--no-browser", f"--port={port}", "--Voila.ip=127.0.0.1"],

@@ -141,6 +141,7 @@ ENDS: dict[End, str] = {
 def opened(browser: Browser, served: Served) -> Iterator[Server]:
     address, token, root = served("lab")
     with Gate(address) as gate, browser.new_page() as page:
+        page.context.grant_permissions(["clipboard-write"])  # everything is pressed, also what copies
         page.set_viewport_size({"width": 1400, "height": 1000})
         lab = Notebook(page, gate.address, token, root, "lab")
         lab.open("0", NAME)
