@@ -214,8 +214,7 @@ class Grammar:
 
     def ready(self) -> Grammar:
         """The same, with all worked out that its first question would wait for, but for tiles."""
-        for own in (self._records, self._depths):
-            assert own
+        _ = self._records, self._depths
         return self
 
     def atlas(self, tiles: Tiles | None = None, relief: bool = False) -> Atlas:

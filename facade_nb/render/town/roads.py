@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
+from itertools import combinations, pairwise
 
 import numpy as np
 import shapely
@@ -219,23 +220,19 @@ def _strokes(passages: Passages) -> list[list[tuple[int, int]]]:
     ends = passages.ends.ravel()
     order = np.argsort(ends, kind="stable")
     begin = np.searchsorted(ends[order], np.arange(len(passages.joints) + 1))
-    one, two = [], []
-    for low, high in zip(begin[:-1].tolist(), begin[1:].tolist(), strict=True):
-        for i in range(low, high):
-            for j in range(i + 1, high):
-                one.append(order[i])
-                two.append(order[j])
-    a, b = np.array(one, np.int64), np.array(two, np.int64)
+    pairs: list[tuple[int, int]] = []
+    met = order.tolist()
+    for low, high in pairwise(begin.tolist()):
+        pairs += combinations(met[low:high], 2)
+    a, b = np.array(pairs, np.int64).reshape(-1, 2).T
     flat = ways.reshape(-1, 2)
     dot = np.round((flat[a] * flat[b]).sum(axis=1), 4)
-    links = np.full(2 * count, -1)
-    for k in np.lexsort((b, a, dot)).tolist():
-        i, j = int(a[k]), int(b[k])
-        if dot[k] > _STRAIGHT:
-            break
+    links = [-1] * (2 * count)
+    straight = np.lexsort((b, a, dot))[: int((dot <= _STRAIGHT).sum())]
+    for i, j in zip(a[straight].tolist(), b[straight].tolist(), strict=True):
         if links[i] < 0 and links[j] < 0 and i // 2 != j // 2:
             links[i], links[j] = j, i
-    return runs_of(links.reshape(-1, 2))
+    return runs_of(np.array(links, np.int64).reshape(-1, 2))
 
 
 def _streets(
@@ -295,7 +292,7 @@ def _connections(passages: Passages, taken: set[int]) -> list[list[tuple[int, in
     order = order[pair[order, 0] != pair[order, 1]]
     name = pair[order, 0] * joints + pair[order, 1]
     order = order[np.append(True, name[1:] != name[:-1])] if len(order) else order
-    between = {(int(a), int(b)): int(k) for k, (a, b) in zip(order, pair[order], strict=True)}
+    between = dict(zip(map(tuple, pair[order].tolist()), order.tolist(), strict=True))
     graph = coo_matrix((price[order], pair[order].T), (joints, joints)).tocsr()
     found = dijkstra(
         graph, directed=False, indices=np.unique(ends[own]), min_only=True, return_predecessors=True
@@ -360,7 +357,7 @@ def _joint(passages: Passages, run: list[tuple[int, int]], which: int) -> int:
 
 def _straightened(lines: list[Floats], kinds: Ints, houses: NDArray[np.object_]) -> Roads:
     """Lines as straight as houses allow, bends of streets rounded. One that comes too near to a house stays."""
-    rough = np.asarray([shapely.LineString(line) for line in lines], object)
+    rough = _shapes(lines)
     tree = shapely.STRtree(houses)
     need = HALF[kinds] + 0.4
     chosen = list(lines)
@@ -371,7 +368,7 @@ def _straightened(lines: list[Floats], kinds: Ints, houses: NDArray[np.object_])
             millimetres(line) if lane else _rounded(line)
             for line, lane in zip(plain, (kinds[waiting] == LANE).tolist(), strict=True)
         ]
-        shapes = np.asarray([shapely.LineString(line) for line in smooth], object)
+        shapes = _shapes(smooth)
         near = np.zeros(len(waiting), bool)
         room = need[waiting] if tolerance > _TOLERANCES[-1] else 0.5
         near[tree.query(shapes, predicate="dwithin", distance=room)[0]] = True
@@ -381,6 +378,12 @@ def _straightened(lines: list[Floats], kinds: Ints, houses: NDArray[np.object_])
         if not len(waiting):
             break
     return Roads.of(chosen, kinds)
+
+
+def _shapes(lines: Sequence[Floats]) -> NDArray[np.object_]:
+    """Lines (p, 2) as shapely's."""
+    numbers = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
+    return np.asarray(shapely.linestrings(np.concatenate(lines), indices=numbers), object)
 
 
 def _coordinates(lines: NDArray[np.object_]) -> list[Floats]:
