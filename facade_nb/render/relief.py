@@ -7,10 +7,10 @@ up the *skin*; the others (columns, balconies, roofs) stand before it and only t
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -140,14 +140,35 @@ class Relief:
         boxes, odd = self._casters
         if not receivers:
             return result
+        rects = np.array([rect for _, _, rect, _ in receivers])
+        for where, which, starts, ends in self._met(boxes):
+            swept = _swept_boxes(boxes.bounds[which], starts, ends)
+            for n, polygon in zip(where.tolist(), clip_all(swept, rects[where]), strict=True):
+                if len(polygon) > 2:
+                    result[receivers[n][0]].append(polygon)
+        for found in self._met(_around(odd)):
+            for n, k, start, end in zip(*(own.tolist() for own in found), strict=True):
+                layer, _, rect, _ = receivers[n]
+                cut = clip(_swept(odd[k], start, end), rect)
+                if len(cut) > 2:
+                    result[layer].append(np.array(cut))
+        return result
+
+    def _met(self, boxes: _Boxes) -> Iterator[tuple[NDArray[Any], ...]]:
+        """Which receivers the shadows of boxes may fall on, some at a time.
+
+        Of each such pair: the receiver, the box, and how far along the light its shadow begins and ends, metres.
+        """
+        receivers = self._receivers
         planes = np.array([plane for _, plane, _, _ in receivers])[:, None]
         rects = np.array([rect for _, _, rect, _ in receivers])
         home = {index: n for n, (_, _, _, members) in enumerate(receivers) for index in members}
         within = np.array([home.get(index, -1) for index in boxes.of.tolist()], dtype=int)
-        for first in range(0, len(receivers), step := max(1, _AT_ONCE // max(1, len(boxes.of)))):
+        left, low, right, high = boxes.bounds.T
+        step = max(1, _AT_ONCE // max(1, len(within)))
+        for first in range(0, len(receivers) if len(within) else 0, step):
             rows = slice(first, first + step)
             reach = boxes.far - planes[rows]
-            left, low, right, high = boxes.bounds.T
             x0, y0, x1, y1 = rects[rows].T[:, :, None]
             hit = (reach > 1e-4) & (left < x1) & (right + reach * LIGHT[0] > x0)
             hit &= (low - reach * LIGHT[1] < y1) & (high > y0)
@@ -155,26 +176,7 @@ class Relief:
             where, which = np.nonzero(hit)
             ends = reach[where, which]
             where += first
-            starts = np.maximum(boxes.near[which] - planes[where, 0], 0.0)
-            swept = _swept_boxes(boxes.bounds[which], starts, ends)
-            for n, polygon in zip(where.tolist(), clip_all(swept, rects[where]), strict=True):
-                if len(polygon) > 2:
-                    result[receivers[n][0]].append(polygon)
-        for caster in odd:
-            x0, y0, x1, y1 = _bounds(caster.points)
-            for layer, plane, rect, _ in receivers:
-                end = caster.z1 - plane
-                if (
-                    end > 1e-4
-                    and x0 < rect[2]
-                    and x1 + end * LIGHT[0] > rect[0]
-                    and y0 - end * LIGHT[1] < rect[3]
-                    and y1 > rect[1]
-                ):
-                    cut = clip(_swept(caster, max(caster.z0 - plane, 0.0), end), rect)
-                    if len(cut) > 2:
-                        result[layer].append(np.array(cut))
-        return result
+            yield where, which, np.maximum(boxes.near[which] - planes[where, 0], 0.0), ends
 
     @cached_property
     def _receivers(self) -> list[tuple[int, float, Rect, frozenset[int]]]:
@@ -227,11 +229,20 @@ class Relief:
         return _Boxes(*map(np.concatenate, zip(empty, *made, strict=True))), odd
 
 
+def _around(casters: Sequence[_Caster]) -> _Boxes:
+    """The boxes around casters."""
+    bounds = np.array([_bounds(own.points) for own in casters]).reshape(-1, 4)
+    near, far = np.array([(own.z0, own.z1) for own in casters]).reshape(-1, 2).T
+    return _Boxes(
+        bounds, near, far, np.array([-1 if own.of is None else own.of for own in casters], dtype=int)
+    )
+
+
 def _standing(casters: Sequence[_Caster], solids: Sequence[Solid]) -> _Boxes:
     """Boxes that are told from a solid's corner, at the place of each of some solids."""
-    corners = np.array([solid.rect[:2] * 2 for solid in solids])
-    bounds = np.array([_bounds(own.points) for own in casters]) + corners[:, None]
-    near, far = np.array([(own.z0, own.z1) for own in casters] * len(solids)).T
+    around = _around(casters)
+    bounds = around.bounds + np.array([solid.rect[:2] * 2 for solid in solids])[:, None]
+    near, far = np.tile(around.near, len(solids)), np.tile(around.far, len(solids))
     of = [-1 if own.of is None else solid.index for solid in solids for own in casters]
     return _Boxes(bounds.reshape(-1, 4), near, far, np.array(of))
 
