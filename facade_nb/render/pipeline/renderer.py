@@ -62,7 +62,9 @@ class Renderer:
         self._images: dict[str, Any] = {}
         self._targets: dict[str, Any] = {}
         self._programs: dict[tuple[str, ...], Any] = {}
-        self._given: dict[tuple[str, ...], frozenset[str]] = {}  # what each program asks for: to list it takes long
+        self._given: dict[
+            tuple[str, ...], frozenset[str]
+        ] = {}  # what each program asks for: to list it takes long
         self._meshes: dict[tuple[str, ...], Any] = {}
         self._tiles: dict[str, Any] = {}  # the painter's
         self._atlases: dict[bool, Atlas] = {}
