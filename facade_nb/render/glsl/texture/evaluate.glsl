@@ -89,7 +89,7 @@ Surface evaluate(Question question) {
           code = int(head.r);
         }
       } while (descends(code) || divides(code) || chooses(code));
-      vec4 numbers = record(now.rule, 1);
+      vec4 numbers = numbers_of(now.rule, code);
 #ifdef RELIEF
       bool beyond = ends(code) && unmet(now, head, numbers);
 #endif
@@ -105,7 +105,7 @@ Surface evaluate(Question question) {
               if (code == OP_MAT || code == OP_MATALPHA) terminal(now, head, shown);
               head = next_layer(now, shown.skipped) ? enter(now, taken) : END;
               code = int(head.r);
-              numbers = record(now.rule, 1);
+              numbers = numbers_of(now.rule, code);
               shown = plainly(head, numbers);
             }
           } while (ends(code) && !looks(code, head));

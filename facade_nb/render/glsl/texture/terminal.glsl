@@ -22,6 +22,13 @@ bool looks(int code, vec4 head) {
   return code == OP_SKIPMASK || code == OP_MATALPHA || code == OP_MAT && int(head.Mat_m1) != 0;
 }
 
+// The second record of a material.
+vec4 numbers_of(ivec2 rule, int code) {
+  vec4 numbers = vec4(0.0);
+  if (code == OP_MAT || code == OP_MATALPHA) numbers = record(rule, 1);
+  return numbers;
+}
+
 // What asks no tile; `numbers`: its second record.
 Shown plainly(vec4 head, vec4 numbers) {
 #ifdef RELIEF
