@@ -15,13 +15,13 @@ from .viewpoint import Frustum
 
 __all__ = ["MAPS", "Sunlight", "skylight", "sunlight"]
 
-_NEAR, _RISE, _MOST = 60.0, 2.4, 700.0
+_NEAR, _RISE, _MOST = 60.0, 1.6, 700.0
 """Half the side of the fine map, metres: for an eye on the ground, more for each metre above that, at most."""
 
 _STANDS = 2.0
 """Up to that height an eye is on the ground, metres."""
 
-_FAR, _WIDER = 3000.0, 8.0
+_FAR, _WIDER = 3000.0, 10.0
 """Half the side of the coarse map, metres, at most; and so many times that of the fine one it is."""
 
 _PAD = 0.1
