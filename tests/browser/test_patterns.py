@@ -49,10 +49,12 @@ def test_a_text_is_coloured_as_it_is_typed_and_its_letters_lie_over_those_of_the
     field = studio.field("Pattern Bx")
     ink = page.locator(".fnb-pattern[data-pattern=Bx] .fnb-ink")
     field.click()
+    page.mouse.move(2, 2)  # what the pointer is on is lit, letters of its kind as well
     keys.press("End")
     keys.type("A" * 60)  # more than a line
     expect(ink).to_have_text("A(BA)^k" + "A" * 60 + "\u200b")
     frames(page)
+    expect(ink.locator("[data-lit]")).to_have_count(0)
     assert field.evaluate(
         """field => {
             const ink = field.parentElement.querySelector(".fnb-ink");
