@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from facade_nb.render.pipeline import VERTEX
-from facade_nb.render.pipeline.vertices import SEEDS
+from facade_nb.render.pipeline.vertices import SEEDS, turning
 from facade_nb.render.town import Town
 from facade_nb.render.town.cornices import CORNICES
 from facade_nb.render.town.mesh import CELL, NOBODY, build_mesh
@@ -172,7 +172,7 @@ def test_chunks_part_the_mesh(town: Town) -> None:
     assert chunks["count"].sum() == len(town.indices) == 3 * len(town.building_of)
     for chunk in chunks:
         own = town.vertices[town.indices[chunk["first"] : chunk["first"] + chunk["count"]]]
-        turns = (own["normal"] == 0).all(axis=1)
+        turns = turning(own)
         # What turns may reach as far to each side as its diagonal is long.
         reach = np.where(turns, np.linalg.norm(own["size"], axis=1) / 2, 0)[:, None]
         low, high = own["position"] - reach, own["position"] + reach
@@ -181,12 +181,10 @@ def test_chunks_part_the_mesh(town: Town) -> None:
     building = town.building_of
     assert set(building.tolist()) == {*range(len(town.plan)), int(NOBODY)}
     # What turns has chunks of its own, the last.
-    turning = town.scene.turning
-    assert turning.any() and (np.diff(turning.astype(int)) >= 0).all()
-    of_triangle = np.repeat(turning, chunks["count"] // 3)
-    assert (
-        of_triangle == (town.vertices["normal"][town.indices.reshape(-1, 3)[:, 0]] == 0).all(axis=1)
-    ).all()
+    last = town.scene.turning
+    assert last.any() and (np.diff(last.astype(int)) >= 0).all()
+    of_triangle = np.repeat(last, chunks["count"] // 3)
+    assert (of_triangle == turning(town.vertices[town.indices.reshape(-1, 3)[:, 0]])).all()
     # A building lies in one chunk, and its middle in that chunk's cell.
     of = np.repeat(np.arange(len(chunks)), chunks["count"] // 3)
     for one in range(0, len(town.plan), 7):
