@@ -143,6 +143,9 @@ def opened(browser: Browser, served: Served) -> Iterator[Server]:
     with Gate(address) as gate, browser.new_page() as page:
         page.context.grant_permissions(["clipboard-write"])  # everything is pressed, also what copies
         page.set_viewport_size({"width": 1400, "height": 1000})
+        # JupyterLab says so when it has asked for something in vain, and one closes that before one goes on.
+        told = page.get_by_role("dialog", name="Server Connection Error")
+        page.add_locator_handler(told, lambda dialog: dialog.get_by_role("button").last.click())
         lab = Notebook(page, gate.address, token, root, "lab")
         lab.open("0", NAME)
         page.evaluate("() => window.jupyterapp.commands.execute('application:toggle-left-area')")
