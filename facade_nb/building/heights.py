@@ -27,9 +27,10 @@ from ..solver.model.layout import AxisLayout
 from ..solver.model.letters import Letter, Word
 from ..solver.model.objective import Objective
 from ..solver.model.problem import axis_problem
+from ..solver.schedules.tolerances import TOLERANCES
 from ..solver.selection.axis import Best, Solved
 from ..solver.sizing.system import size_axis
-from ..solver.solution import TOLERANCES, AxisAnswer
+from ..solver.solution import AxisAnswer
 from ..solver.words.enumeration import words
 from .choices import Case, Choices, Option
 from .cuts import Ways

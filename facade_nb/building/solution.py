@@ -13,7 +13,8 @@ from ..solver.budget import Clock
 from ..solver.model.layout import AxisLayout, Layout, PlacedShape
 from ..solver.model.objective import Objective
 from ..solver.model.problem import axis_problem
-from ..solver.solution import TOLERANCES, AxisAnswer, compose, solve_axis
+from ..solver.schedules.tolerances import TOLERANCES
+from ..solver.solution import AxisAnswer, compose, solve_axis
 from ..solver.words.enumeration import across
 from .faces import Face, faces, width_of
 from .heights import Heights

@@ -13,16 +13,18 @@ from collections.abc import Callable
 from ..design.errors import NoLayout
 from ..design.limits import range_faults
 from ..design.model import AXES, Axis, Design
-from .alignment.core.binding import session
+from .alignment.core.instances import session
 from .assembly.axes import axis_layout
 from .budget import Clock, Stopped
 from .cache import CACHE
 from .model.layout import Layout
 from .model.objective import Objective
 from .model.problem import AxisProblem, axis_problem
+from .schedules.kept import kept_as, last_as, spelled_as
+from .schedules.tolerances import TOLERANCES
 from .selection.axis import AxisSearch, Best, Solved
 from .selection.warm_start import adopted
-from .solution import TOLERANCES, AxisAnswer, compose, kept_as, last_as, spelled_as
+from .solution import AxisAnswer, compose
 
 __all__ = ["resized"]
 

@@ -10,7 +10,7 @@ from facade_nb.design.edit import with_counter, with_pattern
 from facade_nb.design.model import AXES
 from facade_nb.solver import Layout
 from facade_nb.solver.cache import CACHE
-from facade_nb.solver.solution import TOLERANCES
+from facade_nb.solver.schedules.tolerances import TOLERANCES
 from facade_nb.solver.words.neighbours import Choices, choices
 
 

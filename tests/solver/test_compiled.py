@@ -16,8 +16,9 @@ from facade_nb.design.model import Design
 from facade_nb.solver import Letter, tuning
 from facade_nb.solver import solution as solving
 from facade_nb.solver.alignment import group as grouping
-from facade_nb.solver.alignment.core import binding as compiled
-from facade_nb.solver.alignment.core.binding import CompiledDives, CompiledSearch, available, best_first
+from facade_nb.solver.alignment.core import instances as compiled
+from facade_nb.solver.alignment.core.binding import CompiledDives, CompiledSearch, best_first
+from facade_nb.solver.alignment.core.instances import available
 from facade_nb.solver.alignment.group import Group
 from facade_nb.solver.alignment.pricing import Priced
 from facade_nb.solver.alignment.reference.best_first import BestFirst
@@ -223,7 +224,7 @@ class TestControl:
         assert len(inside) == 1
 
     def test_lets_go_of_what_is_no_longer_needed(self) -> None:
-        core = compiled._core()
+        core = compiled.instance()
         gc.collect()
         core._bury()
         before = set(core._alive)
@@ -241,12 +242,12 @@ class TestControl:
         seen = []
 
         def look() -> None:  # in a thread of its own, where nothing is left of other tests
-            seen.append(compiled._core())
+            seen.append(compiled.instance())
             search = best_first([case_group(random_case(1))])
-            seen.append(compiled._core())
+            seen.append(compiled.instance())
             del search
             gc.collect()
-            seen.append(compiled._core())
+            seen.append(compiled.instance())
 
         thread = Thread(target=look)
         thread.start()
@@ -264,7 +265,7 @@ class TestControl:
 
         def work() -> None:
             best_first([case_group(random_case(3))]).advance(0.5)
-            seen.append(compiled.ref(compiled._core()))
+            seen.append(compiled.ref(compiled.instance()))
 
         thread = Thread(target=work)
         thread.start()
@@ -277,9 +278,9 @@ class TestControl:
     ) -> None:
         monkeypatch.setattr(tuning, "LARGE_INSTANCE", 0)
         search = best_first([self.hard()])
-        core = compiled._core()
+        core = compiled.instance()
         assert compiled.start_afresh()
-        assert compiled._core() is not core
+        assert compiled.instance() is not core
         with pytest.raises(Stopped) as stopped:
             search.advance(inf)  # what was there until then is gone, at once
         assert stopped.value.full

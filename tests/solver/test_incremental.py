@@ -16,8 +16,9 @@ from facade_nb.design.model import AXES
 from facade_nb.solver import Objective, tuning
 from facade_nb.solver import solution as solving
 from facade_nb.solver.cache import CACHE, Kept
+from facade_nb.solver.schedules import apart
 from facade_nb.solver.selection import clusters as running
-from facade_nb.solver.selection.axis import Best
+from facade_nb.solver.selection.axis import AxisSearch, Best
 from tests.oracle.designs import CONTENT, CONTROL, SOLID, design, make_design
 
 Outcome = dict[str, Any] | tuple[str, ...]
@@ -138,13 +139,13 @@ class TestBefore:
     @pytest.fixture
     def bounds(self, monkeypatch: pytest.MonkeyPatch) -> list[float]:
         """The bounds that searches were given."""
-        real, seen = solving.upper_bound, list[float]()
+        real, seen = apart.upper_bound, list[float]()
 
         def spy(*args: Any) -> float:
             seen.append(real(*args))
             return seen[-1]
 
-        monkeypatch.setattr(solving, "upper_bound", spy)
+        monkeypatch.setattr(apart, "upper_bound", spy)
         return seen
 
     @pytest.mark.parametrize("name", NAMES)
@@ -168,7 +169,7 @@ class TestBefore:
     @pytest.mark.parametrize("wrong", [0.0, 1e-3, 1e9])
     def test_a_wrong_bound_does_no_harm(self, wrong: float, monkeypatch: pytest.MonkeyPatch) -> None:
         """Where nothing can be sized within it, the search begins again without."""
-        monkeypatch.setattr(solving, "upper_bound", lambda *_: wrong)
+        monkeypatch.setattr(apart, "upper_bound", lambda *_: wrong)
         one = gallery.load("residential-house")
         name = next(n for n, own in one.symbols.items() if own.size is not None)
         assert check([one, edit.with_symbol(one, name, size=(one.symbol(name).size or 1.0) * 1.05)]) == 2
@@ -198,7 +199,7 @@ class TestBefore:
         name = next(n for n, own in one.symbols.items() if own.size is not None)
         changed = edit.with_symbol(one, name, size=(one.symbol(name).size or 1.0) * 1.001)
         with monkeypatch.context() as patched:
-            patched.setattr(solving.AxisSearch, "best", lambda *_: Best(bound=0.0, complete=False))
+            patched.setattr(AxisSearch, "best", lambda *_: Best(bound=0.0, complete=False))
             cut = solve(changed)
         solving.forget()
         whole = solve(changed)
@@ -233,13 +234,13 @@ class TestReuse:
     @pytest.fixture
     def searched(self, monkeypatch: pytest.MonkeyPatch) -> list[str]:
         """The axes that are searched."""
-        real, seen = solving.AxisSearch.best, []
+        real, seen = AxisSearch.best, []
 
         def spy(walk: Any, *args: Any) -> Any:
             seen.append(walk.problem.axis)
             return real(walk, *args)
 
-        monkeypatch.setattr(solving.AxisSearch, "best", spy)
+        monkeypatch.setattr(AxisSearch, "best", spy)
         return seen
 
     def test_the_other_axis(self, listed: list[str], searched: list[str]) -> None:

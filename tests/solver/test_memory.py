@@ -19,7 +19,8 @@ from facade_nb.design import edit
 from facade_nb.solver import Letter, Objective, align, tuning
 from facade_nb.solver import budget as clock
 from facade_nb.solver import solution as solving
-from facade_nb.solver.alignment.core import binding as compiled
+from facade_nb.solver.alignment.core import instances as compiled
+from facade_nb.solver.alignment.core.binding import CompiledSearch
 from facade_nb.solver.alignment.group import Group, make_group
 from facade_nb.solver.budget import Clock, Stopped
 from facade_nb.solver.cache import CACHE, Kept
@@ -131,7 +132,7 @@ class TestNothingIsLeft:
         rows = [[Letter("A", 1.0)] * 4, [Letter("B", 1.3)] * 3]
         with compiled.session():
             group = compiled_group(rows)
-            run = compiled.CompiledSearch([group])
+            run = CompiledSearch([group])
         with pytest.raises(Stopped) as stopped:
             run.advance(100.0)
         assert stopped.value.full

@@ -10,7 +10,7 @@ import pytest
 from facade_nb import Design, Layout, NoLayout, gallery, solve
 from facade_nb.solver import Letter, Objective, align
 from facade_nb.solver.alignment.group import make_group
-from facade_nb.solver.solution import TOLERANCES
+from facade_nb.solver.schedules.tolerances import TOLERANCES
 from tests.bench.designs import LARGE
 from tests.known import TELLING
 from tests.oracle import PAPER, best

@@ -12,7 +12,7 @@ from ..budget import Stopped
 from ..effort import Effort
 from ..model.letters import Letter
 from ..model.objective import Objective
-from .core.binding import session
+from .core.instances import session
 from .core.search import search_best
 from .found import Found
 from .group import Group, make_group

@@ -8,7 +8,7 @@ from itertools import islice
 from math import inf
 
 from ...design.model import Axis, Design
-from ..alignment.core.binding import session
+from ..alignment.core.instances import session
 from ..alignment.group import Group
 from ..alignment.single import alignment_of
 from ..assembly.axes import axis_layout

@@ -10,7 +10,7 @@ from typing import Any
 
 from ...design.errors import NoLayout
 from ...design.model import AXES, Design
-from ..alignment.core.binding import session
+from ..alignment.core.instances import session
 from ..alignment.core.search import search_best
 from ..alignment.found import Found
 from ..alignment.group import Group
@@ -20,7 +20,8 @@ from ..alignment.single import alignment_of
 from ..effort import Stopped
 from ..model.objective import Objective
 from ..model.problem import axis_problem
-from ..solution import TOLERANCES, solve
+from ..schedules.tolerances import TOLERANCES
+from ..solution import solve
 from .axes import AxisRun, layout_of, run_axis
 from .cases import Case
 from .deepening import Deepened, OwnSide, deepen

@@ -12,7 +12,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from .. import tuning
-from ..alignment.core.binding import start_afresh
+from ..alignment.core.instances import start_afresh
 from ..budget import Stopped
 from ..candidates.stream import CandidateStream
 from ..model.precision import EPS

@@ -13,7 +13,7 @@ from ...design.occurrences import occurrences
 from ...design.pattern import Pattern, parse
 from ...solver import Layout
 from ...solver.model.letters import Letter, Word
-from ...solver.solution import TOLERANCES
+from ...solver.schedules.tolerances import TOLERANCES
 from ...solver.words.neighbours import Choice, choices
 from .model import FacadeModel
 from .newcomers import begun
