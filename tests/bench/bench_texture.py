@@ -11,10 +11,10 @@ import numpy as np
 from facade_nb.render import Grammar
 from facade_nb.render.pipeline.facade import alone, colours
 from facade_nb.render.texture.antialias import ANTIALIAS, smoothed
-from facade_nb.render.texture.evaluating import Question
 from facade_nb.render.texture.gl import GlPainter
 from facade_nb.render.texture.noise import noise_texture
 from facade_nb.render.texture.painters import PAINTERS
+from facade_nb.render.texture.question import Question
 from facade_nb.render.texture.shot import Painter
 from facade_nb.render.texture.view import Sight
 

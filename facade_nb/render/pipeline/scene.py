@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..texture.evaluating import Question
 from ..texture.facades import Facade
 from ..texture.grammar import Grammar
 from ..texture.joining import joined
 from ..texture.noise import Seed
+from ..texture.question import Question
 from ..texture.uploads import Upload, seeds_upload
 from .vertices import VERTEX, turning
 

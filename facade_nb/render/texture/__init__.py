@@ -6,11 +6,11 @@ A text is compiled (`compiling`) into rules (`program`), which are checked (`che
 """
 
 from .encoding import Encoding, decode, encode
-from .evaluating import Surface
 from .grammar import Grammar
 from .operators import OPERATORS, Kind, Operator, Param
 from .picture import render_texture, rules_seen, texture_pixels
 from .program import Rule, Source
+from .question import Surface
 from .view import Sight
 
 __all__ = [

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...design.errors import nearest
-from .evaluating import Question, Surface
+from .question import Question, Surface
 from .shot import Painter, Shot
 from .view import Looks, Sight
 

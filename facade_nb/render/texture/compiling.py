@@ -11,9 +11,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from math import isfinite
 
-from ...design.errors import Fault, cut, nearest, quoted
-from .limits import MAX_HALF, MAX_LEVEL, MAX_PARTS
-from .lines import Lines
+from ...design.errors import Fault, cut, quoted
+from .bound import Bound, Key, Word, checked, plain, told
+from .findings import Findings
+from .limits import MAX_PARTS, MAX_RULES
+from .namespaces import Namespaces
 from .operators import OPERATORS, POLICIES, USAGES, Kind, Operator, Param
 from .program import Rule, Source, Value
 from .syntax import (
@@ -21,62 +23,18 @@ from .syntax import (
     Copy,
     Expression,
     Name,
-    Namespace,
     Number,
     Parameter,
     RuleText,
-    Setting,
     Tile,
     read,
 )
 
 __all__ = ["Compiled", "compile_text"]
 
-MAX_RULES = 20_000
-_SMALLEST = 6e-8
 _MAX_COPIES = 64  # of one rule inside each other
 _MAX_NESTED = 100  # values that another value needs, one inside the other
-_MAX_FAULTS = 1000  # that are looked for
-_MAX_HINTS = 50  # of them that name what may have been meant
 _MAX_NAME = 120  # characters of the name of a copy
-
-
-@dataclass(frozen=True, slots=True)
-class _Key:
-    """A rule of a namespace with the values of its parameters.
-
-    A compiler has one object for each. So they are told apart by identity: they may hold each other, many times over.
-    """
-
-    space: str
-    name: str
-    given: tuple[_Bound, ...] = ()
-    __eq__ = object.__eq__
-    __hash__ = object.__hash__
-
-
-@dataclass(frozen=True, slots=True)
-class _Word:
-    """A constant such as Abs, where a parameter has it as its value."""
-
-    text: str
-
-
-_Bound = float | Source | _Key | _Word
-"""What a parameter or a setting can hold."""
-
-
-@dataclass(slots=True)
-class _Space:
-    """A namespace: its rules and settings, the values that a copy has changed, and those worked out so far.
-
-    A setting that is at fault has None.
-    """
-
-    rules: dict[str, RuleText] = field(default_factory=dict)
-    settings: dict[str, Setting] = field(default_factory=dict)
-    changed: dict[str, _Bound] = field(default_factory=dict)
-    known: dict[str, _Bound | None] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +42,7 @@ class _Scope:
     """Where a name is looked up: parameters of the rule first, then settings of its namespace, then global ones."""
 
     space: str
-    parameters: Mapping[str, _Bound] = field(default_factory=dict)
+    parameters: Mapping[str, Bound] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,34 +83,31 @@ def compile_text(text: str) -> Compiled:
 
 class _Compiler:
     def __init__(self, text: str) -> None:
-        self.text = text
-        self.lines = Lines(text)
-        self.faults: dict[tuple[int, str], None] = {}
-        self.spaces: dict[str, _Space] = {"": _Space()}
-        self.order: list[tuple[str, RuleText]] = []
+        self.findings = Findings(text)
+        reading = read(text)
+        for offset, message in reading.faults:
+            self.findings.note(offset, message)
+        self.statements = reading.statements
+        self.definitions = Namespaces(self.findings, reading.unread)
+        self.spaces, self.order = self.definitions.spaces, self.definitions.order
         self.slots: dict[tuple[str, str], int] = {}  # where a rule stands in file order
-        self.keys: dict[tuple[str, str, tuple[object, ...]], _Key] = {}
-        self.index: dict[_Key, int] = {}
-        self.defaults: dict[tuple[str, int], _Bound | None] = {}
-        self.spelled: dict[_Key, str] = {}
+        self.keys: dict[tuple[str, str, tuple[object, ...]], Key] = {}
+        self.index: dict[Key, int] = {}
+        self.defaults: dict[tuple[str, int], Bound | None] = {}
+        self.spelled: dict[Key, str] = {}
         self.nested = 0
         self.working: set[tuple[str, int]] = set()
         self.rules: list[Rule | None] = []
         self.places: list[Places | None] = []
-        self.waiting: deque[tuple[_Key, int]] = deque()
+        self.waiting: deque[tuple[Key, int]] = deque()
         self.taken: set[int] = set()
         self.tiles: set[tuple[int, str]] = set()
-        self.depth: dict[_Key, int] = {}  # how many copies of rules stand around a copy
+        self.depth: dict[Key, int] = {}  # how many copies of rules stand around a copy
         self.here = 0
         self.settling: set[tuple[str, str]] = set()
-        self.unread: frozenset[str] = frozenset()
 
     def run(self) -> Compiled:
-        reading = read(self.text)
-        self.unread = reading.unread
-        for offset, message in reading.faults:
-            self.fault(offset, message)
-        copies = self._collect(reading.statements)
+        copies = self.definitions.collect(self.statements)
         for space, rule in self.order:
             self.slots[space, rule.name] = len(self.rules)
             self.rules.append(None)
@@ -165,18 +120,9 @@ class _Compiler:
             if all(parameter.default is not None for parameter in rule.parameters):
                 self._use(Name(rule.name, rule.offset, space), _Scope(space), depth=0)
         self._work()
-        if not self.order and not self.faults:
-            self.fault(0, "expected at least one rule, such as S -> Mat(Color, 0, 1, 1, 1, 1)")
+        if not self.order and not self.findings:
+            self.findings.note(0, "expected at least one rule, such as S -> Mat(Color, 0, 1, 1, 1, 1)")
         return self._finished()
-
-    def fault(self, offset: int, message: str) -> None:
-        """Note a fault; the same one at the same place counts once (copies of a rule share its text)."""
-        if len(self.faults) < _MAX_FAULTS:
-            self.faults.setdefault((offset, message), None)
-
-    def hint(self, name: str, valid: Iterable[str]) -> str:
-        """The nearest valid name, as long as there are not too many faults for anyone to read."""
-        return nearest(name, valid) if len(self.faults) < _MAX_HINTS else ""
 
     def _finished(self) -> Compiled:
         """Drop rules with parameters that nobody uses, and number the others."""
@@ -188,74 +134,7 @@ class _Compiler:
             if rule is not None:
                 rules.append(_renumbered(rule, number))
         places = tuple(place for place in self.places if place is not None)
-        faults = [(offset, self.lines.fault(offset, message)) for offset, message in sorted(self.faults)]
-        return Compiled(tuple(rules), places, tuple(sorted(self.tiles)), tuple(faults))
-
-    # Definitions ------------------------------------------------------------------------------------------
-
-    def _collect(self, statements: Iterable[RuleText | Setting | Namespace | Copy]) -> list[Copy]:
-        """Sort definitions into their namespaces; copies of namespaces stand where they are written."""
-        copies = []
-        for statement in statements:
-            match statement:
-                case Namespace() | Copy():
-                    name = statement.name
-                    if name in self.spaces:
-                        self.fault(
-                            statement.offset,
-                            f"the namespace {quoted(name)} is there already: give this one another",
-                        )
-                        continue
-                    if isinstance(statement, Namespace):
-                        self.spaces[name] = _Space()
-                        for item in statement.items:
-                            self._define(name, item)
-                    elif (source := self.spaces.get(statement.source)) is None or not statement.source:
-                        known = [space for space in self.spaces if space]
-                        self.fault(
-                            statement.source_offset,
-                            f"expected a namespace that stands above; found {quoted(statement.source)}"
-                            f"{self.hint(statement.source, known)}",
-                        )
-                        self.unread |= {name}
-                    elif len(self.order) + len(source.rules) > MAX_RULES:
-                        self.fault(statement.offset, f"this copy makes more than {MAX_RULES} rules")
-                        self.unread |= {name}
-                    else:
-                        copy = _Space(dict(source.rules), dict(source.settings))
-                        self.spaces[name] = copy
-                        self.order += [(name, rule) for rule in copy.rules.values()]
-                        copies.append(statement)
-                case _:
-                    self._define("", statement)
-        return copies
-
-    def _define(self, space: str, item: RuleText | Setting) -> None:
-        home = self.spaces[space]
-        there = home.rules.get(item.name) or home.settings.get(item.name)
-        if there is not None:
-            line = self.lines.line(there.offset)
-            self.fault(
-                item.offset,
-                f"{quoted(item.name)} is defined already, on line {line}: give this one another name",
-            )
-        elif len(self.order) >= MAX_RULES:
-            self.fault(item.offset, f"expected at most {MAX_RULES} rules")
-        elif isinstance(item, Setting):
-            home.settings[item.name] = item
-        else:
-            home.rules[item.name] = item
-            self.order.append((space, item))
-            names: set[str] = set()
-            for i, parameter in enumerate(item.parameters):
-                if parameter.name in names:
-                    self.fault(parameter.offset, f"the parameter {quoted(parameter.name)} is there twice")
-                names.add(parameter.name)
-                if parameter.default is None and i and item.parameters[i - 1].default is not None:
-                    self.fault(
-                        parameter.offset,
-                        f"expected a default for {quoted(parameter.name)}, since one before it has one",
-                    )
+        return Compiled(tuple(rules), places, tuple(sorted(self.tiles)), tuple(self.findings.in_order()))
 
     def _change(self, copies: Iterable[Copy]) -> None:
         """Set what copies of namespaces change; a copy of a copy has the changes of both."""
@@ -265,14 +144,14 @@ class _Compiler:
             seen: set[str] = set()
             for argument in copy.arguments:
                 if argument.name not in space.settings:
-                    self.fault(
+                    self.findings.note(
                         argument.offset,
                         f"the namespace {quoted(copy.source)} has no setting {quoted(argument.name)}"
-                        f"{self.hint(argument.name, space.settings)}",
+                        f"{self.findings.hint(argument.name, space.settings)}",
                     )
                     continue
                 if argument.name in seen:
-                    self.fault(argument.offset, f"the setting {quoted(argument.name)} is there twice")
+                    self.findings.note(argument.offset, f"the setting {quoted(argument.name)} is there twice")
                 seen.add(argument.name)
                 value = self._value(argument.value, _Scope(""))
                 if value is not None:
@@ -280,7 +159,7 @@ class _Compiler:
 
     # Values -----------------------------------------------------------------------------------------------
 
-    def _setting(self, space: str, name: str, offset: int) -> _Bound | None:
+    def _setting(self, space: str, name: str, offset: int) -> Bound | None:
         """The value of a setting: looked up in its namespace; settings may use each other, but not in a circle.
 
         What a setting uses is worked out before it, so that no chain of them, however long, is a depth of calls.
@@ -291,7 +170,7 @@ class _Compiler:
         if name in home.known:
             return home.known[name]
         if (space, name) in self.settling:
-            self.fault(offset, f"the setting {quoted(name)} needs itself for its own value")
+            self.findings.note(offset, f"the setting {quoted(name)} needs itself for its own value")
             return None
         waiting = [(space, name, False)]
         begun: set[tuple[str, str]] = set()
@@ -327,10 +206,12 @@ class _Compiler:
                 case Name(arguments=arguments):
                     waiting += [argument.value for argument in arguments or ()]
 
-    def _value(self, expression: Expression, scope: _Scope) -> _Bound | None:
+    def _value(self, expression: Expression, scope: _Scope) -> Bound | None:
         """What an expression stands for; None after a fault."""
         if self.nested >= _MAX_NESTED:
-            self.fault(expression.offset, f"this value is needed by more than {_MAX_NESTED} others in a row")
+            self.findings.note(
+                expression.offset, f"this value is needed by more than {_MAX_NESTED} others in a row"
+            )
             return None
         self.nested += 1
         try:
@@ -338,11 +219,11 @@ class _Compiler:
         finally:
             self.nested -= 1
 
-    def _made(self, expression: Expression, scope: _Scope) -> _Bound | None:
+    def _made(self, expression: Expression, scope: _Scope) -> Bound | None:
         match expression:
             case Number(value=value, text=text):
                 if text:
-                    self.fault(
+                    self.findings.note(
                         expression.offset, f"expected a number that can be calculated with; found {cut(text)}"
                     )
                     return None
@@ -357,7 +238,7 @@ class _Compiler:
                 if bound is not None:
                     return bound
                 if expression.text in (*POLICIES, *USAGES) and not self._is_rule(expression, scope):
-                    return _Word(expression.text)
+                    return Word(expression.text)
                 return self._use(expression, scope)
 
     def _binary(self, expression: Binary, scope: _Scope) -> float | None:
@@ -371,7 +252,7 @@ class _Compiler:
             if value is None or right is None:
                 return None
             if step.sign == "/" and right == 0:
-                self.fault(step.right.offset, "expected a divisor other than 0")
+                self.findings.note(step.right.offset, "expected a divisor other than 0")
                 return None
             match step.sign:
                 case "+":
@@ -385,7 +266,9 @@ class _Compiler:
                 case _:
                     value /= right
             if not isfinite(value):
-                self.fault(step.offset, "expected a result that can be calculated with; it is too large")
+                self.findings.note(
+                    step.offset, "expected a result that can be calculated with; it is too large"
+                )
                 return None
         return value
 
@@ -393,13 +276,13 @@ class _Compiler:
         value = self._value(expression, scope)
         if value is None or isinstance(value, float):
             return value
-        self.fault(expression.offset, f"expected a number to calculate with; found {_told(value)}")
+        self.findings.note(expression.offset, f"expected a number to calculate with; found {told(value)}")
         return None
 
     def _is_rule(self, name: Name, scope: _Scope) -> bool:
         return name.text in self.spaces[scope.space].rules or name.text in self.spaces[""].rules
 
-    def _bound(self, name: Name, scope: _Scope) -> _Bound | None:
+    def _bound(self, name: Name, scope: _Scope) -> Bound | None:
         """The value of the parameter or setting that a name stands for; None if it stands for neither."""
         if name.space or name.arguments is not None:
             return None
@@ -412,7 +295,7 @@ class _Compiler:
 
     # Rules ------------------------------------------------------------------------------------------------
 
-    def _use(self, name: Name, scope: _Scope, depth: int | None = None) -> _Key | None:
+    def _use(self, name: Name, scope: _Scope, depth: int | None = None) -> Key | None:
         """The copy of a rule that a name asks for, made where it is new; None after a fault."""
         found = self._find(name, scope)
         if found is None:
@@ -421,11 +304,11 @@ class _Compiler:
         given = self._given(name, space, rule, scope)
         if given is None:
             return None
-        key = self.keys.setdefault((space, rule.name, given), _Key(space, rule.name, given))
+        key = self.keys.setdefault((space, rule.name, given), Key(space, rule.name, given))
         if key not in self.index:
             below = depth if depth is not None else self.here + 1
             if len(self.rules) >= MAX_RULES or below > _MAX_COPIES:
-                self.fault(
+                self.findings.note(
                     name.offset,
                     f"{quoted(name)} makes copies of itself without end"
                     if below > _MAX_COPIES
@@ -446,11 +329,11 @@ class _Compiler:
     def _find(self, name: Name, scope: _Scope) -> tuple[str, RuleText] | None:
         if name.space:
             if name.space not in self.spaces:
-                if name.space not in self.unread:
+                if name.space not in self.definitions.unread:
                     known = [space for space in self.spaces if space]
-                    self.fault(
+                    self.findings.note(
                         name.offset,
-                        f"there is no namespace {quoted(name.space)}{self.hint(name.space, known)}",
+                        f"there is no namespace {quoted(name.space)}{self.findings.hint(name.space, known)}",
                     )
                 return None
             places: tuple[str, ...] = (name.space,)
@@ -462,15 +345,15 @@ class _Compiler:
         settings = any(name.text in self.spaces[space].settings for space in places)
         if settings and not name.space:
             if name.arguments is not None:
-                self.fault(
+                self.findings.note(
                     name.offset, f"{quoted(name.text)} is a setting: it takes no values in parentheses"
                 )
             return None  # else its value has had a fault of its own
-        if name.text not in self.unread:
-            hint = self.hint(name.text, self._known(name, scope, places))
+        if name.text not in self.definitions.unread:
+            hint = self.findings.hint(name.text, self._known(name, scope, places))
             if not hint and name.text in OPERATORS:
                 hint = f"; {name.text!r} is an operator: give a rule of that name, such as Skip -> Skip(0)"
-            self.fault(name.offset, f"there is no rule {quoted(name)}{hint}")
+            self.findings.note(name.offset, f"there is no rule {quoted(name)}{hint}")
         return None
 
     def _known(self, name: Name, scope: _Scope, places: Iterable[str]) -> Iterator[str]:
@@ -481,9 +364,9 @@ class _Compiler:
             yield from scope.parameters
             yield from self.spaces[scope.space].settings
 
-    def _given(self, name: Name, space: str, rule: RuleText, scope: _Scope) -> tuple[_Bound, ...] | None:
+    def _given(self, name: Name, space: str, rule: RuleText, scope: _Scope) -> tuple[Bound, ...] | None:
         """The values of a rule's parameters: as given, else the defaults."""
-        given: dict[str, _Bound | None] = {}
+        given: dict[str, Bound | None] = {}
         names = {parameter.name: k for k, parameter in enumerate(rule.parameters)}
         order = tuple(names)
         place = 0
@@ -491,20 +374,20 @@ class _Compiler:
             to = argument.name or (order[place] if place < len(order) else "")
             place += not argument.name
             if argument.name and argument.name not in names:
-                self.fault(
+                self.findings.note(
                     argument.offset,
                     f"the rule {quoted(rule.name)} has no parameter {quoted(argument.name)}"
-                    f"{self.hint(argument.name, names)}",
+                    f"{self.findings.hint(argument.name, names)}",
                 )
             elif not to:
-                told = f"{len(names)} parameter{'s' * (len(names) != 1)}" if names else "no parameters"
-                self.fault(
+                has = f"{len(names)} parameter{'s' * (len(names) != 1)}" if names else "no parameters"
+                self.findings.note(
                     argument.offset,
-                    f"the rule {quoted(rule.name)} has {told}; found {len(name.arguments or ())}",
+                    f"the rule {quoted(rule.name)} has {has}; found {len(name.arguments or ())}",
                 )
                 return None
             elif to in given:
-                self.fault(argument.offset, f"the parameter {quoted(to)} is given twice")
+                self.findings.note(argument.offset, f"the parameter {quoted(to)} is given twice")
             else:
                 given[to] = self._value(argument.value, scope)
         values = []
@@ -519,20 +402,20 @@ class _Compiler:
             values.append(value)
         return tuple(values)
 
-    def _default(self, name: Name, space: str, rule: RuleText, parameter: Parameter) -> _Bound | None:
+    def _default(self, name: Name, space: str, rule: RuleText, parameter: Parameter) -> Bound | None:
         if parameter.default is None:
-            self.fault(
+            self.findings.note(
                 name.offset,
                 f"the rule {quoted(rule.name)} needs a value for its parameter {quoted(parameter.name)}",
             )
             return None
         return self._worked_out(space, parameter.default)
 
-    def _worked_out(self, space: str, default: Expression) -> _Bound | None:
+    def _worked_out(self, space: str, default: Expression) -> Bound | None:
         """The value of a default, which is worked out once."""
         place = (space, default.offset)
         if place in self.working:
-            self.fault(default.offset, "this default needs itself for its own value")
+            self.findings.note(default.offset, "this default needs itself for its own value")
             return None
         if place not in self.defaults:
             self.working.add(place)
@@ -551,7 +434,7 @@ class _Compiler:
             made = self._rule(self._spelled(key), rule, scope)
             self.rules[slot], self.places[slot] = made
 
-    def _spelled(self, key: _Key) -> str:
+    def _spelled(self, key: Key) -> str:
         """A copy's name: arguments are named where they are not the defaults."""
         if key in self.spelled:
             return self.spelled[key]
@@ -560,7 +443,7 @@ class _Compiler:
             self.spaces[key.space].rules[key.name].parameters, key.given, strict=True
         ):
             if parameter.default is None or value != self._worked_out(key.space, parameter.default):
-                text = self._spelled(value) if isinstance(value, _Key) else _plain(value)
+                text = self._spelled(value) if isinstance(value, Key) else plain(value)
                 said.append(f"{parameter.name}={text}")
         name = f"{key.space}.{key.name}" if key.space else key.name
         self.spelled[key] = f"{name}({cut(', '.join(said), _MAX_NAME)})" if said else name
@@ -569,11 +452,11 @@ class _Compiler:
     def _rule(self, name: str, rule: RuleText, scope: _Scope) -> tuple[Rule | None, Places | None]:
         operator = OPERATORS.get(rule.operator)
         if operator is None:
-            hint = self.hint(rule.operator, OPERATORS)
+            hint = self.findings.hint(rule.operator, OPERATORS)
             if any(rule.operator in self.spaces[space].rules for space in (scope.space, "")):
-                told = cut(rule.operator)
-                hint = f"; {told!r} is a rule: write Layer({told}) to go on with it alone"
-            self.fault(rule.operator_offset, f"there is no operator {quoted(rule.operator)}{hint}")
+                short = cut(rule.operator)
+                hint = f"; {short!r} is a rule: write Layer({short}) to go on with it alone"
+            self.findings.note(rule.operator_offset, f"there is no operator {quoted(rule.operator)}{hint}")
             for argument in rule.arguments:  # so that faults in it are found as well
                 if isinstance(argument, Name) and argument.text not in (*POLICIES, *USAGES):
                     self._value(argument, scope)
@@ -600,7 +483,9 @@ class _Compiler:
         count, fixed, size = len(rule.arguments), len(operator.fixed), len(operator.part)
         further = count - fixed
         if size and further // size > MAX_PARTS:
-            self.fault(rule.operator_offset, f"expected at most {MAX_PARTS} parts; found {further // size}")
+            self.findings.note(
+                rule.operator_offset, f"expected at most {MAX_PARTS} parts; found {further // size}"
+            )
             return None
         if (not size and not further) or (size and further >= size and further % size == 0):
             return [*operator.fixed, *(operator.part * (further // size if size else 0))]
@@ -611,7 +496,7 @@ class _Compiler:
         else:
             names = ", ".join(param.kind.value for param in operator.part)
             wanted = f"{f'{fixed} value, then ' if fixed else ''}{size} values for each part ({names})"
-        self.fault(
+        self.findings.note(
             rule.operator_offset,
             f"{operator.signature} takes {wanted}; found {count}",
         )
@@ -627,73 +512,19 @@ class _Compiler:
         words = {Kind.POLICY: POLICIES, Kind.USAGE: USAGES}.get(param.kind)
         if words is not None and isinstance(argument, Name) and self._bound(argument, scope) is None:
             if argument.text not in words or argument.space or argument.arguments is not None:
-                self.fault(
+                self.findings.note(
                     argument.offset,
-                    f"expected {param.kind.value}; found {quoted(argument)}{self.hint(argument.text, words)}",
+                    f"expected {param.kind.value}; found {quoted(argument)}{self.findings.hint(argument.text, words)}",
                 )
                 return None
             return words[argument.text]
         value = self._value(argument, scope)
         if value is None:
             return None
-        made, problem = _checked(param, value, self.index)
+        made, problem = checked(param, value, self.index)
         if problem:
-            self.fault(argument.offset, f"expected {problem}; found {_told(value)}")
+            self.findings.note(argument.offset, f"expected {problem}; found {told(value)}")
         return made
-
-
-def _checked(param: Param, value: _Bound, index: Mapping[_Key, int]) -> tuple[Value | None, str]:
-    """A value as a kind asks, or what was expected."""
-    wanted = f"{param.kind.value} for {param.name}"
-    match param.kind, value:
-        case Kind.RULE, _Key():
-            return index[value], ""
-        case Kind.POLICY, _Word(text=text) if text in POLICIES:
-            return POLICIES[text], ""
-        case Kind.USAGE, _Word(text=text) if text in USAGES:
-            return USAGES[text], ""
-        case Kind.SOURCE, Source():
-            return value, ""
-        case Kind.SOURCE, float() if value == 0:
-            return Source(), ""
-        case Kind.MASK, Source(mode="Fit"):
-            return value, ""
-        case Kind.LEVEL, float() if 0 <= value < MAX_LEVEL and value == int(value):
-            return int(value), ""
-        case Kind.LEVEL, float() if value >= MAX_LEVEL:
-            return None, f"{wanted}, below {MAX_LEVEL}"
-        case ((Kind.SIZE | Kind.WEIGHT | Kind.NUMBER), float()) if (
-            not isfinite(value) or abs(value) > MAX_HALF
-        ):
-            return None, f"a number that 16 bits can hold, at most {MAX_HALF:g}"
-        case ((Kind.SIZE | Kind.WEIGHT), float()) if 0 < value < _SMALLEST:
-            return None, f"a number that 16 bits can hold, at least {_SMALLEST:g}"
-        case Kind.SIZE, float() if value > 0:
-            return value, ""
-        case Kind.WEIGHT, float() if 0 < value <= 1:
-            return value, ""
-        case Kind.NUMBER, float():
-            return value, ""
-    return None, wanted
-
-
-def _told(value: _Bound) -> str:
-    """A value as messages name it."""
-    match value:
-        case float():
-            return f"{value:g}"
-        case Source():
-            return quoted(value)
-        case _Word(text=text):
-            return repr(text)
-        case _Key(name=name):
-            return f"the rule {quoted(name)}"
-
-
-def _plain(value: _Bound) -> str:
-    return (
-        value.text if isinstance(value, _Word) else f"{value:g}" if isinstance(value, float) else str(value)
-    )
 
 
 def _renumbered(rule: Rule, number: Mapping[int, int]) -> Rule:

@@ -12,22 +12,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .atlas import Atlas
 from .batch import Batch, Floats, joined
 from .dividing import half_step, pick, repeated, split
 from .encoding import Record
 from .limits import MAX_STEPS
-from .noise import Seed, look_up, steps_of
+from .noise import look_up, steps_of
 from .operators import USAGES
+from .question import Question, Surface
 from .relief import Struck, strike
 from .steps import FACES, Chosen, Divided, Entered, Layered, Painted, Passed, Stacked, Step
 
-__all__ = ["BELOW_ONE", "OPAQUE", "Question", "Surface", "evaluate"]
+__all__ = ["BELOW_ONE", "OPAQUE", "evaluate"]
 
 OPAQUE = np.float32(0.999)
 """From this alpha on, colour hides what lies below."""
@@ -39,73 +39,6 @@ _CHUNK = 1 << 16
 _TINY, _HUGE, _FAR = np.float32(1e-30), np.float32(1e30), np.float32(1e9)
 _STEEP, _SHARE, _LONG = np.float32(1000), np.float32(1 / 9), np.float32(16)
 _USAGES = {number: name for name, number in USAGES.items()}
-
-
-class Surface(NamedTuple):
-    """What a grammar gives at n points.
-
-    Attributes
-    ----------
-    color
-        (n, 4) float32: red, green and blue multiplied by alpha, and alpha, as Eq. 2 and 3 add them up.
-    normal
-        (n, 4) float32: the same of the normal, written as (n + 1) / 2: x to the right, y up, z out of the
-        façade, also where it comes from a face of an intrusion.
-    specular
-        (n, 4) float32: the same of the specular value.
-    rule
-        (n,) int32: the topmost terminal rule that gave colour with alpha above 0; -1 where there is none.
-    """
-
-    color: Floats
-    normal: Floats
-    specular: Floats
-    rule: NDArray[np.int32]
-
-
-class Question(NamedTuple):
-    """What is asked of a grammar, but for the points.
-
-    Attributes
-    ----------
-    texture
-        The grammar's texture.
-    records
-        The rules, read from it.
-    names
-        Of the rules.
-    start
-        The rule to begin with.
-    size
-        Of the façade, metres.
-    seed
-        Of the façade.
-    atlas
-        The tiles.
-    recurs
-        Whether a rule can come back to itself: only then steps are counted, for otherwise there are few enough.
-    stacks
-        How many Layer operators, and how many RandStack ones, can stand inside each other: room that the shader needs.
-    rooms
-        How many Intrusion operators can.
-    relief
-        Whether tiles with heights in the atlas are seen with their relief.
-    sun
-        Towards the sun: x to the right, y up, z out of the façade. The relief throws shadows if z is above 0.
-    """
-
-    texture: NDArray[Any]
-    records: Sequence[Record]
-    names: Sequence[str]
-    start: int
-    size: tuple[float, float]
-    seed: Seed
-    atlas: Atlas
-    recurs: bool
-    stacks: tuple[int, int]
-    rooms: int
-    relief: bool = False
-    sun: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 def evaluate(

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .atlas import Atlas
-from .evaluating import Question, Surface
 from .osmesa import OSMesaContext, find_osmesa
+from .question import Question, Surface
 from .shaders import room, rooms_for, shader
 from .shot import Shot, spread
 from .uploads import Upload, grammar_upload, tile_uploads, uniforms

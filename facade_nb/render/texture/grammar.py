@@ -22,10 +22,11 @@ from .atlas import Atlas, Tiles, pack
 from .checks import Finding, check_rules, check_tiles, depths
 from .compiling import Places, compile_text
 from .encoding import Encoding, Record, encode, read_records
-from .evaluating import Question, Surface, evaluate
+from .evaluating import evaluate
 from .lines import Lines
 from .noise import Seed
 from .program import Rule
+from .question import Question, Surface
 
 if TYPE_CHECKING:
     from .steps import Step

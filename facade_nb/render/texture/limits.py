@@ -12,6 +12,7 @@ __all__ = [
     "MAX_HALF",
     "MAX_LEVEL",
     "MAX_PARTS",
+    "MAX_RULES",
     "MAX_SEEDS",
     "MAX_STEPS",
     "half_step_of",
@@ -37,6 +38,9 @@ MAX_HALF = 65504.0
 
 MAX_PARTS = 8000
 """Parts of one rule: a texture's row holds them in any browser."""
+
+MAX_RULES = 20_000
+"""Rules of one grammar, copies with other arguments among them."""
 
 MAX_LEVEL = 2**24
 """Layers and corners are counted below this, up to which 32-bit floats hold every whole number."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..developing import developed, floats
 from .antialias import averaged
 from .daytime import Daytime, light
-from .evaluating import Question
+from .question import Question
 from .shot import Painter
 from .view import Sight
 

@@ -8,8 +8,9 @@ import numpy as np
 
 from ...design.errors import nearest
 from ..backends import BackendError
-from .evaluating import Question, evaluate
+from .evaluating import evaluate
 from .gl import EGL, OSMESA
+from .question import Question
 from .shot import Painter, Shot, spread
 from .view import Looks, Sight
 

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .evaluating import Question, Surface
+from .question import Question, Surface
 from .view import Looks, Sight
 
 __all__ = ["Painter", "Shot", "spread"]

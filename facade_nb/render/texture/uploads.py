@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .atlas import Atlas
-from .evaluating import Question
 from .noise import Seed, noise_texture
+from .question import Question
 
 __all__ = [
     "Upload",

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...render import Grammar
 from ...render.texture.atlas import Tiles
-from ...render.texture.evaluating import Question
+from ...render.texture.question import Question
 from ...render.tiles import TileSet
 
 __all__ = ["COARSE", "coarse_tiles", "question_of", "tiles_of", "tiles_piece"]

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from facade_nb.render import Grammar
 from facade_nb.render.texture.antialias import ANTIALIAS, smoothed
-from facade_nb.render.texture.evaluating import Question
 from facade_nb.render.texture.painters import PAINTERS
+from facade_nb.render.texture.question import Question
 from facade_nb.render.texture.shot import Shot
 from facade_nb.render.texture.view import Sight
 

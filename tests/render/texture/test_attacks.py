@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from facade_nb.cli import main
 from facade_nb.design.errors import DesignError, GrammarError
 from facade_nb.render import Grammar
-from facade_nb.render.texture import checks, compiling, syntax
+from facade_nb.render.texture import checks, findings, syntax
 from facade_nb.render.texture.picture import rules_seen
 from facade_nb.render.texture.view import Sight
 
@@ -129,9 +129,9 @@ class TestMany:
 
     def test_unknown_rules(self, monkeypatch: pytest.MonkeyPatch) -> None:
         asked: list[str] = []
-        nearest = compiling.nearest
+        nearest = findings.nearest
         monkeypatch.setattr(
-            compiling, "nearest", lambda name, valid: (asked.append(name), nearest(name, valid))[1]
+            findings, "nearest", lambda name, valid: (asked.append(name), nearest(name, valid))[1]
         )
         found = tried("\n".join(f"R{k} -> Layer(Y{k})" for k in range(3000)))
         assert isinstance(found, GrammarError) and len(found.faults) == 1000 and len(asked) == 50

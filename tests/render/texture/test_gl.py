@@ -21,11 +21,12 @@ from PIL import Image
 from facade_nb.render import Grammar
 from facade_nb.render.backends import BackendError
 from facade_nb.render.texture import OPERATORS, Surface
-from facade_nb.render.texture.evaluating import Question, evaluate
+from facade_nb.render.texture.evaluating import evaluate
 from facade_nb.render.texture.facades import Facade
 from facade_nb.render.texture.gl import EGL, OSMESA, GlPainter
 from facade_nb.render.texture.painters import PAINTERS, choose_painter
 from facade_nb.render.texture.picture import render_texture
+from facade_nb.render.texture.question import Question
 from facade_nb.render.texture.shaders import PROFILES, shader
 from facade_nb.render.texture.steps import Chosen, Painted, Passed, Step
 from facade_nb.render.texture.view import Looks, Sight

@@ -19,12 +19,13 @@ from facade_nb.render.pipeline.renderer import Renderer, renderer_of
 from facade_nb.render.pipeline.scene import Scene
 from facade_nb.render.pipeline.viewpoint import Viewpoint
 from facade_nb.render.texture.daytime import Daytime
-from facade_nb.render.texture.evaluating import Question, evaluate
+from facade_nb.render.texture.evaluating import evaluate
 from facade_nb.render.texture.facades import Facade
 from facade_nb.render.texture.gl import OSMESA
 from facade_nb.render.texture.painters import PAINTERS
 from facade_nb.render.texture.photograph import Photo, photograph
 from facade_nb.render.texture.picture import texture_pixels
+from facade_nb.render.texture.question import Question
 from facade_nb.render.texture.shaders import PROFILES, shader
 from facade_nb.render.texture.view import Looks as Points
 from facade_nb.render.texture.view import Sight
