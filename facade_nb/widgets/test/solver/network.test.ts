@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it } from "vitest";
 import { unpack } from "../../src/shared/packing.ts";
 import { target } from "../../src/solver/links.ts";
-import { curveOf, pointOf } from "../../src/solver/network/paint.ts";
+import { curveOf, pointOf } from "../../src/solver/network/curves.ts";
 import { baseOf, pathArcs, sceneOf } from "../../src/solver/network/scene.ts";
 import { type NetworkData, Story, type Subject } from "../../src/solver/network/story.ts";
 import { Timeline, type TimelineData } from "../../src/solver/timeline.ts";

@@ -6,7 +6,7 @@ import { type LetterNote, nameOf as letterName } from "../letters.ts";
 import { linked, target } from "../links.ts";
 import { rowsNamed } from "../weights.ts";
 import { metres, type Numbers, type Standing, sum } from "./numbers.ts";
-import type { Arc } from "./scene.ts";
+import type { Arc, Scene } from "./scene.ts";
 import { restOf, type Subject } from "./story.ts";
 
 const MOST = 40;
@@ -141,4 +141,34 @@ export function litLetters(subject: Subject, keys: ReadonlySet<string>): Set<str
       if (own.some((key) => keys.has(key))) found.add(`${b}:${n}`);
     }
   return found;
+}
+
+/** What the words mean, where they are first used. */
+export function meanings(): HTMLElement {
+  const words = Object.entries(MEANINGS).flatMap(([word, meaning]) => [h("dt", {}, word), h("dd", {}, meaning)]);
+  const numbers = [
+    h("dt", {}, "g + h = f"),
+    h("dd", {}, "J of what is laid; what is still to come at least; what an alignment that goes on so costs at least"),
+  ];
+  return h(
+    "details",
+    { class: "fnb-net-meanings" },
+    h("summary", {}, "What permitted, waiting, expanded, pruned, forbidden and g + h = f mean"),
+    h("dl", {}, ...words, ...numbers),
+  );
+}
+
+/** What a node is, in a line. */
+export function nodeSentence(scene: Scene, places: readonly number[]): string {
+  const rests = scene.subject.bands.map((band, b) => restOf(band, places[b] ?? 0)).join(" / ");
+  const own = scene.nodes.get([places[scene.pair[0]] ?? 0, places[scene.pair[1]] ?? 0].join());
+  const numbers = own?.numbers ? `: g + h = f, ${sum(own.numbers)} m, ${own.numbers.standing}` : "";
+  return `${rests}${numbers}${own && own.taken > 1 ? ` (${own.taken} times)` : ""}`;
+}
+
+/** What an arc is, in a line. */
+export function arcSentence(subject: Subject, arc: Arc): string {
+  const names = columnText(subject, arc.column, arc.to).textContent ?? "";
+  const omega = arc.omega === null ? "" : `, ω = ${formatNumber(arc.omega)} m`;
+  return `${[...names].join(" ")}${omega}${arc.constraint ? `: ${arc.text}` : ""}`;
 }

@@ -3,33 +3,16 @@
 import type { Verdict } from "../../shared/quiz.ts";
 import type { LetterNote } from "../letters.ts";
 import type { Built } from "./building.ts";
+import { ASPECT, curveOf, pointOf } from "./curves.ts";
+import type { Look } from "./look.ts";
 import type { Camera, Point } from "./plane.ts";
 import type { Arc, ArcKind, Scene } from "./scene.ts";
 import { restOf } from "./story.ts";
 
-export const ASPECT = 0.58; // rows are so much closer than columns
 export const MARGIN = { left: 46, top: 44, right: 44, bottom: 26 };
 const BOXES = 58; // pixels between columns from which nodes are boxes with words in them
 const DOTS = 11; // from which every node is drawn
 const STRIP = 30;
-
-/** Colours and fonts, as the page's theme has them. */
-export interface Look {
-  ink: string;
-  muted: string;
-  paper: string;
-  step: string;
-  arc: string;
-  path: string;
-  error: string;
-  good: string;
-  bad: string;
-  lit: string;
-  region: string;
-  mono: string;
-  onHue: string;
-  hue(symbol: string): string;
-}
 
 export interface Marks {
   lit: ReadonlySet<string>;
@@ -43,40 +26,6 @@ export interface Marks {
   choices: ReadonlyMap<string, string>;
   /** How a choice stands, by its key. */
   verdict(key: string): Verdict;
-}
-
-export function pointOf(scene: Pick<Scene, "pair">, places: readonly number[]): Point {
-  const [a, b] = scene.pair;
-  return { x: (places[b] ?? 0) / 2, y: a < 0 ? 0 : ((places[a] ?? 0) / 2) * ASPECT };
-}
-
-export function boundsOf(scene: Scene) {
-  const [rows, cols] = scene.size;
-  // Arcs along the first row bend above it, those along the last column beyond it, at the most by half of their bend.
-  const above = bendOf(scene, cols - 1, 0) / 2;
-  const beyond = rows > 1 ? bendOf(scene, 0, (rows - 1) * ASPECT) / 2 : 0;
-  return {
-    left: -0.4,
-    right: cols - 1 + Math.max(0.4, beyond + 0.1),
-    top: -Math.max(0.25, above + 0.08),
-    bottom: (rows - 1) * ASPECT + 0.3,
-  };
-}
-
-/** How far the point that bends an arc lies beside its chord: longer arcs bend more, but not as much as they are longer. */
-function bendOf(scene: Pick<Scene, "size">, dx: number, dy: number): number {
-  const length = Math.hypot(dx, dy);
-  const flat = dx === 0 || dy === 0;
-  const share = scene.size[0] === 1 ? 0.3 : flat ? 0.16 : 0.09;
-  return share * (length <= 2 ? length : Math.sqrt(2 * length));
-}
-
-/** The curve of an arc: its ends and the point that bends it. */
-export function curveOf(scene: Scene, arc: Arc): [Point, Point, Point] {
-  const [from, to] = [pointOf(scene, arc.from), pointOf(scene, arc.to)];
-  const [dx, dy] = [to.x - from.x, to.y - from.y];
-  const bend = bendOf(scene, dx, dy) / (Math.hypot(dx, dy) || 1);
-  return [from, { x: (from.x + to.x) / 2 + dy * bend, y: (from.y + to.y) / 2 - dx * bend }, to];
 }
 
 export function paint(

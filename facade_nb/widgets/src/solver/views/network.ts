@@ -10,9 +10,11 @@ import { ledgerOfPath } from "../align/question.ts";
 import type { Alternative } from "../alternatives.ts";
 import { target } from "../links.ts";
 import { BuildBar } from "../network/buildbar.ts";
-import { columnText, LeavingList, litLetters, MEANINGS } from "../network/lists.ts";
-import { edgesAt, gone, sum } from "../network/numbers.ts";
-import { ASPECT, boundsOf, curveOf, type Look, MARGIN, paint, pointOf } from "../network/paint.ts";
+import { arcAt, boundsOf, nodeAt, nodeTowards, pointOf } from "../network/curves.ts";
+import { arcSentence, LeavingList, litLetters, meanings, nodeSentence } from "../network/lists.ts";
+import { type Look, lookOf } from "../network/look.ts";
+import { edgesAt, gone } from "../network/numbers.ts";
+import { MARGIN, paint } from "../network/paint.ts";
 import { Plane, type Point } from "../network/plane.ts";
 import { type Choice, choicesOf, keyOf, nameOf, question } from "../network/question.ts";
 import {
@@ -26,7 +28,7 @@ import {
   sceneBuilt,
   sceneOf,
 } from "../network/scene.ts";
-import { type NetworkData, PRUNED, restOf, Story, type Subject, sizeOf, TAKEN, type Told } from "../network/story.ts";
+import { type NetworkData, PRUNED, Story, type Subject, sizeOf, TAKEN, type Told } from "../network/story.ts";
 import { Strip } from "../network/strip.ts";
 import { warp } from "../network/warp.ts";
 import type { View, ViewContext, ViewKind } from "../view.ts";
@@ -479,11 +481,11 @@ class NetworkView implements View {
       links.hover([]);
       return;
     }
-    const node = this.nodeAt(at);
-    const arc = node ? null : this.arcAt(at);
+    const node = nodeAt(scene, this.plane.camera.scale, at);
+    const arc = node ? null : arcAt(scene, this.plane.camera.scale, at);
     this.hovered = arc;
     this.hovering = node;
-    mark(this.plane.canvas, "title", arc ? this.sentence(arc) : node ? this.nodeSentence(node) : null);
+    mark(this.plane.canvas, "title", arc ? arcSentence(scene.subject, arc) : node ? nodeSentence(scene, node) : null);
     if (node) links.hover([nodeKey(scene.subject, node)]);
     else if (arc) {
       const path = scene.subject.path;
@@ -496,13 +498,13 @@ class NetworkView implements View {
     const scene = this.scene;
     if (!scene) return;
     this.plane.canvas.focus({ preventScroll: true });
-    const arc = this.nodeAt(at) ? null : this.arcAt(at);
+    const arc = nodeAt(scene, this.plane.camera.scale, at) ? null : arcAt(scene, this.plane.camera.scale, at);
     if (this.quiz.on && arc) {
       const own = this.choices().find((one) => keyOf(one) === `${arc.key}>${arc.to.join(",")}`);
       if (own) this.quiz.choose(keyOf(own));
       return;
     }
-    const node = this.nodeAt(at);
+    const node = nodeAt(scene, this.plane.camera.scale, at);
     if (node) this.context.links.toggle([nodeKey(scene.subject, node)]);
     else if (arc) this.context.links.toggle([arc.key]);
     else this.context.links.release();
@@ -510,126 +512,18 @@ class NetworkView implements View {
 
   private key(event: KeyboardEvent): boolean {
     const scene = this.scene;
-    const moves: Record<string, [number, number]> = {
-      ArrowLeft: [0, -1],
-      ArrowRight: [0, 1],
-      ArrowUp: [-1, 0],
-      ArrowDown: [1, 0],
-    };
-    const move = moves[event.key];
-    if (!scene || !move) return false;
-    const [a, b] = scene.pair;
-    const places = [...(scene.focus ?? scene.subject.bands.map(() => 0))];
-    const go = (band: number, by: number) => {
-      if (band < 0 || !by) return;
-      const most = 2 * (scene.subject.bands[band]?.letters.length ?? 0);
-      const at = places[band] ?? 0;
-      places[band] = Math.max(0, Math.min(most, at & 1 ? at + by : at + 2 * by));
-    };
-    go(a, move[0]);
-    go(b, move[1]);
+    const places = scene && nodeTowards(scene, event.key);
+    if (!scene || !places) return false;
     this.context.links.release();
     this.context.links.toggle([nodeKey(scene.subject, places)]);
     this.plane.reveal(pointOf(scene, places));
     return true;
   }
 
-  /** The node under a point of the drawing. */
-  private nodeAt({ x, y }: Point): number[] | null {
-    const scene = this.scene as Scene;
-    const cell = this.plane.camera.scale;
-    const near = Math.min(0.4, Math.max(0.12, 9 / cell));
-    const [a, b] = scene.pair;
-    const known = [...scene.cut, ...[...scene.nodes.values()].map((own) => own.places)].filter((places) =>
-      places.some((place) => place & 1),
-    );
-    for (const places of known) {
-      const at = pointOf(scene, places);
-      if (Math.hypot(at.x - x, at.y - y) < Math.min(near, 0.15)) return places;
-    }
-    const [i, j] = [a < 0 ? 0 : Math.round(y / ASPECT), Math.round(x)];
-    const [rows, cols] = scene.size;
-    if (i < 0 || j < 0 || i >= rows || j >= cols) return null;
-    if (Math.abs(x - j) > near || Math.abs(y - (a < 0 ? 0 : i * ASPECT)) > near * 0.7) return null;
-    const found = scene.nodes.get(`${a < 0 ? 0 : 2 * i},${2 * j}`);
-    if (found) return found.places;
-    return scene.subject.bands.length > 2
-      ? null
-      : scene.subject.bands.map((_, n) => (n === a ? 2 * i : n === b ? 2 * j : 0));
-  }
-
-  /** The arc that is nearest to a point, of those that are near. */
-  private arcAt(at: Point): Arc | null {
-    const scene = this.scene as Scene;
-    let [found, best]: [Arc | null, number] = [null, 8 / this.plane.camera.scale];
-    for (const arc of scene.arcs) {
-      const [p, q, r] = curveOf(scene, arc);
-      if (Math.max(p.x, q.x, r.x) < at.x - best || Math.min(p.x, q.x, r.x) > at.x + best) continue;
-      for (let n = 0; n <= 16; n++) {
-        const t = n / 16;
-        const [u, v, w] = [(1 - t) ** 2, 2 * t * (1 - t), t * t];
-        const distance = Math.hypot(u * p.x + v * q.x + w * r.x - at.x, u * p.y + v * q.y + w * r.y - at.y);
-        const favour = arc.kind === "path" || arc.kind === "choice" ? 0.7 : 1;
-        if (distance * favour < best) [found, best] = [arc, distance * favour];
-      }
-    }
-    return found;
-  }
-
-  private nodeSentence(places: readonly number[]): string {
-    const scene = this.scene as Scene;
-    const rests = scene.subject.bands.map((band, b) => restOf(band, places[b] ?? 0)).join(" / ");
-    const own = scene.nodes.get([places[scene.pair[0]] ?? 0, places[scene.pair[1]] ?? 0].join());
-    const numbers = own?.numbers ? `: g + h = f, ${sum(own.numbers)} m, ${own.numbers.standing}` : "";
-    return `${rests}${numbers}${own && own.taken > 1 ? ` (${own.taken} times)` : ""}`;
-  }
-
-  private sentence(arc: Arc): string {
-    const subject = (this.scene as Scene).subject;
-    const names = columnText(subject, arc.column, arc.to).textContent ?? "";
-    const omega = arc.omega === null ? "" : `, ω = ${formatNumber(arc.omega)} m`;
-    return `${[...names].join(" ")}${omega}${arc.constraint ? `: ${arc.text}` : ""}`;
-  }
-
   private look(): Look {
-    if (this.looked) return this.looked;
-    const style = getComputedStyle(this.plane.canvas);
-    const value = (name: string, other: string) => style.getPropertyValue(name).trim() || other;
-    const hues = Array.from({ length: 10 }, (_, n) => value(`--fnb-hue-${n}`, "#ccc"));
-    const { symbols } = this.context.timeline.data;
-    this.looked = {
-      ink: value("--fnb-text", "#222"),
-      muted: value("--fnb-muted", "#777"),
-      paper: value("--fnb-paper", "#fff"),
-      step: value("--fnb-net-step", "#e08a1e"),
-      arc: value("--fnb-net-arc", "#2f6fb2"),
-      path: value("--fnb-net-path", "#d32f2f"),
-      error: value("--fnb-muted", "#777"),
-      good: value("--fnb-good", "#388e3c"),
-      bad: value("--fnb-error", "#d32f2f"),
-      lit: value("--fnb-lit", "#f2a900"),
-      region: value("--fnb-net-region", "rgb(224 138 30 / 22%)"),
-      mono: value("--fnb-mono", "monospace"),
-      onHue: value("--fnb-on-hue", "#222"),
-      hue: (symbol) => hues[(symbols[symbol] ?? 0) % 10] ?? "#ccc",
-    };
+    this.looked ??= lookOf(this.plane.canvas, this.context.timeline.data.symbols as Record<string, number>);
     return this.looked;
   }
-}
-
-/** What the words mean, where they are first used. */
-function meanings(): HTMLElement {
-  const words = Object.entries(MEANINGS).flatMap(([word, meaning]) => [h("dt", {}, word), h("dd", {}, meaning)]);
-  const numbers = [
-    h("dt", {}, "g + h = f"),
-    h("dd", {}, "J of what is laid; what is still to come at least; what an alignment that goes on so costs at least"),
-  ];
-  return h(
-    "details",
-    { class: "fnb-net-meanings" },
-    h("summary", {}, "What permitted, waiting, expanded, pruned, forbidden and g + h = f mean"),
-    h("dl", {}, ...words, ...numbers),
-  );
 }
 
 const labelOf = (subject: Subject): string =>
