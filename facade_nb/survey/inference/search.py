@@ -25,8 +25,8 @@ _TOLERANCES = (0.02, 0.05, 0.1, 0.2, 0.4)
 """Sizes that differ by no more may be one, metres. All are tried."""
 _SYMMETRIC = 3.0
 """Halves of a line mirror each other where they differ by no more than this times the tolerance."""
-_ROUNDS, _LOOSENED = 2, 6
-"""So often so many of the best structures are tried with openings that join what they are further from."""
+_LOOSENED = 6
+"""So many of the best structures are tried at once with openings that join what they are further from."""
 _STARTS = 3
 """No more orders of any one structure are simplified further."""
 _ALIKE = 0.5
@@ -47,16 +47,22 @@ class _Aim:
     """What is asked of a design.
 
     It agrees with the survey to `near` at least, where that can be. To agree in nothing costs `error`, and each letter
-    beyond half an opening costs `over` more, both in letters an opening. So many orders, `starts`, are simplified.
+    beyond half an opening costs `over` more, both in letters an opening. So often, `rounds`, openings are let join what
+    they are further from; so many orders, `starts`, are simplified.
     """
 
     near: float
     error: float
     over: float = 0.0
+    rounds: int = 2
     starts: int = 12
 
 
-_USUAL, _SHORT, _FAITHFUL = _Aim(0.903, 1.0), _Aim(0.82, 10.0, 30.0, starts=6), _Aim(0.935, 4.0, starts=2)
+_USUAL, _SHORT, _FAITHFUL = (
+    _Aim(0.903, 1.0),
+    _Aim(0.82, 10.0, 30.0, starts=6),
+    _Aim(0.935, 4.0, rounds=0, starts=4),
+)
 """What is aimed at first; where that takes more letters than half; where half cannot be had either."""
 _FAR_OVER = 0.75
 """Where the usual design has more letters than that, an opening, beyond half, half is not tried."""
@@ -126,7 +132,7 @@ class _Search:
             return order.cost(aim)
 
         self._found.sort(key=cost)
-        for _ in range(_ROUNDS):
+        for _ in range(aim.rounds):
             for order in list(_different(self._found, _LOOSENED)):
                 if id(order.structure) in self._loosened:
                     continue
