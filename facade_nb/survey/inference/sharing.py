@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .fitting import Axis, agreement, solved
-from .search import ERROR, NEAR, SYMBOL, Order
+from .search import SYMBOL, Order
 from .structure import Opening, corner
 
 __all__ = ["Shared", "shared"]
@@ -43,7 +43,7 @@ def shared(
         if other is None:
             continue
         lost = order.agreement - other.agreement
-        if other.agreement >= NEAR and ERROR * lost < SYMBOL / len(openings):
+        if other.agreement >= order.near and order.error * lost < SYMBOL / len(openings):
             order, found = other, found | {y: x}
     return order, found
 

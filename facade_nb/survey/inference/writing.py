@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter as Tally
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import accumulate, count
 from types import MappingProxyType
 from typing import Any
@@ -12,7 +12,7 @@ from ...design.model import Design
 from .fitting import Axis
 from .growth import Looks, counted, grown, shares
 from .layering import WALL, Named, layers, title
-from .repeats import Chain, Expression, Leaf, Mirror, Run, Series, shortest
+from .repeats import Chain, Expression, Leaf, Mirror, Run, Series, leaves, shortest
 from .search import Order
 from .sharing import shared
 from .structure import GAP, Line, Opening
@@ -158,11 +158,22 @@ def _growing(
     best = shortest(word, upright)
     if openings < 2:
         return best
-    for reach in (None, (len(word) + 1) // 2 + 1, 0):
-        expression = grown(shortest(word, upright, reach), counter, looks, only_runs=only_runs)
-        if _counts(expression):
-            return expression
-    return best
+    found = (grown(expression, counter, looks, only_runs=only_runs) for expression in _written(word, upright))
+    return min(filter(_counts, found), key=_letter_count, default=best)
+
+
+def _written(word: Sequence[int], upright: Collection[int]) -> Iterator[Expression]:
+    """Short expressions of a word; in some only short parts of it are reflected, so that more of it can grow."""
+    n = len(word)
+    half = (n + 1) // 2
+    reaches = (None, half + 1, 0, 5, 3)
+    yield from (shortest(word, upright, reach) for reach in reaches)
+    if n > 2 and list(word) == list(word)[::-1] and not set(word[half:]) & set(upright):
+        yield from (Mirror(shortest(word[:half], upright, reach), n % 2 == 1) for reach in reaches)
+
+
+def _letter_count(expression: Expression) -> int:
+    return sum(1 for _ in leaves(expression))
 
 
 def _before(first: str, rest: Iterator[str]) -> Iterator[str]:
