@@ -182,7 +182,7 @@ class Relief:
             hit = (reach > 1e-4) & (left < x1) & (right + reach * LIGHT[0] > x0)
             hit &= (low - reach * LIGHT[1] < y1) & (high > y0)
             hit &= within != np.arange(first, first + len(reach))[:, None]  # nothing throws shadow on itself
-            where, which = np.nonzero(hit)
+            where, which = divmod(np.flatnonzero(hit), len(within))
             ends = reach[where, which]
             where += first
             yield where, which, np.maximum(boxes.near[which] - planes[where, 0], 0.0), ends
