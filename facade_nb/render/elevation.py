@@ -95,13 +95,15 @@ def elevation_pieces(
     holes: bool = False,
     background: bool = True,
     prefix: str | None = None,
+    scene: Scene | None = None,
 ) -> list[str]:
     """The text of `elevation_svg` in pieces: each is a whole element, or a tag that opens or closes one around others.
 
-    A view that holds the drawing compares them with those that it has, and changes what differs.
+    A view that holds the drawing compares them with those that it has, and changes what differs. `scene` is that of
+    the layout, where it has been built already.
     """
     style = find_style(theme)
-    scene = build_scene(layout)
+    scene = scene or build_scene(layout)
     frame = Frame.fit(layout.canvas.width, layout.canvas.height, width_px, dimensions=dimensions)
     prefix = prefix or f"f{secrets.token_hex(4)}"
     body: list[str] = []

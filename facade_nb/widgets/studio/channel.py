@@ -9,9 +9,10 @@ from typing import Any
 from traitlets import Dict, List, Unicode
 
 from ... import gallery
-from ...design import DesignError
+from ...design import DesignError, Fault
 from ...render import GEOMETRIES, MATERIALS
 from ...render.elevation import elevation_pieces
+from ...render.scene import build_scene, drawing_faults
 from ...solver import Layout
 from ..shared.bundled import Message
 from .commands import COMMANDS
@@ -50,6 +51,7 @@ class Channel(Scenery):
 
     def __init__(self, model: FacadeModel) -> None:
         self._drawn: tuple[Layout | None, str] | None = None
+        self._faults: tuple[Fault, ...] = ()
         self._answering = False
         self._answered: dict[str, Any] = {}
         self._failure = ""
@@ -105,13 +107,16 @@ class Channel(Scenery):
 
     def _describe(self) -> None:
         layout = self.model.layout
-        status = describe_status(self.model)
+        refused = ""
         if self._drawn is None or not _same(self._drawn[0], layout) or self._drawn[1] != self.theme:
             try:
                 self.svg = "" if layout is None else self._draw(layout)
                 self._drawn = (layout, self.theme)
             except DesignError as error:  # a material that there is not: the last good picture stays
-                status |= {"stale": True, "message": str(error)}
+                refused, self._faults = str(error), () if layout is None else drawing_faults(layout)
+        status = describe_status(self.model, self._faults)
+        if refused:
+            status |= {"stale": True, "message": refused}
         self.design = describe_design(self.model)
         self.status = status
         self.drafts = describe_drafts(self.model)
@@ -124,7 +129,11 @@ class Channel(Scenery):
         prefix = (
             f"f{self.model_id}"  # known to the browser, which gives each of its views a prefix of its own
         )
-        pieces = elevation_pieces(layout, theme=self.theme, holes=True, background=False, prefix=prefix)
+        scene = build_scene(layout)
+        self._faults = scene.faults
+        pieces = elevation_pieces(
+            layout, theme=self.theme, holes=True, background=False, prefix=prefix, scene=scene
+        )
         return "\n".join(piece.replace("\n", "&#10;") for piece in pieces)
 
     def _on_version(self, _: object) -> None:
