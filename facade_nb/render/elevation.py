@@ -156,9 +156,7 @@ def draw_facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bo
 def _cells(solids: Sequence[Solid], frame: Frame) -> list[tuple[str, ...]]:
     """Left, top, width and height of each shape in pixels, as they are written."""
     left, bottom, right, top = np.array([solid.shape.rect for solid in solids]).T
-    numbers = hundredths(
-        *frame.at(left, top), (right - left) * frame.scale, (top - bottom) * frame.scale
-    )
+    numbers = hundredths(*frame.at(left, top), (right - left) * frame.scale, (top - bottom) * frame.scale)
     return [*zip(*map(texts, numbers), strict=True)]
 
 

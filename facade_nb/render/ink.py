@@ -136,9 +136,15 @@ class Defs:
         return found
 
     def _seam(self, material: Material) -> str:
-        if material.name == DEFAULT_MATERIAL:  # nothing was said yet: the grid of the layer is all there is to see
+        if (
+            material.name == DEFAULT_MATERIAL
+        ):  # nothing was said yet: the grid of the layer is all there is to see
             return f' stroke="{self.style.tone(material.line)}" stroke-width=".8"'
-        return "" if material.pattern == "glass" else f' stroke="{self.style.tone(material.fill)}" stroke-width=".5"'
+        return (
+            ""
+            if material.pattern == "glass"
+            else f' stroke="{self.style.tone(material.fill)}" stroke-width=".5"'
+        )
 
     def shape(self, solid: Solid, width: str, height: str) -> str:
         """The drawing of a shape with its upper left corner at the origin, as the id of a definition, made once.

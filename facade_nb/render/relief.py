@@ -223,9 +223,7 @@ class Relief:
             row, start, end, height = _runs(label)
             sides = np.stack([start, row, end, row + 1], axis=1)
             first, last, _ = _joined(height, sides, 1)
-            bounds = np.stack(
-                [xs[start[first]], ys[row[first]], xs[end[first]], ys[row[last] + 1]], axis=1
-            )
+            bounds = np.stack([xs[start[first]], ys[row[first]], xs[end[first]], ys[row[last] + 1]], axis=1)
             ones = np.ones(len(bounds))
             near, far = levels[0] * ones, levels[height[first]]
             made.append(_Boxes(bounds, near, far, np.full(len(bounds), -1)))

@@ -27,7 +27,7 @@ from .model.layout import AxisLayout, Layout, PlacedShape, Rect
 from .model.objective import Objective
 from .model.precision import EPS
 from .model.problem import AxisProblem, axis_problem
-from .selection.axis import AxisSearch, Best, Solved
+from .selection.axis import AxisSearch, Best
 from .selection.clusters import PLAINER
 from .selection.warm_start import adopted, upper_bound
 from .trace import Recorder, stage
@@ -330,7 +330,8 @@ class _Run:
             return self._best(walk)
         problem = walk.problem
         key = spelled_as(problem, self.objective)
-        before: Solved | None = CACHE.earlier.get(key)
+        kept = CACHE.earlier.get(key)
+        before = None if kept is None else kept[1]
         cap = inf
         with suppress(Stopped):  # then there is no time for the search either, which knows what to do
             cap = inf if before is None else upper_bound(walk, before)
@@ -344,8 +345,8 @@ class _Run:
                 best.solved = other if other is not None and other.beats(best.solved) else best.solved
         if best.solved is not None and not self.trial:
             weight = max(tuning.ANSWER_BYTES / 2, best.solved.weight)
-            CACHE.earlier.put(key, best.solved, weight)
-            CACHE.earlier.put(last_as(problem, self.objective), best.solved, weight)
+            CACHE.earlier.put(key, (problem, best.solved), weight)
+            CACHE.earlier.put(last_as(problem, self.objective), (problem, best.solved), weight)
         return best
 
     def _best(self, walk: AxisSearch, cap: float = inf) -> Best:
