@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import traceback
+from collections.abc import Callable
 from typing import Any
 
 from traitlets import Dict, List, Unicode
@@ -95,18 +96,29 @@ class Channel(Scenery):
         super().close()
 
     def publish(self) -> None:
-        """Send all that has changed, in one message."""
+        """Send all that has changed: in one message, or, where there is another picture, that first and the rest after.
+
+        What is told of the design is made, sent and read while the picture is on its way to the screen.
+        """
         self._forget_timer()
         with self.hold_sync():
-            try:
-                self._describe()
-            except Exception:  # as in `_receive`: it is shown, and the fields are answered all the same
-                self._failure = traceback.format_exc()
-            self.trouble = self._failure
-            self.ack = self._answered
+            drawn = self._attempt(self._show)
+            if not drawn:
+                self._tell()
+        if drawn:
+            with self.hold_sync():
+                self._tell()
 
-    def _describe(self) -> None:
-        layout = self.model.layout
+    def _attempt(self, work: Callable[[], bool]) -> bool:
+        try:
+            return work()
+        except Exception:  # as in `_receive`: it is shown, and the fields are answered all the same
+            self._failure = traceback.format_exc()
+            return False
+
+    def _show(self) -> bool:
+        """Bring the picture up to date, and what lies over it; whether it is another one."""
+        layout, before = self.model.layout, self.svg
         refused = ""
         if self._drawn is None or not _same(self._drawn[0], layout) or self._drawn[1] != self.theme:
             try:
@@ -117,12 +129,23 @@ class Channel(Scenery):
         status = describe_status(self.model, self._faults)
         if refused:
             status |= {"stale": True, "message": refused}
-        self.design = describe_design(self.model)
         self.status = status
         self.drafts = describe_drafts(self.model)
         self.selection = describe_selection(self.model)
+        self._describe_overlays(self.theme)
+        return self.svg != before
+
+    def _tell(self) -> None:
+        """Bring all else up to date."""
+        self._attempt(self._describe)
+        self.trouble = self._failure
+        self.ack = self._answered
+
+    def _describe(self) -> bool:
+        self.design = describe_design(self.model)
         self._describe_extras(self.theme)
         self._describe_scenery()
+        return True
 
     def _draw(self, layout: Layout) -> str:
         """The elevation, a piece a line: views compare the lines, and change those that differ."""

@@ -151,4 +151,4 @@ def test_a_search_that_is_quick_is_waited_for() -> None:
         await _until(lambda: not model.busy)
         return line
 
-    assert not any(update["status"]["proving"] for update in asyncio.run(session()).updates)
+    assert not any(update.get("status", {}).get("proving") for update in asyncio.run(session()).updates)
