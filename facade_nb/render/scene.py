@@ -281,7 +281,10 @@ def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
         elif holes:
             d, (left, bottom) = solid.depth, solid.rect[:2]
             blocks = tuple(Block(r[0] - left, r[1] - bottom, r[2] - left, r[3] - bottom, -d, 0) for r in rest)
-            solid = replace(solid, parts=blocks)
+            # `replace` takes long, and there are many
+            solid = Solid(
+                solid.index, solid.shape, solid.geometry, solid.face, solid.depth, blocks, solid.materials
+            )
         done.append(replace(solid, cuts=tuple(cuts)) if cuts else solid)
     return tuple(done)
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from ...design import Design, FacadeError, NoLayout
 from ...solver import Layout, solve
+from ..shared.collecting import hold, release
 
 __all__ = ["FIRST", "Known", "LatestSolver", "Outcome", "Solve"]
 
@@ -126,6 +127,8 @@ class LatestSolver:
         with self._condition:
             self._latest = revision
             self._next = (revision, design, time_limit, traced, first)
+            if first is not None:  # until it has been shown
+                hold(self)
             self._condition.notify_all()
             if self._thread is None:
                 self._thread = threading.Thread(target=self._work, name="facade_nb-solver", daemon=True)
@@ -169,6 +172,7 @@ class LatestSolver:
         while True:
             with self._condition:
                 if self._next is None:
+                    release(self)
                     self._thread = None
                     self._condition.notify_all()
                     return
@@ -184,6 +188,7 @@ class LatestSolver:
                 if begun.layout is not None:
                     self._tell(replace(begun, proving=True))
                     self._let_show(revision)
+            release(self)  # a search may take long
             self._tell(_together(begun, self._run(revision, design, time_limit, more)))
 
     def _tell(self, outcome: Outcome) -> None:
