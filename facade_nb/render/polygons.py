@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -70,8 +70,8 @@ def polygons_path(polygons: Sequence[NDArray[np.float64]], frame: Frame) -> str:
     return "".join(text.ravel().tolist())
 
 
-def hundredths(*pixels: NDArray[np.float64]) -> list[NDArray[np.int64]]:
-    """Pixels as whole hundredths."""
+def hundredths(*pixels: Any) -> list[NDArray[np.int64]]:
+    """Arrays of pixels as whole hundredths."""
     return [np.rint(100 * own).astype(np.int64) for own in pixels]
 
 

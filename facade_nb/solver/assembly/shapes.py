@@ -5,7 +5,6 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import product
-from typing import Any
 
 import numpy as np
 
@@ -15,6 +14,9 @@ from ..model.layout import AxisLayout, PlacedLetter, PlacedShape, Rect
 from .looks import Instance, Looks, instances, written
 
 __all__ = ["find_holes", "hole_warnings", "merge"]
+
+_Drawn = tuple[str, str, str, float, float]
+"""Kind, geometry, material, offset, thickness."""
 
 MAX_SHAPES = 250_000
 """Most shapes of one layer."""
@@ -56,7 +58,9 @@ def merge(
             (i, a.symbol, a.start, a.end, a.mirrored, number, a.symbol in opaque)
             for i, (a, (_, number, _)) in enumerate(cells[0])
         ]
-        rows: dict[int, list[tuple[Any, ...]]] = {}  # by sort: the cells that are drawn
+        rows: dict[
+            int, list[tuple[int, str, float, float, bool, int, bool, _Drawn]]
+        ] = {}  # by sort: the cells that are drawn
         for j, (v, (_, level, _)) in enumerate(cells[1]):
             if check is not None:
                 check()
@@ -73,7 +77,7 @@ def merge(
                     if (look := looks.of(sort, rises[j])).visible
                 ]
             up_symbol, low, high, turned, solid_up = v.symbol, v.start, v.end, v.mirrored, v.symbol in opaque
-            for i, symbol, left, right, mirrored, number, solid_across, look in row:
+            for i, symbol, left, right, mirrored, number, solid_across, drawn in row:
                 for solid, across, k in hiding:
                     if (across[i], k) in solid:
                         break
@@ -85,7 +89,7 @@ def merge(
                             up_symbol,
                             (left, low, right, high),
                             (mirrored, turned),
-                            *look,
+                            *drawn,
                             (number, level),
                         )
                     )
@@ -142,8 +146,8 @@ class _Row:
         return found
 
 
-def _drawn(look: Shape) -> tuple[str, str, str, float, float]:
-    """What a shape has of its look: kind, geometry, material, offset, thickness."""
+def _drawn(look: Shape) -> _Drawn:
+    """What a shape has of its look."""
     return (
         look.kind or "wall",
         look.geometry or "box",
