@@ -14,7 +14,7 @@ from .inputs import Members, read_json_text, read_text
 from .model import Counter, Design, Layer, LayerAxis, PatternDef, Shape, Symbol, Variant
 from .sections import FORMAT, DocumentReader
 
-__all__ = ["FORMAT", "read", "read_json", "write", "write_json"]
+__all__ = ["FORMAT", "read", "read_json", "spelled", "write", "write_json"]
 
 
 def read(document: Mapping[str, Any]) -> Design:
@@ -94,12 +94,16 @@ def write_json(design: Design, path: str | Path | None = None, indent: int | Non
     DesignError
         If the design is not valid (then nothing is written), or the file cannot be written.
     """
-    document = write(design)
-    read(document)
-    text = json.dumps(document, ensure_ascii=False, allow_nan=False, indent=indent)
+    read(write(design))
+    text = spelled(design, indent)
     if path is not None:
         write_atomically(path, text + "\n")
     return text
+
+
+def spelled(design: Design, indent: int | None = 2) -> str:
+    """The document of a valid design as JSON text."""
+    return json.dumps(write(design), ensure_ascii=False, allow_nan=False, indent=indent)
 
 
 def _changed(value: Any, default: Any) -> dict[str, Any]:

@@ -7,9 +7,10 @@ Fields are given as in documents (docs/documents.md); None takes a field back to
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
-from .document import read, write
+from .document import FORMAT, read, write
 from .errors import DesignError, Fault, Suggestion, listed, nearest, quoted
 from .model import Design
 from .names import nfc
@@ -35,10 +36,12 @@ __all__ = [
 
 
 def with_canvas(design: Design, width: float | None = None, height: float | None = None) -> Design:
-    """The design on a canvas of another width or height (metres); None leaves it."""
-    document = write(design)
-    _update(document["canvas"], {k: v for k, v in (("width", width), ("height", height)) if v is not None})
-    return read(document)
+    """The design on a canvas of another width or height (metres); None leaves it. All else is the very same."""
+    sides = (("width", design.canvas.width, width), ("height", design.canvas.height, height))
+    canvas = read(
+        {"format": FORMAT, "canvas": {name: old if new is None else new for name, old, new in sides}}
+    ).canvas
+    return replace(design, canvas=canvas)
 
 
 def with_symbol(design: Design, name: str, /, **fields: Any) -> Design:

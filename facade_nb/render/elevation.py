@@ -8,11 +8,12 @@ from functools import lru_cache
 from html import escape
 from typing import Any
 
+import numpy as np
+
 from ..solver.model.layout import Layout
 from .annotate import Frame, draw_dimensions, draw_empty, draw_holes, draw_survey
 from .ink import Defs, draw_parts, inline
-from .materials import DEFAULT_MATERIAL
-from .polygons import polygons_path, segments_path
+from .polygons import hundredths, polygons_path, segments_path, texts
 from .relief import Edges, Relief
 from .scene import Scene, Solid, build_scene
 from .style import FINE, HEAVY, MEDIUM, Style, find_style, num
@@ -94,13 +95,15 @@ def elevation_pieces(
     holes: bool = False,
     background: bool = True,
     prefix: str | None = None,
+    scene: Scene | None = None,
 ) -> list[str]:
     """The text of `elevation_svg` in pieces: each is a whole element, or a tag that opens or closes one around others.
 
-    A view that holds the drawing compares them with those that it has, and changes what differs.
+    A view that holds the drawing compares them with those that it has, and changes what differs. `scene` is that of
+    the layout, where it has been built already.
     """
     style = find_style(theme)
-    scene = build_scene(layout)
+    scene = scene or build_scene(layout)
     frame = Frame.fit(layout.canvas.width, layout.canvas.height, width_px, dimensions=dimensions)
     prefix = prefix or f"f{secrets.token_hex(4)}"
     body: list[str] = []
@@ -134,13 +137,12 @@ def draw_facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bo
     """The shapes of a scene with their shadows and lines, layer by layer."""
     relief = Relief(scene)
     edges, shadows = relief.edges(), relief.shadows()
-    layers: list[list[Solid]] = [[] for _ in relief.layers]
-    for solid in scene.solids:
-        layers[relief.layers[solid.shape.layer]].append(solid)
-    for solids, lines, shade in zip(layers, edges, shadows, strict=True):
+    layers: list[list[str]] = [[] for _ in relief.layers]
+    for solid, cell in zip(scene.solids, _cells(scene.solids, frame), strict=True):
+        layers[relief.layers[solid.shape.layer]].append(_shape(solid, cell, defs, frame, ids=ids))
+    for shapes, lines, shade in zip(layers, edges, shadows, strict=True):
         yield "<g>"
-        for solid in solids:
-            yield _shape(solid, defs, frame, ids=ids)
+        yield from shapes
         if shade:
             d = polygons_path(shade, frame)
             yield (
@@ -151,33 +153,28 @@ def draw_facade(scene: Scene, defs: Defs, frame: Frame, style: Style, *, ids: bo
         yield "</g>"
 
 
-def _shape(solid: Solid, defs: Defs, frame: Frame, *, ids: bool) -> str:
+def _cells(solids: Sequence[Solid], frame: Frame) -> list[tuple[str, ...]]:
+    """Left, top, width and height of each shape in pixels, as they are written."""
+    left, bottom, right, top = np.array([solid.shape.rect for solid in solids]).T
+    numbers = hundredths(*frame.at(left, top), (right - left) * frame.scale, (top - bottom) * frame.scale)
+    return [*zip(*map(texts, numbers), strict=True)]
+
+
+def _shape(solid: Solid, cell: tuple[str, ...], defs: Defs, frame: Frame, *, ids: bool) -> str:
     shape = solid.shape
-    left, bottom, right, top = shape.rect
-    x, y = frame.at(left, top)
-    w, h = (right - left) * frame.scale, (top - bottom) * frame.scale
+    x, y, w, h = cell
     head = "<g>"
     if ids:
         of, title = _called(shape.layer, shape.x, shape.y, shape.kind, shape.geometry, shape.material)
         head = f'<g data-shape="{solid.index}"{of} data-number="{shape.number[0]} {shape.number[1]}">{title}'
-    cell = f'<rect class="cell" x="{num(x)}" y="{num(y)}" width="{num(w)}" height="{num(h)}" fill='
+    head += f'<rect class="cell" x="{x}" y="{y}" width="{w}" height="{h}" fill='
     if solid.geometry.name == "box" or not solid.parts:
-        material = defs.material(solid.materials["body"])
-        ruled = defs.drawable(material.name) and bool(solid.parts)
-        fill = defs.ruled(solid, (x, y + h)) if ruled else defs.paint(material)
-        seam = ""
-        if (
-            material.name == DEFAULT_MATERIAL
-        ):  # nothing was said yet: the grid of the layer is all there is to see
-            seam = f' stroke="{defs.style.tone(material.line)}" stroke-width=".8"'
-        elif material.pattern != "glass":
-            seam = f' stroke="{defs.style.tone(material.fill)}" stroke-width=".5"'
-        return f'{head}{cell}"{fill}"{seam}/></g>'
+        return f"{head}{defs.plain(solid, frame)}/></g>"
     if inline(solid):
-        drawn = draw_parts(solid, defs, (x, y + h))
+        drawn = draw_parts(solid, defs, frame.at(*shape.rect[:2]))
     else:
-        drawn = f'<use href="#{defs.shape(solid, w, h)}" x="{num(x)}" y="{num(y)}"/>'
-    return f'{head}{cell}"none" pointer-events="all"/>{drawn}</g>'
+        drawn = f'<use href="#{defs.shape(solid, w, h)}" x="{x}" y="{y}"/>'
+    return f'{head}"none" pointer-events="all"/>{drawn}</g>'
 
 
 @lru_cache(maxsize=4096)

@@ -5,14 +5,17 @@ from __future__ import annotations
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .materials import Material, mix
+from .materials import DEFAULT_MATERIAL, Material, mix
 from .parts import Block, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned, front, outline
 from .ruled import is_rule, material_of, rule_fault, rule_png
 from .scene import Solid
 from .silhouette import covered, shade_on, silhouette
 from .style import FINE, LIGHT, MEDIUM, Style, num, pattern
+
+if TYPE_CHECKING:
+    from .annotate import Frame
 
 __all__ = ["Defs", "clip", "draw_parts", "hull", "polygon_path"]
 
@@ -43,6 +46,7 @@ class Defs:
         self.prefix, self.style, self.scale, self.anchor = prefix, style, scale, anchor
         self._made: dict[str, str] = {}
         self._paints: dict[tuple[str, str], str] = {}
+        self._blocks: dict[str, str] = {}
         self._shapes: dict[tuple[object, ...], str] = {}
 
     def __iter__(self) -> Iterator[str]:
@@ -120,22 +124,39 @@ class Defs:
             self._paints[key] = self._gradient(f"round-{material.name.lstrip('#')}", stops, "0 0 1 0")
         return self._paints[key]
 
-    def shape(self, solid: Solid, width: float, height: float) -> str:
-        """The drawing of a shape with its upper left corner at the origin, as the id of a definition, made once."""
-        shape = solid.shape
-        mirrored = shape.mirrored
-        key = (
-            shape.geometry,
-            solid.materials["body"],
-            num(width),
-            num(height),
-            num(solid.depth * 50),
-            mirrored,
+    def plain(self, solid: Solid, frame: Frame) -> str:
+        """What a plain block is filled with, and its seam: values of attributes, the first without its name."""
+        name = solid.materials["body"]
+        if is_rule(name) and self.drawable(name) and solid.parts:
+            return f'"{self.ruled(solid, frame.at(*solid.rect[:2]))}"{self._seam(self.material(name))}'
+        found = self._blocks.get(name)
+        if found is None:
+            material = self.material(name)
+            found = self._blocks[name] = f'"{self.paint(material)}"{self._seam(material)}'
+        return found
+
+    def _seam(self, material: Material) -> str:
+        if (
+            material.name == DEFAULT_MATERIAL
+        ):  # nothing was said yet: the grid of the layer is all there is to see
+            return f' stroke="{self.style.tone(material.line)}" stroke-width=".8"'
+        return (
+            ""
+            if material.pattern == "glass"
+            else f' stroke="{self.style.tone(material.fill)}" stroke-width=".5"'
         )
+
+    def shape(self, solid: Solid, width: str, height: str) -> str:
+        """The drawing of a shape with its upper left corner at the origin, as the id of a definition, made once.
+
+        Width and height are in pixels, as they are written.
+        """
+        shape = solid.shape
+        key = (shape.geometry, solid.materials["body"], width, height, num(solid.depth * 50), shape.mirrored)
         name = self._shapes.get(key)
         if name is None:
             name = self._shapes[key] = f"{self.prefix}-{len(self._shapes)}"
-            body = draw_parts(solid, self, (0.0, height))
+            body = draw_parts(solid, self, (0.0, (shape.rect[3] - shape.rect[1]) * self.scale))
             self._made[name] = f'<g id="{name}">{body}</g>'
         return name
 

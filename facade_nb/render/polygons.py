@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from .annotate import Frame
 
-__all__ = ["clip_all", "polygons_path", "segments_path"]
+__all__ = ["clip_all", "hundredths", "polygons_path", "segments_path", "texts"]
 
 
 def clip_all(polygons: NDArray[np.float64], boxes: NDArray[np.float64]) -> list[NDArray[np.float64]]:
@@ -54,36 +54,41 @@ def polygons_path(polygons: Sequence[NDArray[np.float64]], frame: Frame) -> str:
     if not polygons:
         return ""
     points = np.concatenate(polygons)
-    xs, ys = (np.rint(100 * pixels).astype(np.int64).tolist() for pixels in frame.at(*points.T))
-    drawn: list[str] = []
-    start = 0
-    for polygon in polygons:
-        end = start + len(polygon)
-        x, y = xs[start], ys[start]
-        drawn.append(f"M{_text(x)} {_text(y)}")
-        for k in range(start + 1, end):
-            was, above, x, y = x, y, xs[k], ys[k]
-            if x == was:
-                if y != above:
-                    drawn.append("V" + _text(y))
-            elif y == above:
-                drawn.append("H" + _text(x))
-            else:
-                drawn.append(f"L{_text(x)} {_text(y)}")
-        drawn.append("z")
-        start = end
-    return "".join(drawn)
+    xs, ys = hundredths(*frame.at(*points.T))
+    ends = np.cumsum([len(polygon) for polygon in polygons]) - 1
+    begins = np.zeros(len(xs), bool)
+    begins[0] = begins[ends[:-1] + 1] = True
+    upright, level = np.append(False, xs[1:] == xs[:-1]), np.append(False, ys[1:] == ys[:-1])
+    # What is written of each point: a letter, x, a blank, y, and an end.
+    text = np.full((len(xs), 5), "", object)
+    text[:, 0] = np.where(begins, "M", np.where(upright, np.where(level, "", "V"), np.where(level, "H", "L")))
+    across, along = begins | ~upright, begins | ~level
+    text[across, 1] = texts(xs[across])
+    text[across & along, 2] = " "
+    text[along, 3] = texts(ys[along])
+    text[ends, 4] = "z"
+    return "".join(text.ravel().tolist())
+
+
+def hundredths(*pixels: Any) -> list[NDArray[np.int64]]:
+    """Arrays of pixels as whole hundredths."""
+    return [np.rint(100 * own).astype(np.int64) for own in pixels]
+
+
+def texts(numbers: NDArray[np.int64]) -> list[str]:
+    """Hundredths as decimal numbers."""
+    return [*map(_text, numbers.tolist())]
 
 
 def segments_path(segments: Sequence[tuple[float, float, float, float]], frame: Frame) -> str:
     """Upright and level lines, in metres, as the data of one path."""
     ends = np.array(segments)
-    ways = [*frame.at(*ends[:, :2].T), *frame.at(*ends[:, 2:].T)]
-    pixels = [np.rint(100 * way).astype(np.int64).tolist() for way in ways]
+    ways = hundredths(*frame.at(*ends[:, :2].T), *frame.at(*ends[:, 2:].T))
+    upright = (ways[0] == ways[2]).tolist()
     return "".join(
         [
-            f"M{_text(x)} {_text(y)}" + (f"V{_text(below)}" if x == right else f"H{_text(right)}")
-            for x, y, right, below in zip(*pixels, strict=True)
+            f"M{x} {y}V{below}" if down else f"M{x} {y}H{right}"
+            for x, y, right, below, down in zip(*map(texts, ways), upright, strict=True)
         ]
     )
 

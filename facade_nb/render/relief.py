@@ -74,6 +74,15 @@ class _Boxes(NamedTuple):
     of: NDArray[np.int64]
 
 
+class _Receivers(NamedTuple):
+    """What takes shadow: layers, planes and rectangles; and of each solid, by its index, which one it is part of."""
+
+    layers: NDArray[np.int64]
+    planes: NDArray[np.float64]
+    rects: NDArray[np.float64]
+    home: NDArray[np.int64]
+
+
 class Relief:
     """The relief of a scene.
 
@@ -92,6 +101,7 @@ class Relief:
         self._xs, self._ys = _merged(rects[:, [0, 2]]), _merged(rects[:, [1, 3]])
         left, right = (np.searchsorted(self._xs, rects[:, k] - 1e-6) for k in (0, 2))
         low, high = (np.searchsorted(self._ys, rects[:, k] - 1e-6) for k in (1, 3))
+        self._rects, self._sides = rects, np.stack([left, low, right, high], axis=1)
         top = np.full((max(len(self._ys) - 1, 0), max(len(self._xs) - 1, 0)), -1)
         for k in range(len(self._skin)):
             top[low[k] : high[k], left[k] : right[k]] = k
@@ -123,11 +133,12 @@ class Relief:
             weight = np.where(np.isnan(step), 0, np.where(step > _STEP, 1, 2))
             label = np.where(differ, weight + 3 * np.maximum(stages[a], stages[b]), -1)
             across, along = (self._xs, self._ys) if upright else (self._ys, self._xs)
-            for line in range(label.shape[1]):
-                for start, end, value in _runs(label[:, line]):
-                    layer, kind = divmod(value, 3)
-                    at, p, q = float(across[line]), float(along[start]), float(along[end])
-                    found[layer][kind].append((at, p, at, q) if upright else (p, at, q, at))
+            line, start, end, value = _runs(label.T)
+            at, p, q = across[line], along[start], along[end]
+            segments = np.stack((at, p, at, q) if upright else (p, at, q, at), axis=1)
+            for own in np.unique(value).tolist():
+                layer, kind = divmod(own, 3)
+                found[layer][kind].extend(map(tuple, segments[value == own].tolist()))
         return [Edges(tuple(outer), tuple(deep), tuple(joint)) for outer, deep, joint in found]
 
     def shadows(self) -> list[list[NDArray[np.float64]]]:
@@ -138,20 +149,20 @@ class Relief:
         result: list[list[NDArray[np.float64]]] = [[] for _ in self.layers]
         receivers = self._receivers
         boxes, odd = self._casters
-        if not receivers:
+        if not len(receivers.rects):
             return result
-        rects = np.array([rect for _, _, rect, _ in receivers])
         for where, which, starts, ends in self._met(boxes):
             swept = _swept_boxes(boxes.bounds[which], starts, ends)
-            for n, polygon in zip(where.tolist(), clip_all(swept, rects[where]), strict=True):
+            layers = receivers.layers[where].tolist()
+            for layer, polygon in zip(layers, clip_all(swept, receivers.rects[where]), strict=True):
                 if len(polygon) > 2:
-                    result[receivers[n][0]].append(polygon)
+                    result[layer].append(polygon)
         for found in self._met(_around(odd)):
             for n, k, start, end in zip(*(own.tolist() for own in found), strict=True):
-                layer, _, rect, _ = receivers[n]
-                cut = clip(_swept(odd[k], start, end), rect)
+                left, low, right, high = receivers.rects[n].tolist()
+                cut = clip(_swept(odd[k], start, end), (left, low, right, high))
                 if len(cut) > 2:
-                    result[layer].append(np.array(cut))
+                    result[receivers.layers[n]].append(np.array(cut))
         return result
 
     def _met(self, boxes: _Boxes) -> Iterator[tuple[NDArray[Any], ...]]:
@@ -160,35 +171,42 @@ class Relief:
         Of each such pair: the receiver, the box, and how far along the light its shadow begins and ends, metres.
         """
         receivers = self._receivers
-        planes = np.array([plane for _, plane, _, _ in receivers])[:, None]
-        rects = np.array([rect for _, _, rect, _ in receivers])
-        home = {index: n for n, (_, _, _, members) in enumerate(receivers) for index in members}
-        within = np.array([home.get(index, -1) for index in boxes.of.tolist()], dtype=int)
+        rects, planes = receivers.rects, receivers.planes[:, None]
+        within = receivers.home[boxes.of]  # of -1, which is no solid, it has -1 too
         left, low, right, high = boxes.bounds.T
         step = max(1, _AT_ONCE // max(1, len(within)))
-        for first in range(0, len(receivers) if len(within) else 0, step):
+        for first in range(0, len(rects) if len(within) else 0, step):
             rows = slice(first, first + step)
             reach = boxes.far - planes[rows]
             x0, y0, x1, y1 = rects[rows].T[:, :, None]
             hit = (reach > 1e-4) & (left < x1) & (right + reach * LIGHT[0] > x0)
             hit &= (low - reach * LIGHT[1] < y1) & (high > y0)
             hit &= within != np.arange(first, first + len(reach))[:, None]  # nothing throws shadow on itself
-            where, which = np.nonzero(hit)
+            where, which = divmod(np.flatnonzero(hit), len(within))
             ends = reach[where, which]
             where += first
             yield where, which, np.maximum(boxes.near[which] - planes[where, 0], 0.0), ends
 
     @cached_property
-    def _receivers(self) -> list[tuple[int, float, Rect, frozenset[int]]]:
-        """Layer, plane, rectangle and solids of what takes shadow, neighbours at one depth merged."""
-        groups: dict[tuple[int, float], list[Solid]] = defaultdict(list)
-        for solid in self._skin:
-            groups[self.layers[solid.shape.layer], round(solid.plane, 4)].append(solid)
-        return [
-            (layer, plane, rect, frozenset(members))
-            for (layer, plane), solids in groups.items()
-            for rect, members in _joined([(solid.rect, [solid.index]) for solid in solids])
-        ]
+    def _receivers(self) -> _Receivers:
+        """What takes shadow, neighbours at one depth merged: side by side first, then one above the other."""
+        known: dict[tuple[int, float], int] = {}
+        group = np.array(
+            [
+                known.setdefault((self.layers[solid.shape.layer], round(solid.plane, 4)), len(known))
+                for solid in self._skin
+            ],
+            dtype=int,
+        )
+        first, last, row = _joined(group, self._sides, 0)
+        sides = np.concatenate([self._sides[first, :2], self._sides[last, 2:]], axis=1)
+        low, high, whole = _joined(group[first], sides, 1)
+        home = np.full(max((solid.index for solid in self._skin), default=-1) + 2, -1)
+        home[[solid.index for solid in self._skin]] = whole[row]
+        layers, planes = np.array([*known]).reshape(-1, 2).T
+        own = group[first][low]
+        rects = np.concatenate([self._rects[first[low], :2], self._rects[last[high], 2:]], axis=1)
+        return _Receivers(layers[own].astype(int), planes[own], rects, home)
 
     @cached_property
     def _casters(self) -> tuple[_Boxes, list[_Caster]]:
@@ -199,17 +217,16 @@ class Relief:
         stands = np.array([solid.geometry.name not in ("cornice", "ledge") for solid in self._skin] + [False])
         heights = np.where(stands, planes, np.nan)[self._top]
         levels = np.unique(heights[~np.isnan(heights)])
-        xs, ys = self._xs.tolist(), self._ys.tolist()
-        for level in levels[1:]:  # nothing lies behind the lowest
-            rects: list[tuple[Rect, list[int]]] = []
-            # Its runs along all rows, which end where the row does.
-            turns = np.diff(np.pad(heights == level, ((0, 0), (1, 1))).astype(np.int8), axis=1)
-            starts, ends = np.nonzero(turns > 0), np.nonzero(turns < 0)
-            for row, start, end in zip(*(own.tolist() for own in (*starts, ends[1])), strict=True):
-                rects.append(((xs[start], ys[row], xs[end], ys[row + 1]), []))
-            joined = np.array([rect for rect, _ in _joined(rects)])
-            ones = np.ones(len(joined))
-            made.append(_Boxes(joined, levels[0] * ones, level * ones, np.full(len(joined), -1)))
+        xs, ys = self._xs, self._ys
+        if len(levels) > 1:  # nothing lies behind the lowest
+            label = np.where(heights > levels[0], np.searchsorted(levels, heights), -1)
+            row, start, end, height = _runs(label)
+            sides = np.stack([start, row, end, row + 1], axis=1)
+            first, last, _ = _joined(height, sides, 1)
+            bounds = np.stack([xs[start[first]], ys[row[first]], xs[end[first]], ys[row[last] + 1]], axis=1)
+            ones = np.ones(len(bounds))
+            near, far = levels[0] * ones, levels[height[first]]
+            made.append(_Boxes(bounds, near, far, np.full(len(bounds), -1)))
         alike: dict[tuple[object, ...], list[Solid]] = defaultdict(list)
         for solid in self.scene.solids:
             if not solid.geometry.full or solid.geometry.name != "box":
@@ -351,34 +368,37 @@ def _merged(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return ordered[np.insert(np.diff(ordered) > 1e-6, 0, True)] if len(ordered) else ordered
 
 
-def _runs(labels: NDArray[np.int64]) -> Iterable[tuple[int, int, int]]:
-    """Start, end and value of each run of equal labels that are not negative."""
-    cuts = np.flatnonzero(np.diff(labels)) + 1
-    starts = [0, *cuts.tolist()]
-    for start, end in zip(starts, [*starts[1:], len(labels)], strict=True):
-        if end > start and labels[start] >= 0:
-            yield start, end, int(labels[start])
+def _runs(labels: NDArray[np.int64]) -> tuple[NDArray[np.int64], ...]:
+    """Row, start, end and value of each run of equal labels in the rows, in order; negative ones have none."""
+    many = labels.shape[1]
+    begins = np.ones(labels.shape, bool)
+    begins[:, 1:] = labels[:, 1:] != labels[:, :-1]
+    starts = np.flatnonzero(begins)
+    ends = np.append(starts[1:], labels.size)
+    values = labels.ravel()[starts]
+    kept = values >= 0
+    starts, ends, values = starts[kept], ends[kept], values[kept]
+    rows = starts // many
+    return rows, starts - rows * many, ends - rows * many, values
 
 
-def _joined(rects: Sequence[tuple[Rect, list[int]]]) -> list[tuple[Rect, list[int]]]:
-    """Rectangles that share a whole side made one, first side by side, then one above the other."""
-    for axis in (0, 1):
-        lo, hi, other, end = axis, axis + 2, 1 - axis, 3 - axis
-        ordered = sorted(
-            [(round(rect[other], 6), round(rect[end], 6), rect[lo], n) for n, (rect, _) in enumerate(rects)]
-        )
-        done: list[tuple[Rect, list[int]]] = []
-        for rect, members in [rects[n] for *_, n in ordered]:
-            if done:
-                last, before = done[-1]
-                same = abs(last[other] - rect[other]) < 1e-6 and abs(last[end] - rect[end]) < 1e-6
-                if same and abs(last[hi] - rect[lo]) < 1e-6:
-                    joined = (last[0], last[1], rect[2], rect[3])
-                    done[-1] = (joined, before + members)
-                    continue
-            done.append((rect, list(members)))
-        rects = done
-    return list(rects)
+def _joined(
+    groups: NDArray[np.int64], sides: NDArray[np.int64], axis: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Rectangles of one group that share a whole side made one, along an axis.
+
+    Of `sides`, left, low, right, high as lines of a grid. What comes of them is in order: by group, the two other
+    sides, and place. Of each: the first and the last rectangle in it; and of each rectangle which one it is part of.
+    """
+    low, high = sides[:, 1 - axis], sides[:, 3 - axis]
+    order = np.lexsort((sides[:, axis], high, low, groups))
+    one, group = sides[order], groups[order]
+    goes_on = (one[1:, axis] == one[:-1, axis + 2]) & (group[1:] == group[:-1])
+    goes_on &= (low[order][1:] == low[order][:-1]) & (high[order][1:] == high[order][:-1])
+    begins = np.append(True, ~goes_on)[: len(order)]
+    part = np.empty(len(order), dtype=int)
+    part[order] = np.cumsum(begins) - 1
+    return order[begins], order[np.append(begins[1:], True)[: len(order)]], part
 
 
 def _corners(rect: Rect) -> tuple[Point, ...]:

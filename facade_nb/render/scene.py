@@ -208,7 +208,7 @@ def _looks_faults(layout: Layout) -> tuple[Fault, ...]:
     library = library_of(layout)
     looks = {(shape.geometry, shape.material): shape for shape in layout.shapes}
     suspect = {look for look, shape in looks.items() if any(_faults(shape, library))}
-    for shape in layout.shapes:
+    for shape in layout.shapes if suspect else ():
         if (shape.geometry, shape.material) in suspect:
             found.update((str(fault), fault) for fault in _faults(shape, library))
     return tuple(found.values())
@@ -260,7 +260,7 @@ def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
     over &= (bottoms < top - _EPS) & (tops > bottom + _EPS)
     over &= np.array([own.index for own in cutters]) > np.array([own.index for own in walls])[:, None]
     before: dict[int, list[Solid]] = {}
-    for n, k in zip(*(own.tolist() for own in np.nonzero(over)), strict=True):
+    for n, k in zip(*(own.tolist() for own in divmod(np.flatnonzero(over), len(cutters) or 1)), strict=True):
         wall, other = walls[n], cutters[k]
         if other.shape.layer != wall.shape.layer and _stands_in(other, wall):
             before.setdefault(wall.index, []).append(other)
@@ -281,7 +281,10 @@ def _cut(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
         elif holes:
             d, (left, bottom) = solid.depth, solid.rect[:2]
             blocks = tuple(Block(r[0] - left, r[1] - bottom, r[2] - left, r[3] - bottom, -d, 0) for r in rest)
-            solid = replace(solid, parts=blocks)
+            # `replace` takes long, and there are many
+            solid = Solid(
+                solid.index, solid.shape, solid.geometry, solid.face, solid.depth, blocks, solid.materials
+            )
         done.append(replace(solid, cuts=tuple(cuts)) if cuts else solid)
     return tuple(done)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
@@ -100,20 +100,29 @@ def solids_of(layout: Layout, roof_depth: float | None) -> Iterator[Solid]:
         For every unknown geometry or material, once all shapes are looked at.
     """
     faults: dict[str, Fault] = {}
+    known: dict[tuple[str, str], tuple[Geometry, str]] = {}
+    slots: dict[tuple[int, str, str], tuple[Mapping[str, str], tuple[Part, ...]]] = {}
     for index, shape in enumerate(layout.shapes):
-        try:
-            geometry, own = _looks(shape)
-        except DesignError as error:
-            faults.update((str(fault), fault) for fault in error.faults)
-            continue
+        look = known.get((shape.geometry, shape.material))
+        if look is None:
+            try:
+                look = known[shape.geometry, shape.material] = _looks(shape)
+            except DesignError as error:
+                faults.update((str(fault), fault) for fault in error.faults)
+                continue
         if faults:
             continue  # nothing will be drawn: only look for the rest of the faults
+        geometry, own = look
         width, height = size_of(shape)
         face = shape.offset or geometry.face(width, height)
         depth = max(shape.thickness, face, geometry.depth(width, height), 0.01)
         if roof_depth is not None and geometry.roof:
             depth = max(depth, roof_depth)
-        yield solid_of(index, shape, geometry, own, face, depth)
+        parts = _parts(shape, geometry, depth)
+        kind = (id(parts), geometry.name, own)
+        if kind not in slots:  # the parts are held with it, so that no others have their place in memory
+            slots[kind] = _materials(geometry, own, parts), parts
+        yield Solid(index, shape, geometry, face, depth, parts, slots[kind][0])
     if faults:
         raise DesignError(faults.values())
 
@@ -128,13 +137,22 @@ def solid_of(
     index: int, shape: PlacedShape, geometry: Geometry, own: str, face: float, depth: float
 ) -> Solid:
     """The body of a shape; `own` is its material."""
+    parts = _parts(shape, geometry, depth)
+    return Solid(index, shape, geometry, face, depth, parts, _materials(geometry, own, parts))
+
+
+def _parts(shape: PlacedShape, geometry: Geometry, depth: float) -> tuple[Part, ...]:
     width, height = size_of(shape)
     make = parts_of if not is_file(shape.geometry) else partial(_fitted, geometry)
-    parts = make(shape.geometry, round(width, 6), round(height, 6), round(depth, 6), shape.mirrored)
+    return make(shape.geometry, round(width, 6), round(height, 6), round(depth, 6), shape.mirrored)
+
+
+def _materials(geometry: Geometry, own: str, parts: Iterable[Part]) -> Mapping[str, str]:
+    """The material of each slot of some parts."""
     materials = {"body": own, **geometry.slots}
     for part in parts:
         materials.setdefault(part.slot, own)
-    return Solid(index, shape, geometry, face, depth, parts, materials)
+    return materials
 
 
 def _looks(shape: PlacedShape) -> tuple[Geometry, str]:

@@ -78,8 +78,8 @@ class Cache:
     answers
         Answers of an axis, or of both where a counter ties them, by all that they depend on (`solution`).
     earlier
-        What was found last for problems that differ in sizes, bounds and canvas only, and for those with the same rows
-        in their groups (`solution`).
+        What was found last, with its problem, for problems that differ in sizes, bounds and canvas only, and for those
+        with the same rows in their groups (`solution`).
     groups
         The best structures of a group and its bound, so that groups that an edit leaves alone are not searched again
         (`selection.axis`).
@@ -93,7 +93,7 @@ class Cache:
 
     def __init__(self) -> None:
         self.answers: Kept[Any] = Kept(32_000_000)
-        self.earlier: Kept[Any] = Kept(16_000_000)
+        self.earlier: Kept[tuple[Any, Any]] = Kept(16_000_000)
         self.groups: Kept[Any] = Kept(24_000_000)
         self.words: Kept[Any] = Kept(32_000_000)
         self.ranges: Kept[dict[str, tuple[int, int]]] = Kept(1_000)

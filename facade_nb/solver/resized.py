@@ -22,8 +22,8 @@ from .model.objective import Objective
 from .model.problem import AxisProblem, axis_problem
 from .schedules.kept import kept_as, last_as, spelled_as
 from .schedules.tolerances import TOLERANCES
-from .selection.axis import AxisSearch, Best, Solved
-from .selection.warm_start import adopted
+from .selection.axis import AxisSearch, Best
+from .selection.warm_start import adopted, carried
 from .solution import AxisAnswer, compose
 
 __all__ = ["resized"]
@@ -93,19 +93,31 @@ def _resized(design: Design, clock: Clock) -> Layout | None:
 def _adopted(problem: AxisProblem, objective: Objective, clock: Clock) -> Best | None:
     """What was found before on an axis, as it is with its problem of now; None: it cannot be."""
     # The patterns as they are written now, sized otherwise, come before others that stood in their place.
-    found: list[Solved | None] = [CACHE.earlier.get(key(problem, objective)) for key in (spelled_as, last_as)]
-    before = {id(one): one for one in found if one is not None}.values()
+    found = [CACHE.earlier.get(key(problem, objective)) for key in (spelled_as, last_as)]
+    before = {id(one[1]): one for one in found if one is not None}.values()
     if not before:
         return None
     tolerance = TOLERANCES[-1] * problem.canvas
     walk = AxisSearch(problem, objective, tolerance, check=clock.check, progress=clock.progress)
-    walk.enumerate()
-    solved = next((own for one in before if (own := adopted(walk, one, respelled=True)) is not None), None)
-    best = None if solved is None else Best(solved, min(walk.floor, solved.cost), False)
+    solved = None
+    for asked, answer in before:
+        if (asked.patterns, asked.symbols, asked.counters) == (
+            problem.patterns,
+            problem.symbols,
+            problem.counters,
+        ):
+            solved = carried(walk, answer, answer.candidate)  # on another canvas: every word is one still
+        else:
+            if not walk.found:
+                walk.enumerate()
+            solved = adopted(walk, answer, respelled=True)
+        if solved is not None:
+            break
     walk.forget()
     for group in solved.groups if solved else ():
         group.forget()
-    return best
+    # Of J nothing is known but that it is no less than nothing: the search tells more.
+    return None if solved is None else Best(solved, 0.0, False)
 
 
 def _answer(design: Design, problem: AxisProblem, best: Best) -> AxisAnswer:

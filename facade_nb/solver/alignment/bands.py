@@ -164,6 +164,17 @@ class Band:
 
     def alike(self, position: Position, other: Option) -> Option | None:
         """The element here that has the same letters and ends at the same place as one of another band; or None."""
+        if (
+            not other.transparent and not other.empty
+        ):  # a run of solid letters has its place among the elements
+            k = len(other.letters) - 1 + rules.may_be_empty(position)
+            made = self._options.get(position)
+            if made is not None:
+                one = made[k] if k < len(made) else None
+            else:
+                one = self._single.get((position, k)) or next(self._make(position, k), None)
+            if one is not None and one.target == other.target and one.letters == other.letters:
+                return one if made is not None else self._single.setdefault((position, k), one)
         for k, one in enumerate(self._make(position)):
             if one.target == other.target and one.letters == other.letters:
                 return self.option(position, k)

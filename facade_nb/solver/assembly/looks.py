@@ -12,7 +12,7 @@ from ...design.instances import spell_instance, split_instance
 from ...design.model import Design, Layer, Shape, Variant
 from ..model.layout import AxisLayout, PlacedLetter
 
-__all__ = ["DEFAULT_SHAPE", "Instance", "Looks", "Told", "instances"]
+__all__ = ["DEFAULT_SHAPE", "Instance", "Looks", "Told", "instances", "written"]
 
 DEFAULT_SHAPE = Shape("wall", "box", "card", 0.0, 0.2, True)
 """What a shape is where nothing is said: a plain box, as in the paper."""
@@ -57,6 +57,11 @@ def instances(solved: AxisLayout, layer: Layer) -> Iterator[tuple[PlacedLetter, 
         yield letter, (letter.symbol, number, many[letter.symbol])
 
 
+def written(design: Design) -> set[str]:
+    """All symbols of a design, those included that only its patterns write."""
+    return {*design.symbols, *(s for p in design.patterns.values() for s in p.parsed.symbols)}
+
+
 class Looks:
     """The looks of a layer's cells, every field filled in.
 
@@ -65,18 +70,18 @@ class Looks:
     then those of the variant that this instance takes.
     """
 
-    def __init__(self, design: Design, layer: Layer) -> None:
+    def __init__(self, design: Design, layer: Layer, known: Collection[str] | None = None) -> None:
         x, y = (design.patterns[side.pattern].shapes for side in (layer.x, layer.y))
         every = (("design", design.shapes), ("x", x), ("y", y), ("layer", layer.shapes))
         self._sources = [(level, source) for level, source in every if source]
         self._choice = (design.seed, layer.name)
-        known = {*design.symbols, *(s for p in design.patterns.values() for s in p.parsed.symbols)}
+        known = written(design) if known is None else known
         # Numbers by which a symbol's instances are named, from the left or from below and from the other end.
         self._named: dict[str, set[int]] = {}
         varied = False
         for key, shape in ((key, shape) for _, source in self._sources for key, shape in source.items()):
             varied = varied or shape.variants is not None
-            for name in _halves(key):
+            for name in _halves(key) if "[" in key else ():
                 symbol, number = split_instance(name, known)
                 if number is not None:
                     self._named.setdefault(symbol, set()).add(number)

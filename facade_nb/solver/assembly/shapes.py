@@ -11,9 +11,12 @@ import numpy as np
 from ...design.errors import NoLayout
 from ...design.model import AXES, Axis, Canvas, Design, Layer, Shape
 from ..model.layout import AxisLayout, PlacedLetter, PlacedShape, Rect
-from .looks import Instance, Looks, instances
+from .looks import Instance, Looks, instances, written
 
 __all__ = ["find_holes", "hole_warnings", "merge"]
+
+_Drawn = tuple[str, str, str, float, float]
+"""Kind, geometry, material, offset, thickness."""
 
 MAX_SHAPES = 250_000
 """Most shapes of one layer."""
@@ -41,17 +44,24 @@ def merge(
     """
     layers: list[list[PlacedShape]] = []
     fronts: list[_Front] = []
+    known = written(design)
     for layer in design.stack:  # topmost first, so that what covers is known before what is covered
         own: list[PlacedShape] = []
-        looks = Looks(design, layer)
+        looks = Looks(design, layer, known)
         cells = (list(_shown(design, layer, "x", x)), list(_shown(design, layer, "y", y)))
         columns, floors = ([letter for letter, _ in line] for line in cells)
-        numbers, levels = ([own[1] for _, own in line] for line in cells)
         sorts, rises = ([looks.sort(own) for _, own in line] for line in cells)
         front = _Front(columns, floors)
         before = [(f, f.across(columns), f.up(floors)) for f in fronts]
         opaque = {a.symbol for a in (*columns, *floors) if design.symbol(a.symbol).opaque}
-        for j, v in enumerate(floors):
+        across_it = [
+            (i, a.symbol, a.start, a.end, a.mirrored, number, a.symbol in opaque)
+            for i, (a, (_, number, _)) in enumerate(cells[0])
+        ]
+        rows: dict[
+            int, list[tuple[int, str, float, float, bool, int, bool, _Drawn]]
+        ] = {}  # by sort: the cells that are drawn
+        for j, (v, (_, level, _)) in enumerate(cells[1]):
             if check is not None:
                 check()
             if len(own) > MAX_SHAPES:
@@ -59,16 +69,31 @@ def merge(
             hiding = [
                 (f.solid, across, up[j]) for f, across, up in before if up[j] is not None and not behind
             ]
-            for i, h in enumerate(columns):
-                look = looks.of(sorts[i], rises[j])
-                if not look.visible:
-                    continue
+            row = rows.get(rises[j])
+            if row is None:
+                row = rows[rises[j]] = [
+                    (*one, _drawn(look))
+                    for one, sort in zip(across_it, sorts, strict=True)
+                    if (look := looks.of(sort, rises[j])).visible
+                ]
+            up_symbol, low, high, turned, solid_up = v.symbol, v.start, v.end, v.mirrored, v.symbol in opaque
+            for i, symbol, left, right, mirrored, number, solid_across, drawn in row:
                 for solid, across, k in hiding:
                     if (across[i], k) in solid:
                         break
                 else:
-                    own.append(_placed(layer, h, v, look, (numbers[i], levels[j])))
-                    if h.symbol in opaque and v.symbol in opaque:
+                    own.append(
+                        PlacedShape(
+                            layer.name,
+                            symbol,
+                            up_symbol,
+                            (left, low, right, high),
+                            (mirrored, turned),
+                            *drawn,
+                            (number, level),
+                        )
+                    )
+                    if solid_across and solid_up:
                         front.solid.add((i, j))
         fronts.append(front)
         layers.append(own)
@@ -121,21 +146,14 @@ class _Row:
         return found
 
 
-def _placed(
-    layer: Layer, h: PlacedLetter, v: PlacedLetter, look: Shape, number: tuple[int, int]
-) -> PlacedShape:
-    return PlacedShape(
-        layer.name,
-        h.symbol,
-        v.symbol,
-        (h.start, v.start, h.end, v.end),
-        (h.mirrored, v.mirrored),
+def _drawn(look: Shape) -> _Drawn:
+    """What a shape has of its look."""
+    return (
         look.kind or "wall",
         look.geometry or "box",
         look.material or "card",
         look.offset or 0.0,
         0.0 if look.thickness is None else look.thickness,
-        number,
     )
 
 

@@ -11,7 +11,7 @@ from .. import tuning
 from ..budget import Stopped
 from ..cache import CACHE
 from ..model.precision import EPS
-from ..selection.axis import AxisSearch, Best, Solved
+from ..selection.axis import AxisSearch, Best
 from ..selection.warm_start import adopted, upper_bound
 from .kept import kept_as, last_as, spelled_as
 from .run import Found, Run, Unsolved
@@ -56,7 +56,8 @@ def _from_before(run: Run, walk: AxisSearch) -> Best:
         return run.best(walk)
     problem = walk.problem
     key = spelled_as(problem, run.objective)
-    before: Solved | None = CACHE.earlier.get(key)
+    kept = CACHE.earlier.get(key)
+    before = None if kept is None else kept[1]
     cap = inf
     with suppress(Stopped):  # then there is no time for the search either, which knows what to do
         cap = inf if before is None else upper_bound(walk, before)
@@ -70,6 +71,6 @@ def _from_before(run: Run, walk: AxisSearch) -> Best:
             best.solved = other if other is not None and other.beats(best.solved) else best.solved
     if best.solved is not None and not run.trial:
         weight = max(tuning.ANSWER_BYTES / 2, best.solved.weight)
-        CACHE.earlier.put(key, best.solved, weight)
-        CACHE.earlier.put(last_as(problem, run.objective), best.solved, weight)
+        CACHE.earlier.put(key, (problem, best.solved), weight)
+        CACHE.earlier.put(last_as(problem, run.objective), (problem, best.solved), weight)
     return best

@@ -83,6 +83,12 @@ class Searches:
         runs = [self._same_words(rows, own, tuple(keys[g] for g in own)) for own in clusters]
         return clusters, keys, runs
 
+    def groups(self, candidate: Candidate) -> tuple[list[list[int]], list[Group]]:
+        """Which groups of a candidate are aligned together, and all of them; nothing is searched."""
+        rows, _, clusters = self._rows_of(candidate)
+        made = {g: group for own in clusters for g, group in zip(own, self._made(rows, own), strict=True)}
+        return clusters, [made[g] for g in range(len(made))]
+
     def keep(self) -> None:
         """Keep what has been found for the next call, and let go of what can be made again."""
         for key, run in self.runs.items():
@@ -103,21 +109,7 @@ class Searches:
         """The search of a cluster: the one that there is for the same words, or others with the same letters."""
         run = self._by_words.get(words)
         if run is None:
-            unsized = any(rows[g].unsized for g in cluster)
-            free = (
-                lone_unsized(*(dict.fromkeys(rows[g].letters) for g in cluster)) if unsized else frozenset()
-            )
-            groups = [
-                make_group(
-                    rows[g].letters,
-                    self._setting.problem.canvas,
-                    self._setting.tolerance,
-                    self._setting.objective,
-                    free=free,
-                    check=self._setting.check,
-                )
-                for g in cluster
-            ]
+            groups = self._made(rows, cluster)
             key = tuple(group.identity for group in groups)
             run = self.runs.get(key)
             if run is None:
@@ -125,6 +117,22 @@ class Searches:
                 run = self.runs[key] = self.run(groups, None, cluster, known)
             self._by_words[words] = run
         return run
+
+    def _made(self, rows: Sequence[_Rows], cluster: Sequence[int]) -> list[Group]:
+        """The groups of a cluster."""
+        unsized = any(rows[g].unsized for g in cluster)
+        free = lone_unsized(*(dict.fromkeys(rows[g].letters) for g in cluster)) if unsized else frozenset()
+        return [
+            make_group(
+                rows[g].letters,
+                self._setting.problem.canvas,
+                self._setting.tolerance,
+                self._setting.objective,
+                free=free,
+                check=self._setting.check,
+            )
+            for g in cluster
+        ]
 
     def run(
         self,

@@ -17,7 +17,7 @@ from ..candidates.stream import Candidate
 from ..model.letters import Word
 from .axis import AxisSearch, Solved
 
-__all__ = ["adopted", "upper_bound"]
+__all__ = ["adopted", "carried", "upper_bound"]
 
 
 def adopted(walk: AxisSearch, other: Solved, *, respelled: bool = False) -> Solved | None:
@@ -26,10 +26,13 @@ def adopted(walk: AxisSearch, other: Solved, *, respelled: bool = False) -> Solv
     With `respelled` a pattern may be written in another way by now: what counts is that its word is one still.
     """
     candidate = _respelled(walk, other.candidate) if respelled else _now(walk, other.candidate)
-    if candidate is None:
-        return None
+    return None if candidate is None else carried(walk, other, candidate)
+
+
+def carried(walk: AxisSearch, other: Solved, candidate: Candidate) -> Solved | None:
+    """The structure of an answer with the words of a candidate, priced and sized; None: not within the tolerance."""
     case = walk.case(candidate)
-    walk.open(case)
+    case.clusters, case.groups = walk.searches.groups(candidate)
     ties: list[list[Priced]] = []
     for cluster in case.clusters:
         priced = _priced([case.groups[g] for g in cluster], other, cluster)

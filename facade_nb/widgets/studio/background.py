@@ -8,8 +8,9 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-from ...design import Design, NoLayout
+from ...design import Design, FacadeError, NoLayout
 from ...solver import Layout, solve
+from ..shared.collecting import hold, release
 
 __all__ = ["FIRST", "Known", "LatestSolver", "Outcome", "Solve"]
 
@@ -49,11 +50,15 @@ class Outcome:
 FIRST = 0.06
 """Seconds after which an edit is shown as the search has it by then, while it goes on."""
 
-QUICK = 0.02
-"""Seconds of the processor: where a search takes no longer, it is waited for; nothing is shown before it."""
+QUICK = 0.01
+"""Seconds of the processor: where searches take no longer, they are waited for; nothing is shown before their end."""
 
 _SHOWN = 0.25
 """Seconds for which the search lets the first layout be drawn, at most, before it goes on."""
+
+_REST = 0.06
+"""Seconds for which it rests then: sending what was drawn, and painting it, have the processor and the lock to
+themselves, and what is typed on meanwhile finds nothing under way."""
 
 
 class LatestSolver:
@@ -74,7 +79,7 @@ class LatestSolver:
     known
         What tells at once what is known of an edited design, such as `facade_nb.solver.resized.resized`; None: nothing.
     quick
-        Seconds of the processor: where one of the last two searches took no longer, the next one is waited for instead.
+        Seconds of the processor: where the last two searches took no longer, the next one is waited for instead.
     """
 
     def __init__(
@@ -94,6 +99,7 @@ class LatestSolver:
         self._latest = 0
         self._ended = 0
         self._shown = 0
+        self._hurried = 0
         self._told = 0
         self._thread: threading.Thread | None = None
 
@@ -121,6 +127,8 @@ class LatestSolver:
         with self._condition:
             self._latest = revision
             self._next = (revision, design, time_limit, traced, first)
+            if first is not None:  # until it has been shown
+                hold(self)
             self._condition.notify_all()
             if self._thread is None:
                 self._thread = threading.Thread(target=self._work, name="facade_nb-solver", daemon=True)
@@ -156,7 +164,7 @@ class LatestSolver:
         """Wait until nothing is being solved; returns whether that came within `timeout` seconds."""
         with self._condition:
             if timeout is None or timeout > _SHOWN:  # who waits for the end looks at nothing before
-                self._shown = self._latest
+                self._shown = self._hurried = self._latest
                 self._condition.notify_all()
             return self._condition.wait_for(lambda: self._thread is None, timeout)
 
@@ -164,6 +172,7 @@ class LatestSolver:
         while True:
             with self._condition:
                 if self._next is None:
+                    release(self)
                     self._thread = None
                     self._condition.notify_all()
                     return
@@ -179,6 +188,7 @@ class LatestSolver:
                 if begun.layout is not None:
                     self._tell(replace(begun, proving=True))
                     self._let_show(revision)
+            release(self)  # a search may take long
             self._tell(_together(begun, self._run(revision, design, time_limit, more)))
 
     def _tell(self, outcome: Outcome) -> None:
@@ -189,13 +199,15 @@ class LatestSolver:
 
     def _at_once(self, revision: int, design: Design) -> Outcome | None:
         """What is known of a design before it is searched, where the search will take long."""
-        if self._known is None or min(self._took) <= self._quick:
+        if self._known is None or max(self._took) <= self._quick:
             return None
         began = time.perf_counter()
         try:
             layout = self._known(design, should_stop=lambda: self._superseded(revision))
-        except Exception:  # the search will say what is wrong
+        except FacadeError:  # the search will say what is wrong
             return None
+        except Exception as unexpected:  # as in `_run`
+            return Outcome(revision, design, None, unexpected, time.perf_counter() - began)
         return (
             None if layout is None else Outcome(revision, design, layout, None, time.perf_counter() - began)
         )
@@ -215,6 +227,7 @@ class LatestSolver:
     def _let_show(self, revision: int) -> None:
         with self._condition:
             self._condition.wait_for(lambda: self._shown >= revision or self._superseded(revision), _SHOWN)
+            self._condition.wait_for(lambda: self._hurried >= revision or self._superseded(revision), _REST)
 
     def _run(
         self, revision: int, design: Design, time_limit: float | None, more: Mapping[str, bool]

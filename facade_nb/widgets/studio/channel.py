@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import traceback
+from collections.abc import Callable
 from typing import Any
 
 from traitlets import Dict, List, Unicode
 
 from ... import gallery
-from ...design import DesignError
+from ...design import DesignError, Fault
 from ...render import GEOMETRIES, MATERIALS
 from ...render.elevation import elevation_pieces
+from ...render.scene import build_scene, drawing_faults
 from ...solver import Layout
 from ..shared.bundled import Message
 from .commands import COMMANDS
@@ -50,6 +52,7 @@ class Channel(Scenery):
 
     def __init__(self, model: FacadeModel) -> None:
         self._drawn: tuple[Layout | None, str] | None = None
+        self._faults: tuple[Fault, ...] = ()
         self._answering = False
         self._answered: dict[str, Any] = {}
         self._failure = ""
@@ -93,38 +96,67 @@ class Channel(Scenery):
         super().close()
 
     def publish(self) -> None:
-        """Send all that has changed, in one message."""
+        """Send all that has changed: in one message, or, where there is another picture, that first and the rest after.
+
+        What is told of the design is made, sent and read while the picture is on its way to the screen.
+        """
         self._forget_timer()
         with self.hold_sync():
-            try:
-                self._describe()
-            except Exception:  # as in `_receive`: it is shown, and the fields are answered all the same
-                self._failure = traceback.format_exc()
-            self.trouble = self._failure
-            self.ack = self._answered
+            drawn = self._attempt(self._show)
+            if not drawn:
+                self._tell()
+        if drawn:
+            with self.hold_sync():
+                self._tell()
 
-    def _describe(self) -> None:
-        layout = self.model.layout
-        status = describe_status(self.model)
+    def _attempt(self, work: Callable[[], bool]) -> bool:
+        try:
+            return work()
+        except Exception:  # as in `_receive`: it is shown, and the fields are answered all the same
+            self._failure = traceback.format_exc()
+            return False
+
+    def _show(self) -> bool:
+        """Bring the picture up to date, and what lies over it; whether it is another one."""
+        layout, before = self.model.layout, self.svg
+        refused = ""
         if self._drawn is None or not _same(self._drawn[0], layout) or self._drawn[1] != self.theme:
             try:
                 self.svg = "" if layout is None else self._draw(layout)
                 self._drawn = (layout, self.theme)
             except DesignError as error:  # a material that there is not: the last good picture stays
-                status |= {"stale": True, "message": str(error)}
-        self.design = describe_design(self.model)
+                refused, self._faults = str(error), () if layout is None else drawing_faults(layout)
+        status = describe_status(self.model, self._faults)
+        if refused:
+            status |= {"stale": True, "message": refused}
         self.status = status
         self.drafts = describe_drafts(self.model)
         self.selection = describe_selection(self.model)
+        self._describe_overlays(self.theme)
+        return self.svg != before
+
+    def _tell(self) -> None:
+        """Bring all else up to date."""
+        self._attempt(self._describe)
+        self.trouble = self._failure
+        self.ack = self._answered
+
+    def _describe(self) -> bool:
+        self.design = describe_design(self.model)
         self._describe_extras(self.theme)
         self._describe_scenery()
+        return True
 
     def _draw(self, layout: Layout) -> str:
         """The elevation, a piece a line: views compare the lines, and change those that differ."""
         prefix = (
             f"f{self.model_id}"  # known to the browser, which gives each of its views a prefix of its own
         )
-        pieces = elevation_pieces(layout, theme=self.theme, holes=True, background=False, prefix=prefix)
+        scene = build_scene(layout)
+        self._faults = scene.faults
+        pieces = elevation_pieces(
+            layout, theme=self.theme, holes=True, background=False, prefix=prefix, scene=scene
+        )
         return "\n".join(piece.replace("\n", "&#10;") for piece in pieces)
 
     def _on_version(self, _: object) -> None:

@@ -12,6 +12,7 @@ from ipywidgets import Widget
 from traitlets import Dict, List, Unicode
 
 from ...design import Design
+from ...design.document import spelled
 from ...design.model import AXES
 from ...render import elevation_svg, exploded_svg, naive_layout
 from ...solver import Layout
@@ -125,14 +126,8 @@ class Extras(ModelWire):
         model = self.model
         design, layout = model.design, model.layout
         if self._changed("document", design):
-            self.document = model.save()
+            self.document = spelled(design)
         self.stage = self._stage()
-        if self._changed("marks", layout, self._wanted("marks")):
-            self.marks = _marks(layout) if layout is not None and self._wanted("marks") else {}
-        if self._changed("naive", layout, theme, self._wanted("naive")):
-            shown = layout is not None and self._wanted("naive")
-            prefix = f"n{self.model_id}"
-            self.naive = _naive(layout, theme, prefix) if shown and layout is not None else {}
         if self._changed("exploded", layout, theme, self._wanted("exploded")):
             shown = layout is not None and self._wanted("exploded")
             self.exploded = (
@@ -147,6 +142,16 @@ class Extras(ModelWire):
             self.survey = _survey(layout, self.surveyed)
         if self._changed("snapshots", tuple(self.taken), theme):
             self.snapshots = [_snapshot(one, theme) for one in self.taken]
+
+    def _describe_overlays(self, theme: str) -> None:
+        """Bring what lies over the picture up to date, in the same way."""
+        layout = self.model.layout
+        if self._changed("marks", layout, self._wanted("marks")):
+            self.marks = _marks(layout) if layout is not None and self._wanted("marks") else {}
+        if self._changed("naive", layout, theme, self._wanted("naive")):
+            shown = layout is not None and self._wanted("naive")
+            prefix = f"n{self.model_id}"
+            self.naive = _naive(layout, theme, prefix) if shown and layout is not None else {}
 
     def _words_soon(self) -> None:
         """Tell the words of the patterns that are looked at, after all else: no edit waits for them."""

@@ -79,8 +79,8 @@ class FacadeModel(Undoable[_Snapshot], Linkable):
     first
         Seconds after which a search that takes longer is shown as it stands, while it goes on; None: never.
     quick
-        Seconds of the processor: where the last two searches took longer, an edited design is shown at once with the
-        structure that it had, while it is searched.
+        Seconds of the processor: where one of the last two searches took longer, an edited design is shown at once with
+        the structure that it had, while it is searched.
     known
         What tells that: by default `facade_nb.solver.resized.resized`, and nothing beside another `solve`.
 

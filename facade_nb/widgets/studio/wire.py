@@ -10,7 +10,6 @@ from ...design import Fault
 from ...design.model import AXES, Axis, Design, Layer, LayerAxis
 from ...render.materials import RULE
 from ...render.ruled import grammar_faults, material_of, rule_names
-from ...render.scene import drawing_faults
 from .fields import UNSHAPED
 from .looks import describe_cell, describe_pairs
 from .model import FacadeModel
@@ -47,8 +46,8 @@ def describe_design(model: FacadeModel) -> Json:
     }
 
 
-def describe_status(model: FacadeModel) -> Json:
-    """How the last solve went, and what can be undone."""
+def describe_status(model: FacadeModel, faults: Iterable[Fault]) -> Json:
+    """How the last solve went, and what can be undone; `faults`: what cannot be drawn of the layout as it says."""
     layout, blame = model.layout, model.blame
     status: Json = {
         "busy": model.busy,
@@ -73,7 +72,7 @@ def describe_status(model: FacadeModel) -> Json:
         status["solved"] = {
             "shapes": len(layout.shapes),
             "holes": len(layout.holes),
-            "warnings": [*layout.warnings, *map(str, drawing_faults(layout))],
+            "warnings": [*layout.warnings, *map(str, faults)],
             "complete": layout.complete,
             "proven": layout.x.proven and layout.y.proven,
             "gap": _rounded(layout.x.gap + layout.y.gap),

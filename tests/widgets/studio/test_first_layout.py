@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import asyncio
+import random
 import threading
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 
+import pytest
+
 from facade_nb import Design, Layout, NoLayout, gallery, solve
+from facade_nb.render.elevation import elevation_pieces
 from facade_nb.solver.resized import resized
 from facade_nb.solver.solution import forget
 from facade_nb.widgets import FacadeModel
@@ -139,6 +143,47 @@ def test_an_edit_is_shown_with_the_structure_that_there_was_before_it_is_searche
     assert asked == [6.0, 7.0]  # and it is searched once
 
 
+@pytest.mark.parametrize("name", ["residential-house", "figure-7", "apartment-house"])
+def test_the_last_picture_is_that_of_the_layout_drawn_afresh(name: str) -> None:
+    """Whatever came before it: the structure that there was, a picture that is kept, a search that was passed over."""
+    design, draw = gallery.load(name), random.Random(name)
+    sized = [symbol.name for symbol in design.symbols.values() if symbol.size is not None]
+    shown: list[Layout] = []
+
+    def known(design: Design, **options: object) -> Layout | None:
+        found = resized(design)
+        shown.extend([] if found is None else [found])
+        return found
+
+    async def session() -> None:
+        model = FacadeModel(
+            design, solve=lambda own, **_: solve(own, time_limit=None), quick=-1.0, known=known
+        )
+        line = Line(model)
+        await _until(lambda: not model.busy)
+        for turn in range(6):
+            symbol = draw.choice(sized)
+            size = round((design.symbol(symbol).size or 1.0) * draw.uniform(0.97, 1.03), 3)
+            width = round(design.canvas.width * draw.uniform(0.98, 1.02), 2)
+            line.set(*(("canvas/width", width), (f"symbols/{symbol}/size", size))[turn % 2])
+            await _until(lambda: not model.busy)
+            if model.message:  # the last good picture stays
+                continue
+            layout = model.layout
+            assert layout is not None
+            prefix = f"f{line.channel.model_id}"
+            fresh = elevation_pieces(layout, holes=True, background=False, prefix=prefix)
+            assert line.channel.svg == "\n".join(fresh)
+        model.close()
+
+    asyncio.run(session())
+    assert len(shown) > 2
+    for layout in shown:
+        for solved in (layout.x, layout.y):
+            assert solved.sizing is not None
+            assert solved.sizing.primal_residual < 1e-9
+
+
 def test_a_search_that_is_quick_is_waited_for() -> None:
     """What comes before the answer is of use only where that takes long."""
 
@@ -151,4 +196,4 @@ def test_a_search_that_is_quick_is_waited_for() -> None:
         await _until(lambda: not model.busy)
         return line
 
-    assert not any(update["status"]["proving"] for update in asyncio.run(session()).updates)
+    assert not any(update.get("status", {}).get("proving") for update in asyncio.run(session()).updates)

@@ -12,8 +12,10 @@ interface Piece {
 
 interface Drawn extends Piece {
   el: Element;
-  /** It and all that is in it, in order; found when they are first asked for. */
-  all: Element[] | null;
+  /** The line at its quotation marks; found when it is first asked for. */
+  parts: string[] | null;
+  /** Whose attribute each value in the line is, and its name; found when they are first asked for. */
+  values: [Element, string][] | null;
   inner: Drawn[] | null;
 }
 
@@ -22,18 +24,47 @@ const SVG = "http://www.w3.org/2000/svg";
 
 export class Sheet {
   private readonly root: Drawn | null;
+  /** Line by line, what it is of; a closing tag is of nothing. */
+  private lines: (Drawn | string)[];
 
   /** `svg` is what the text was parsed to. */
   constructor(text: string, svg: Element) {
     const piece = outline(text);
     this.root = piece && drawn(piece, svg);
+    this.lines = this.root ? listed(this.root) : [];
   }
 
   /** Show another text; false: the drawing has to be made anew. */
   follow(text: string): boolean {
+    if (!this.root) return false;
+    if (this.keepsPlaces(text)) return true;
     const next = outline(text);
-    return this.root !== null && next !== null && amend(this.root, next);
+    if (next === null || !amend(this.root, next)) return false;
+    this.lines = listed(this.root);
+    return true;
   }
+
+  /** Most edits move things and leave them as many: then each line goes on as it was, and nothing has to be looked up. */
+  private keepsPlaces(text: string): boolean {
+    const next = text.split("\n");
+    if (next.length !== this.lines.length) return false;
+    const differ: [Drawn, string][] = [];
+    for (const [n, own] of this.lines.entries()) {
+      const line = next[n] as string;
+      if (typeof own === "string") {
+        if (own !== line) return false;
+      } else if (own.line !== line) {
+        if (keyOf(own.line) !== keyOf(line)) return false;
+        differ.push([own, line]);
+      }
+    }
+    return differ.every(([own, line]) => setValues(own, line));
+  }
+}
+
+function listed(own: Drawn): (Drawn | string)[] {
+  if (!own.inner) return [own];
+  return [own, ...own.inner.flatMap(listed), `</${/^<(\w+)/.exec(own.line)?.[1]}>`];
 }
 
 /** The pieces of a text; null: it is not in pieces. */
@@ -87,7 +118,7 @@ function drawn(piece: Piece, el: Element): Drawn | null {
     if (!made) return null;
     inner.push(made);
   }
-  return { ...piece, el, all: null, inner: piece.inner && inner };
+  return { ...piece, el, parts: null, values: null, inner: piece.inner && inner };
 }
 
 /** Change what is drawn into another piece; false: it cannot be, and nothing of this piece was changed. */
@@ -136,19 +167,32 @@ function textOf(piece: Piece): string {
 function setValues(own: Drawn, line: string): boolean {
   if (own.line === line) return true;
   // In an attribute or a text a quotation mark is written as an entity, so that what is between two of them is a value.
-  const [was, is] = [own.line.split('"'), line.split('"')];
+  own.parts ??= own.line.split('"');
+  const [was, is] = [own.parts, line.split('"')];
   if (was.length !== is.length) return false;
   for (let n = 0; n < is.length; n += 2) if (was[n] !== is[n]) return false;
-  own.all ??= own.inner ? [own.el] : [own.el, ...own.el.querySelectorAll("*")];
-  let at = -1;
-  for (let n = 0; n < is.length; n += 2) {
-    const [text, value] = [is[n] as string, is[n + 1]];
-    for (let tag = text.indexOf("<"); tag >= 0; tag = text.indexOf("<", tag + 1)) if (text[tag + 1] !== "/") at += 1;
-    if (value !== undefined && value !== was[n + 1])
-      own.all[at]?.setAttribute(text.slice(text.lastIndexOf(" ") + 1, -1), decoded(value));
+  own.values ??= valuesOf(own, is);
+  for (let n = 1; n < is.length; n += 2) {
+    const value = is[n] as string;
+    if (value === was[n]) continue;
+    const [el, name] = own.values[n >> 1] as [Element, string];
+    el.setAttribute(name, decoded(value));
   }
   own.line = line;
+  own.parts = is;
   return true;
+}
+
+function valuesOf(own: Drawn, parts: string[]): [Element, string][] {
+  const all = own.inner ? [own.el] : [own.el, ...own.el.querySelectorAll("*")];
+  const found: [Element, string][] = [];
+  let at = -1;
+  for (let n = 0; n + 1 < parts.length; n += 2) {
+    const text = parts[n] as string;
+    for (let tag = text.indexOf("<"); tag >= 0; tag = text.indexOf("<", tag + 1)) if (text[tag + 1] !== "/") at += 1;
+    found.push([all[at] as Element, text.slice(text.lastIndexOf(" ") + 1, -1)]);
+  }
+  return found;
 }
 
 function decoded(value: string): string {

@@ -323,6 +323,8 @@ export const elevation: MakePart = (context) => {
     signal,
   );
   store.watch(["marks", "naive", "survey"], showMarks, "first");
+  // Groups and letters have their colours from the design, which is told after the picture.
+  store.watch(["design"], showMarks);
 
   const observer = new ResizeObserver(() => {
     room = { width: stage.clientWidth, height: stage.clientHeight };

@@ -76,6 +76,11 @@ export function invitation(context: Context): HTMLElement {
       pictures.el,
     ),
   );
+  /** The pattern whose field is to have the focus as soon as there is one. */
+  let due = "";
+  const seek = () => {
+    if (due && focusPattern(el, due)) due = "";
+  };
   store.onReply((reply) => {
     if (reply.kind === "unbegun") {
       mark(pattern, "aria-invalid", "true");
@@ -85,9 +90,12 @@ export function invitation(context: Context): HTMLElement {
     }
     if (reply.kind === "begun") {
       pattern.value = "";
-      requestAnimationFrame(() => focusPattern(el, reply.pattern));
+      due = reply.pattern;
+      requestAnimationFrame(seek);
     }
   });
+  // The reply may come ahead of the design that has the pattern.
+  store.watch(["design"], () => due && requestAnimationFrame(seek));
   store.watch(["menus"], () => {
     const buildings = store.get("menus").surveyed ?? [];
     survey.hidden = buildings.length === 0;
@@ -119,14 +127,15 @@ export function invitation(context: Context): HTMLElement {
   return el;
 }
 
-/** Go to the field of a pattern, its text selected: it is the next to be typed. */
-export function focusPattern(from: HTMLElement, name: string): void {
+/** Go to the field of a pattern, its text selected: it is the next to be typed. False: there is none yet. */
+export function focusPattern(from: HTMLElement, name: string): boolean {
   const root = from.closest(".fnb");
   const row = [...(root?.querySelectorAll<HTMLElement>("[data-pattern]") ?? [])].find(
     (own) => own.dataset.pattern === name,
   );
   const field = row?.querySelector<HTMLElement>("textarea, [contenteditable], input:not(.fnb-name)");
-  if (!field) return;
+  if (!field) return false;
   field.focus();
   if (field instanceof HTMLTextAreaElement || field instanceof HTMLInputElement) field.select();
+  return true;
 }

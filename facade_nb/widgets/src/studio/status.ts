@@ -79,13 +79,14 @@ function time(milliseconds: number): string {
 }
 
 function describeFacts(store: Store): string {
-  const { solved } = store.get("status");
+  const { solved, proving } = store.get("status");
   if (!solved || !store.get("design").layers.length) return "";
   const { x, y } = solved.deviation;
   return [
     `${solved.shapes} ${solved.shapes === 1 ? "shape" : "shapes"}`,
     `deviation ${formatNumber(x, 2)} × ${formatNumber(y, 2)} m`,
-    solved.proven ? "proven best" : `within ${formatNumber(solved.gap, 2)} of the best`,
+    // While the search goes on it is not known how good it is.
+    solved.proven ? "proven best" : proving ? "" : `within ${formatNumber(solved.gap, 2)} of the best`,
     solved.holes ? `${solved.holes} ${solved.holes === 1 ? "hole" : "holes"}` : "",
   ]
     .filter(Boolean)

@@ -1,0 +1,63 @@
+"""The garbage collector is kept back while somebody holds it, and never left so."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+from collections.abc import Iterator
+
+import pytest
+
+from facade_nb import solve
+from facade_nb.solver.resized import resized
+from facade_nb.widgets import FacadeModel
+from facade_nb.widgets.shared.collecting import hold, release
+from facade_nb.widgets.studio.background import LatestSolver
+
+from ..houses import house
+
+
+@pytest.fixture(autouse=True)
+def as_it_was() -> Iterator[None]:
+    yield
+    gc.enable()
+
+
+def test_it_goes_on_when_the_last_holder_lets_it_go() -> None:
+    one, two = object(), object()
+    hold(one)
+    hold(two)
+    release(one)
+    assert not gc.isenabled()
+    release(two)
+    assert gc.isenabled()
+    release(two)
+    gc.disable()  # what the user has switched off stays off
+    hold(one)
+    release(one)
+    assert not gc.isenabled()
+
+
+def test_an_edit_keeps_it_back_and_lets_it_go(monkeypatch: pytest.MonkeyPatch) -> None:
+    during: list[bool] = []
+    told = LatestSolver._tell
+
+    def tell(self: LatestSolver, outcome: object) -> None:
+        during.append(gc.isenabled())
+        told(self, outcome)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(LatestSolver, "_tell", tell)
+
+    async def session() -> None:
+        model = FacadeModel(house(), solve=lambda design, **_: solve(design), quick=-1.0, known=resized)
+        while model.busy:
+            await asyncio.sleep(0.002)
+        during.clear()
+        model.enter("canvas.width", 7.0)
+        while model.busy:
+            await asyncio.sleep(0.002)
+        model.close()
+
+    asyncio.run(session())
+    assert during == [False, True]  # at once, and after the search
+    assert gc.isenabled()
