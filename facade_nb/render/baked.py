@@ -41,7 +41,7 @@ def face_places(mesh: Mesh, size: tuple[float, float]) -> NDArray[np.float64]:
     """Texture coordinates (m, 3, 2) of a mesh in its shape's own frame: 0 to 1 over the face, and on beyond it."""
     from numpy import maximum
 
-    from .meshing import corner_places
+    from .surfaces import corner_places
 
     return corner_places(mesh) / maximum(size, 1e-4)
 

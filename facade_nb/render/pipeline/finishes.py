@@ -14,8 +14,8 @@ from math import cos, pi, sin
 
 import numpy as np
 
+from ..bodies import SEGMENTS
 from ..materials import RULE, Material, find_material, rgb
-from ..meshing import SEGMENTS
 from ..ruled import is_rule, material_of, rule_fault
 from ..texture.grammar import Grammar
 from ..texture.shape_rules import needed, parts

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...solver.model.layout import Layout
-from ..meshing import surface_axes
 from ..scene import Triangles
+from ..surfaces import surface_axes
 from ..surroundings import building
 from ..texture.grammar import Grammar
 from .finishes import Finishes, finishes
@@ -30,7 +30,7 @@ _FAR = 1500.0
 """How far the ground reaches, metres."""
 
 _ROUND = 1e-3
-"""A triangle is a round body's where the normals of its corners are so far from its own."""
+"""A triangle is a side of a round body where the normals of its corners are so far from its own."""
 
 Floats = NDArray[np.float64]
 Rect = tuple[float, float, float, float]
@@ -148,7 +148,7 @@ def _rounded(
 ) -> None:
     """Sides of round bodies: each is a façade, across which its normal turns."""
     turned = triangles.normals.astype(np.float64) - axes[:, None, 2]
-    own = np.flatnonzero((np.abs(turned).max(axis=2) > _ROUND).all(axis=1))
+    own = np.flatnonzero(triangles.round & (np.abs(turned).max(axis=2) > _ROUND).all(axis=1))
     if not len(own):
         return
     # Its middle is where the normal is its own: between the corners to the left and those to the right.

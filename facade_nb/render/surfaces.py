@@ -1,0 +1,120 @@
+"""Normals and texture coordinates of meshes: both follow from the triangles alone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .bodies import SEGMENTS
+
+if TYPE_CHECKING:
+    from .meshing import Mesh
+
+__all__ = ["across", "corner_normals", "corner_places", "surface_axes"]
+
+_BLUNT, _ROUND, _PLANE = float(np.cos(np.radians(25))), 0.5, 1 - 1e-9
+"""Cosines of angles between faces: at less than 25 degrees they are one curved surface, as the sides of an arch are.
+
+Hips of a low roof meet at hardly more. A round body, whose profile has few corners, is curved up to 60 degrees.
+"""
+
+_LEVEL = 0.97
+"""From that cosine on a surface lies flat: its texture runs along x and back."""
+
+_NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
+
+
+def across(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The cross product of two sides of each triangle (m, 3, 3); `numpy.cross` takes longer."""
+    a, b = (corners[:, k] - corners[:, 0] for k in (1, 2))
+    return a[:, _NEXT] * b[:, _AFTER] - a[:, _AFTER] * b[:, _NEXT]
+
+
+def corner_normals(mesh: Mesh) -> NDArray[np.float64]:
+    """Unit normals (m, 3, 3) at the corners of each triangle.
+
+    Around a vertex, faces that meet at less than the crease angle have one normal: the mean of theirs, by the angles
+    that they have there. So a round side is smooth, and its edge crisp.
+    """
+    corners, count = mesh.vertices[mesh.faces], 3 * len(mesh.faces)
+    flat = across(corners)
+    flat /= np.maximum(np.linalg.norm(flat, axis=1, keepdims=True), 1e-300)
+    own = np.repeat(flat, 3, axis=0)
+    first, second = _joined(mesh, own)
+    if not len(first):
+        return own.reshape(-1, 3, 3)
+    group = np.arange(count)
+    while True:  # the least number of those that a corner is joined to, and they to others
+        least = group.copy()
+        np.minimum.at(least, first, group[second])
+        np.minimum.at(least, second, group[first])
+        if (least == group).all():
+            break
+        group = least
+    ahead = np.roll(corners, -1, axis=1) - corners
+    ahead /= np.maximum(np.linalg.norm(ahead, axis=2, keepdims=True), 1e-300)
+    angle = np.arccos(np.clip(-(ahead * np.roll(ahead, 1, axis=1)).sum(axis=2), -1, 1)).reshape(-1, 1)
+    mean = np.zeros((count, 3))
+    np.add.at(mean, group, angle * own)
+    mean = mean[group] / np.maximum(np.linalg.norm(mean[group], axis=1, keepdims=True), 1e-300)
+    smooth = (np.bincount(group, minlength=count)[group] > 1) & ((mean * own).sum(axis=1) > _ROUND)
+    return np.where(smooth[:, None], mean, own).reshape(-1, 3, 3)
+
+
+def _joined(mesh: Mesh, own: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Corners, numbered through, on both sides of edges that are no creases; none where all surfaces are plane.
+
+    `own` (3 m, 3) has at each corner the normal of its triangle.
+    """
+    begins = np.arange(len(own))
+    ends = begins + np.where(begins % 3 == 2, -2, 1)
+    vertex = mesh.faces.reshape(-1)
+    rises = vertex[begins] < vertex[ends]
+    low, high = np.where(rises, begins, ends), np.where(rises, ends, begins)
+    order = np.lexsort((vertex[high], vertex[low]))
+    low, high = low[order], high[order]
+    pair = np.flatnonzero((vertex[low[1:]] == vertex[low[:-1]]) & (vertex[high[1:]] == vertex[high[:-1]]))
+    bend = (own[low[pair]] * own[low[pair + 1]]).sum(axis=1)
+    pair = pair[bend > np.where(np.repeat(mesh.round, 3)[low[pair]], _ROUND, _BLUNT)]
+    if not (bend[bend > _BLUNT] < _PLANE).any() and not mesh.round.any():
+        pair = pair[:0]
+    return (
+        np.concatenate([low[pair], high[pair]]),
+        np.concatenate([low[pair + 1], high[pair + 1]]),
+    )
+
+
+def surface_axes(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """For each triangle (m, 3, 3) three unit vectors: along it, level; up it; out of it.
+
+    A surface that lies flat has those that run along x, and back.
+    """
+    out = across(corners)
+    out = out / np.maximum(np.sqrt((out * out).sum(axis=1, keepdims=True)), 1e-30)
+    along = np.stack([out[:, 2], np.zeros(len(out)), -out[:, 0]], axis=1)  # up × out
+    level = np.abs(out[:, 1]) > _LEVEL
+    along[level] = np.array([1.0, 0.0, 0.0]) - out[level, :1] * out[level]
+    along /= np.maximum(np.sqrt((along * along).sum(axis=1, keepdims=True)), 1e-30)
+    up = out[:, _NEXT] * along[:, _AFTER] - out[:, _AFTER] * along[:, _NEXT]
+    return np.stack([along, up, out], axis=1)
+
+
+def corner_places(mesh: Mesh) -> NDArray[np.float64]:
+    """Texture coordinates (m, 3, 2) at the corners of each triangle: metres along its surface, level, and up it.
+
+    Lengths on the surface are lengths in the texture. Surfaces of one plane share one texture, which begins at the
+    origin. The sides of a round body lie beside each other, unrolled, where its radius is greatest.
+    """
+    corners = mesh.vertices[mesh.faces]
+    axes = surface_axes(corners)
+    places = np.stack([(corners * axes[:, None, k]).sum(axis=2) for k in (0, 1)], axis=2)
+    for body in np.unique(mesh.bodies[mesh.round]):
+        own = np.flatnonzero(mesh.round & (mesh.bodies == body))
+        spots = corners[own].reshape(-1, 3)
+        middle = (spots.min(axis=0) + spots.max(axis=0)) / 2
+        side = np.round(np.arctan2(axes[own, 2, 0], axes[own, 2, 2]) * SEGMENTS / (2 * np.pi) - 0.5) + 0.5
+        across = ((corners[own] - middle) * axes[own][:, None, 0]).sum(axis=2)
+        places[own, :, 0] = across + 2 * np.abs(across).max() * side[:, None]
+    return places
