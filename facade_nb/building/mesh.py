@@ -13,7 +13,6 @@ from ..render.exchange.obj import Piece, files_of, obj_of
 from ..render.mesh import EMPTY, finish, paint, pictured
 from ..render.meshing import Mesh
 from ..render.ruled import is_rule, material_of
-from ..render.surfaces import corner_places
 from ..solver.model.layout import PlacedShape
 from .bodies import Frame, bodies_of, deepest
 from .layout import BuildingLayout
@@ -85,7 +84,7 @@ def to_glb(layout: BuildingLayout) -> bytes:
     paints: dict[object, Any] = {}
     nodes: list[tuple[Part, list[str]]] = []
     for number, part in enumerate(parts_of(layout)):
-        normals, places = part.mesh.normals, corner_places(part.mesh)
+        normals, places = part.mesh.normals, part.mesh.places
         names = []
         for k, slot in enumerate(part.mesh.names):
             chosen = part.mesh.slots == k

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from .bodies import bodies_of, body_of
 from .parts import Loft, Part, Turned
-from .surfaces import across, corner_normals
+from .surfaces import across, corner_normals, corner_places
 
-__all__ = ["Mesh", "assembled", "have_area", "mesh_part", "mesh_parts"]
+__all__ = ["Mesh", "assembled", "have_area", "mesh_part", "mesh_parts", "triangles_in"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +49,11 @@ class Mesh:
         """Unit normals (m, 3, 3) at the corners of each triangle (`corner_normals`)."""
         return corner_normals(self)
 
+    @cached_property
+    def places(self) -> NDArray[np.float64]:
+        """Texture coordinates (m, 3, 2) at the corners of each triangle, metres (`corner_places`)."""
+        return corner_places(self)
+
     def moved(self, by: NDArray[np.float64]) -> Mesh:
         """The same elsewhere; its normals stay."""
         there = replace(self, vertices=self.vertices + by)
@@ -63,10 +68,11 @@ def mesh_parts(parts: Sequence[Part]) -> Mesh:
 
 def mesh_part(part: Part) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Vertices (n, 3) and triangles (m, 3) of one part, these counter-clockwise seen from outside."""
-    return _triangles(body_of(part))
+    return triangles_in(body_of(part))
 
 
-def _triangles(body: Any) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def triangles_in(body: Any) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices (n, 3) and triangles (m, 3) of a `manifold3d.Manifold`."""
     mesh = body.to_mesh64()
     return np.array(mesh.vert_properties[:, :3]), np.asarray(mesh.tri_verts, np.int64)
 
@@ -77,7 +83,7 @@ def assembled(bodies: Iterable[tuple[Part, Any]]) -> Mesh:
     names: dict[str, int] = {}
     count = 0
     for part, body in bodies:
-        points, triangles = _triangles(body)
+        points, triangles = triangles_in(body)
         if not len(triangles):
             continue
         vertices.append(points)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict, deque
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -105,11 +106,13 @@ def corner_places(mesh: Mesh) -> NDArray[np.float64]:
     """Texture coordinates (m, 3, 2) at the corners of each triangle: metres along its surface, level, and up it.
 
     Lengths on the surface are lengths in the texture. Surfaces of one plane share one texture, which begins at the
-    origin. The sides of a round body lie beside each other, unrolled, where its radius is greatest.
+    origin. A curved surface, as that under an arch, is unrolled. The sides of a round body, which cannot be, lie
+    beside each other where its radius is greatest.
     """
     corners = mesh.vertices[mesh.faces]
     axes = surface_axes(corners)
     places = np.stack([(corners * axes[:, None, k]).sum(axis=2) for k in (0, 1)], axis=2)
+    _unroll(mesh, places, axes[:, 2])
     for body in np.unique(mesh.bodies[mesh.round]):
         own = np.flatnonzero(mesh.round & (mesh.bodies == body))
         spots = corners[own].reshape(-1, 3)
@@ -118,3 +121,33 @@ def corner_places(mesh: Mesh) -> NDArray[np.float64]:
         across = ((corners[own] - middle) * axes[own][:, None, 0]).sum(axis=2)
         places[own, :, 0] = across + 2 * np.abs(across).max() * side[:, None]
     return places
+
+
+def _unroll(mesh: Mesh, places: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+    """Turn the triangles of each curved surface so that they meet in the texture; its most upright one stays."""
+    first, second = _joined(mesh, np.repeat(out, 3, axis=0))
+    count = len(first) // 2
+    beside: dict[int, list[tuple[int, ...]]] = defaultdict(list)
+    curved: set[int] = set()
+    ends = np.stack([first[:count], first[count:], second[:count], second[count:]], axis=1)
+    own, other = ends[:, 0] // 3, ends[:, 2] // 3
+    bent = ((out[own] * out[other]).sum(axis=1) < _PLANE).tolist()
+    for f, g, corners, bends in zip(own.tolist(), other.tolist(), ends.tolist(), bent, strict=True):
+        if not mesh.round[f]:
+            beside[f].append((g, *corners))
+            beside[g].append((f, *corners[2:], *corners[:2]))
+            curved.update((f, g) if bends else ())
+    flat = places.reshape(-1, 2).view(np.complex128)[:, 0]
+    seen: set[int] = set()
+    for start in sorted(curved, key=lambda f: (round(abs(float(out[f, 1])), 6), f)):
+        if start in seen:
+            continue
+        seen.add(start)
+        todo = deque([start])
+        while todo:
+            for g, a, b, c, d in beside[todo.popleft()]:
+                if g not in seen:
+                    turn = (flat[b] - flat[a]) / (flat[d] - flat[c])
+                    flat[3 * g : 3 * g + 3] = flat[a] + turn / abs(turn) * (flat[3 * g : 3 * g + 3] - flat[c])
+                    seen.add(g)
+                    todo.append(g)

@@ -19,7 +19,7 @@ from facade_nb.render.lofts import arc
 from facade_nb.render.materials import find_material, mix
 from facade_nb.render.meshing import mesh_part, mesh_parts
 from facade_nb.render.parts import Block, Prism, front, outline
-from facade_nb.render.surfaces import corner_normals
+from facade_nb.render.surfaces import corner_normals, corner_places
 from facade_nb.solver.model.layout import Layout, PlacedShape
 
 from .houses import apartment, house
@@ -215,6 +215,17 @@ def test_a_bow_is_smooth_and_its_edge_crisp() -> None:
     assert inner.sum() > 80
     assert np.allclose(normals[inner], corners[inner] * (1, 1, 0), atol=1e-9)
     assert np.allclose(normals[~bow], own[~bow][:, None])
+    # Its texture is unrolled: corners that lie on one line along the barrel have one place across it.
+    places = corner_places(mesh)[bow].reshape(-1, 2)
+    angle = np.arctan2(*corners[bow].reshape(-1, 3).T[1::-1])
+    apart = [2 * np.sin(np.pi / 40) * k for k in range(21)]  # so many chords
+    for axis in (0, 1):
+        if np.ptp(places[:, axis]) > 2.5:
+            along = np.abs(places[:, axis] - places[np.argmin(angle), axis])
+            assert np.allclose(np.sort(np.unique(along.round(6))), np.round(apart, 6))
+            break
+    else:
+        raise AssertionError("nothing is unrolled")
 
 
 def test_stones_along_a_curve_are_one_body() -> None:

@@ -181,8 +181,6 @@ def _bodies(
 ) -> Iterator[str]:
     import numpy as np
 
-    from ..surfaces import corner_places
-
     points = directions = places = 0
     for piece in pieces:
         mesh = piece.mesh
@@ -194,7 +192,7 @@ def _bodies(
         normals, turn = np.unique(mesh.normals.reshape(-1, 3).round(4), axis=0, return_inverse=True)
         own = piece.library or library
         coats: dict[int, _Paint] = {}
-        coordinates = corner_places(mesh)
+        coordinates = mesh.places
         for slot, name in enumerate(mesh.names):
             material = piece.materials[name]
             coats[slot] = _Paint(material, None, own if is_rule(material) else "")
