@@ -15,10 +15,11 @@ if TYPE_CHECKING:
 
 __all__ = ["across", "corner_normals", "corner_places", "surface_axes"]
 
-_BLUNT, _ROUND, _PLANE = float(np.cos(np.radians(25))), 0.5, 1 - 1e-9
+_BLUNT, _ROUND, _PLANE = float(np.cos(np.radians(25))), float(np.cos(np.radians(46))), 1 - 1e-9
 """Cosines of angles between faces: at less than 25 degrees they are one curved surface, as the sides of an arch are.
 
-Hips of a low roof meet at hardly more. A round body, whose profile has few corners, is curved up to 60 degrees.
+Hips of a low roof meet at hardly more. A round body, whose profile has few corners, is curved up to 46 degrees: eight
+sides are round.
 """
 
 _LEVEL = 0.97
@@ -36,13 +37,13 @@ def across(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 def corner_normals(mesh: Mesh) -> NDArray[np.float64]:
     """Unit normals (m, 3, 3) at the corners of each triangle.
 
-    Around a vertex, faces that meet at less than the crease angle have one normal: the mean of theirs, by the angles
-    that they have there. So a round side is smooth, and its edge crisp.
+    Around a vertex, faces that meet at less than the crease angle have one normal: the mean of theirs by the weights of
+    Nelson Max, which are right on a sphere, and those of a plane face however it is cut into triangles. So a round side
+    is smooth, and its edge crisp.
     """
     corners, count = mesh.vertices[mesh.faces], 3 * len(mesh.faces)
-    flat = across(corners)
-    flat /= np.maximum(np.linalg.norm(flat, axis=1, keepdims=True), 1e-300)
-    own = np.repeat(flat, 3, axis=0)
+    crossed = across(corners)
+    own = np.repeat(crossed / np.maximum(np.linalg.norm(crossed, axis=1, keepdims=True), 1e-300), 3, axis=0)
     first, second = _joined(mesh, own)
     if not len(first):
         return own.reshape(-1, 3, 3)
@@ -54,14 +55,18 @@ def corner_normals(mesh: Mesh) -> NDArray[np.float64]:
         if (least == group).all():
             break
         group = least
-    ahead = np.roll(corners, -1, axis=1) - corners
-    ahead /= np.maximum(np.linalg.norm(ahead, axis=2, keepdims=True), 1e-300)
-    angle = np.arccos(np.clip(-(ahead * np.roll(ahead, 1, axis=1)).sum(axis=2), -1, 1)).reshape(-1, 1)
+    sides = ((corners[:, [1, 2, 0]] - corners) ** 2).sum(axis=2, keepdims=True)
     mean = np.zeros((count, 3))
-    np.add.at(mean, group, angle * own)
+    np.add.at(mean, group, (crossed[:, None] / (sides * sides[:, [2, 0, 1]])).reshape(-1, 3))
     mean = mean[group] / np.maximum(np.linalg.norm(mean[group], axis=1, keepdims=True), 1e-300)
-    smooth = (np.bincount(group, minlength=count)[group] > 1) & ((mean * own).sum(axis=1) > _ROUND)
+    near = (mean * own).sum(axis=1) > _crease(mesh)
+    smooth = (np.bincount(group, minlength=count)[group] > 1) & near
     return np.where(smooth[:, None], mean, own).reshape(-1, 3, 3)
+
+
+def _crease(mesh: Mesh) -> NDArray[np.float64]:
+    """The cosine at each corner (3 m,) up to which its surface is curved."""
+    return np.repeat(np.where(mesh.round, _ROUND, _BLUNT), 3)
 
 
 def _joined(mesh: Mesh, own: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -78,7 +83,7 @@ def _joined(mesh: Mesh, own: NDArray[np.float64]) -> tuple[NDArray[np.int64], ND
     low, high = low[order], high[order]
     pair = np.flatnonzero((vertex[low[1:]] == vertex[low[:-1]]) & (vertex[high[1:]] == vertex[high[:-1]]))
     bend = (own[low[pair]] * own[low[pair + 1]]).sum(axis=1)
-    pair = pair[bend > np.where(np.repeat(mesh.round, 3)[low[pair]], _ROUND, _BLUNT)]
+    pair = pair[bend > _crease(mesh)[low[pair]]]
     if not (bend[bend > _BLUNT] < _PLANE).any() and not mesh.round.any():
         pair = pair[:0]
     return (

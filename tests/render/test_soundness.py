@@ -89,7 +89,7 @@ def test_parts_of_any_size(name: str, w: float, h: float, d: float, mirrored: tu
     own = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     own /= np.linalg.norm(own, axis=1, keepdims=True)
     turned = np.einsum("mki,mi->mk", normals, own)
-    assert (turned > np.where(mesh.round, 0.5, 0.8)[:, None]).all()
+    assert (turned > np.where(mesh.round, 0.69, 0.9)[:, None]).all()
     places = corner_places(mesh)
     for k in range(3):  # texture coordinates are metres on the surface, the right way round
         sides, drawn = (v[:, k] - v[:, k - 1] for v in (corners, places))
