@@ -74,7 +74,8 @@ def mesh_part(part: Part) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
 def triangles_in(body: Any) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Vertices (n, 3) and triangles (m, 3) of a `manifold3d.Manifold`."""
     mesh = body.to_mesh64()
-    return np.array(mesh.vert_properties[:, :3]), np.asarray(mesh.tri_verts, np.int64)
+    order = np.argsort(mesh.face_id, kind="stable")  # triangles of one plane follow one another
+    return np.array(mesh.vert_properties[:, :3]), np.asarray(mesh.tri_verts, np.int64)[order]
 
 
 def assembled(bodies: Iterable[tuple[Part, Any]]) -> Mesh:
