@@ -109,7 +109,7 @@ def test_columns_are_round(solids: Solids) -> None:
 
 @pytest.mark.parametrize("kind", ["Bulging", "Hollow"])
 def test_bowed_profiles_are_round_too(kind: str) -> None:
-    """At the corners of each side of a column's torus, shaft and capital the normal leans up as that of the mesh does."""
+    """At the corners of each side of a column, torus to capital, the normal leans up as that of the mesh does."""
     own = PlacedShape("l", "A", "P", (0, 0, 0.5, 2), geometry="column")
     layout = Layout("Column", Canvas(0.5, 2), shapes=(own,))
     made, triangles = solids_of(layout, ground=False), building(layout)
