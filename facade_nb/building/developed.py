@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from ..design.model import Canvas, Design
@@ -16,7 +17,7 @@ from ..solver.model.layout import (
     RowLayout,
 )
 from .bodies import rules_of
-from .layout import BuildingLayout
+from .layout import BuildingLayout, SolvedFace
 
 __all__ = ["GAP", "developed"]
 
@@ -24,8 +25,8 @@ GAP = 1.5
 """Metres between two faces."""
 
 
-def developed(layout: BuildingLayout) -> Layout:
-    """All faces, from wall 1 on from left to right, on one ground.
+def developed(layout: BuildingLayout, faces: Sequence[SolvedFace] = ()) -> Layout:
+    """All faces, or some, from wall 1 on from left to right, on one ground.
 
     Shapes stand on layers ``wall 1/layer``. Its dimensions are the faces' widths along x, and the heights of the main
     groups along y.
@@ -35,7 +36,7 @@ def developed(layout: BuildingLayout) -> Layout:
     holes: list[Rect] = []
     stops = [0.0]
     at, rules = 0.0, rules_of(layout)
-    for own in layout.faces:
+    for own in faces or layout.faces:
         library = library_of(own.shown)
         for shape in own.shown.shapes:
             left, bottom, right, top = shape.rect
@@ -50,9 +51,9 @@ def developed(layout: BuildingLayout) -> Layout:
         walls += [(PlacedLetter(own.face.name, at, end),), ()]  # the wall, then a gap that nothing fills
         stops += [end, end + GAP]
         at = end + GAP
-    highest = max((own.shown.canvas.height for own in layout.faces), default=layout.eaves)
+    highest = max((own.shown.canvas.height for own in faces or layout.faces), default=layout.eaves)
     row = RowLayout("faces", "faces", tuple(walls[:-1]))
-    faces = GroupLayout(0.0, tuple(stops[:-1]), (row,))
+    across = GroupLayout(0.0, tuple(stops[:-1]), (row,))
     heights = {
         name: replace(group, columns=tuple(v for v in group.columns if v <= highest + 1e-9), rows=())
         for name, group in _heights(layout).items()
@@ -60,7 +61,7 @@ def developed(layout: BuildingLayout) -> Layout:
     return Layout(
         layout.name,
         Canvas(max(at - GAP, 0.1), highest),
-        x=AxisLayout(groups={"faces": faces}),
+        x=AxisLayout(groups={"faces": across}),
         y=AxisLayout(groups=heights),
         shapes=tuple(shapes),
         holes=tuple(holes),

@@ -203,10 +203,13 @@ class BuildingLayout:
         return to_dxf(self.developed, units=units)
 
     def to_pdf(self, *, units: Units = "m") -> bytes:
-        """The elevations of all faces side by side, as PDF (see `facade_nb.render.to_pdf`)."""
-        from ..render import to_pdf
+        """The elevations of all faces, each with its name, as PDF (see `facade_nb.render.to_pdf`).
 
-        return to_pdf(self.developed, units=units)
+        They stand side by side, on one sheet if they fit there at 1:100, else on several.
+        """
+        from .sheets import to_pdf
+
+        return to_pdf(self, units)
 
     def to_schedule(self) -> str:
         """What all walls are made of, as CSV (see `facade_nb.render.to_schedule`)."""

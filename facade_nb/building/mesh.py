@@ -11,7 +11,7 @@ from ..render.apart import apart
 from ..render.baked import drawable, face_places, face_size
 from ..render.exchange.obj import Piece, files_of, obj_of
 from ..render.mesh import EMPTY, finish, paint, pictured
-from ..render.meshing import Mesh, corner_normals, corner_places
+from ..render.meshing import Mesh
 from ..render.ruled import is_rule, material_of
 from ..solver.model.layout import PlacedShape
 from .bodies import Frame, bodies_of, deepest
@@ -84,7 +84,7 @@ def to_glb(layout: BuildingLayout) -> bytes:
     paints: dict[object, Any] = {}
     nodes: list[tuple[Part, list[str]]] = []
     for number, part in enumerate(parts_of(layout)):
-        normals, places = corner_normals(part.mesh), corner_places(part.mesh)
+        normals, places = part.mesh.normals, part.mesh.places
         names = []
         for k, slot in enumerate(part.mesh.names):
             chosen = part.mesh.slots == k

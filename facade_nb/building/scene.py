@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..render.meshing import Mesh
+from ..render.bodies import extruded
+from ..render.meshing import Mesh, triangles_in
 from ..render.pipeline.solids import Solids, combined, solids_scene
 from ..render.scene import Triangles, triangles_of
 from ..solver.model.layout import Rect
@@ -73,27 +74,14 @@ def _core(layout: BuildingLayout, back: float) -> Floats:
     """The body within the walls, from the ground to the eaves, as triangles (t, 3, 3)."""
     import shapely
 
-    from ..render.town.roofing import triangulated
-
     inner = shapely.Polygon(outline(layout)).buffer(-back, join_style="mitre", mitre_limit=20)
-    found = []
-    for part in shapely.get_parts(shapely.orient_polygons(inner)):
-        ring = np.array(part.exterior.coords[:-1])
-        count = len(ring)
-        if count < 3:
-            continue
-        offsets = np.array([0, count])
-        flat = triangulated(ring, offsets, np.array([0]))
-
-        def level(height: float, ring: Floats = ring) -> Floats:
-            return np.column_stack([ring[:, 0], np.full(len(ring), height), -ring[:, 1]])
-
-        low, high = level(0.0), level(layout.eaves)
-        found += [high[flat], low[flat[:, ::-1]]]
-        following = np.roll(np.arange(count), -1)
-        found.append(np.stack([low, low[following], high[following]], axis=1))
-        found.append(np.stack([low, high[following], high], axis=1))
-    return np.concatenate(found) if found else np.zeros((0, 3, 3))
+    found = [np.zeros((0, 3, 3))]
+    for part in shapely.get_parts(inner):
+        if not part.is_empty:
+            body = extruded((part.exterior.coords[:-1],), 0.0, layout.eaves).rotate((-90.0, 0.0, 0.0))
+            vertices, faces = triangles_in(body)
+            found.append(vertices[faces])
+    return np.concatenate(found)
 
 
 def solids_of_building(

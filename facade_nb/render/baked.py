@@ -41,9 +41,7 @@ def face_places(mesh: Mesh, size: tuple[float, float]) -> NDArray[np.float64]:
     """Texture coordinates (m, 3, 2) of a mesh in its shape's own frame: 0 to 1 over the face, and on beyond it."""
     from numpy import maximum
 
-    from .meshing import corner_places
-
-    return corner_places(mesh) / maximum(size, 1e-4)
+    return mesh.places / maximum(size, 1e-4)
 
 
 def baked(library: str, material: str, size: tuple[float, float], most: int = 0) -> NDArray[np.uint8]:

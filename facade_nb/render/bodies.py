@@ -1,108 +1,97 @@
-"""Bodies with plane faces that many recipes are made of: lofts, stones, beams, upright prisms; and moving parts."""
+"""Parts as closed bodies, by manifold3d: boxes, extrusions, revolutions, hulls and their unions.
+
+manifold3d is loaded when the first body is made: drawings of parts do without.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
-from math import cos, pi, sin
+from collections.abc import Iterator, Sequence
+from functools import reduce
+from itertools import groupby, pairwise
+from math import frexp
+from operator import add
+from typing import Any
 
-from .parts import Block, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned
+import numpy as np
 
-__all__ = ["arc", "beam", "inset", "lofted", "moved", "stone", "upright"]
+from .parts import Block, Loft, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned
 
-Spot = tuple[float, float, float]
+__all__ = ["SEGMENTS", "bodies_of", "body_of", "extruded"]
+
+SEGMENTS = 32
+"""Sides of a turned body."""
+
+_FINE = 13
+"""Outlines are scaled to about 2 ** 13: Clipper, which manifold3d has for them, keeps eight decimals."""
+
+_ALONG_X = np.array([[0.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [-1.0, 0.0, 0.0, 0.0]])
+"""From the frame of an extruded profile (-z, y), which leads along x, to that of a part."""
 
 
-def lofted(*loops: Sequence[Spot], slot: str = "body") -> Polyhedron:
-    """The body between convex loops of equally many corners, the first and the last closed by plane faces.
+def bodies_of(parts: Sequence[Part]) -> Iterator[tuple[Part, Any]]:
+    """Bodies, each a `manifold3d.Manifold` with the first of its parts.
 
-    Corresponding sides of loops next to each other lie in one plane.
+    Prisms that follow one another, of one slot and depth, are one body: strokes of a letter, stones along a curve.
     """
-    n, last = len(loops[0]), (len(loops) - 1) * len(loops[0])
-    points = tuple(spot for loop in loops for spot in loop)
-    faces = [tuple(reversed(range(n))), tuple(range(last, last + n))]
-    for k in range(0, last, n):
-        faces += [(k + i, k + (i + 1) % n, k + n + (i + 1) % n, k + n + i) for i in range(n)]
-    if _volume(points, faces) < 0:
-        faces = [face[::-1] for face in faces]
-    return Polyhedron(points, tuple(faces), slot)
+    for alike, same in groupby(parts, key=_alike):
+        group = tuple(same)
+        if alike is None:
+            yield from ((part, body_of(part)) for part in group)
+        else:
+            outlines = [part.points for part in group if isinstance(part, Prism)]
+            yield group[0], extruded(outlines, *alike[:2])
 
 
-def _volume(points: Sequence[Spot], faces: Iterable[Sequence[int]]) -> float:
-    """Six times the volume; positive where faces are counter-clockwise seen from outside."""
-    ox, oy, oz = points[0]
-    total = 0.0
-    for face in faces:
-        a = points[face[0]]
-        for j in range(1, len(face) - 1):
-            b, c = points[face[j]], points[face[j + 1]]
-            ax, ay, az = a[0] - ox, a[1] - oy, a[2] - oz
-            bx, by, bz = b[0] - ox, b[1] - oy, b[2] - oz
-            cx, cy, cz = c[0] - ox, c[1] - oy, c[2] - oz
-            total += ax * (by * cz - bz * cy) - ay * (bx * cz - bz * cx) + az * (bx * cy - by * cx)
-    return total
+def _alike(part: Part) -> tuple[float, float, str] | None:
+    return (part.z0, part.z1, part.slot) if isinstance(part, Prism) else None
 
 
-def stone(
-    x0: float, y0: float, x1: float, y1: float, z0: float, z1: float, bevel: float, slot: str = "body"
-) -> Polyhedron:
-    """A block whose front edges are bevelled."""
+def body_of(part: Part) -> Any:
+    """The body of a part, as a `manifold3d.Manifold`."""
+    from manifold3d import Manifold, Mesh64
 
-    def loop(z: float, by: float) -> tuple[Spot, ...]:
-        return ((x0 + by, y0 + by, z), (x1 - by, y0 + by, z), (x1 - by, y1 - by, z), (x0 + by, y1 - by, z))
-
-    return lofted(loop(z0, 0.0), loop(z1 - bevel, 0.0), loop(z1, bevel), slot=slot)
-
-
-def upright(
-    plan: Sequence[Point], y0: float, y1: float, slot: str = "body", top: Sequence[Point] | None = None
-) -> Polyhedron:
-    """A convex plan (x, z) from one height to another, where it may have become the plan `top`."""
-    return lofted(
-        [(x, y0, z) for x, z in plan], [(x, y1, z) for x, z in (plan if top is None else top)], slot=slot
-    )
-
-
-def inset(plan: Sequence[Point], about: Point, across: float, deep: float) -> tuple[Point, ...]:
-    """A plan drawn in towards a place, by a factor in each direction."""
-    cx, cz = about
-    return tuple((cx + (x - cx) * across, cz + (z - cz) * deep) for x, z in plan)
-
-
-def beam(start: Spot, end: Spot, thick: float, slot: str = "body", flat: str = "y") -> Polyhedron:
-    """A square bar from one place to another, its ends level (`flat` "y") or upright in the façade's plane ("z")."""
-    half = thick / 2
-    ways = ((-half, -half), (half, -half), (half, half), (-half, half))
-
-    def loop(at: Spot) -> tuple[Spot, ...]:
-        x, y, z = at
-        return tuple((x + p, y, z + q) if flat == "y" else (x + p, y + q, z) for p, q in ways)
-
-    return lofted(loop(start), loop(end), slot=slot)
+    match part:
+        case Block():
+            box = Manifold.cube((part.x1 - part.x0, part.y1 - part.y0, part.z1 - part.z0))
+            return box.translate((part.x0, part.y0, part.z0))
+        case Ring():
+            x0, y0, x1, y1, t = part.x0, part.y0, part.x1, part.y1, part.width
+            outer = ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
+            inner = ((x0 + t, y0 + t), (x0 + t, y1 - t), (x1 - t, y1 - t), (x1 - t, y0 + t))
+            return extruded((outer, inner), part.z0, part.z1)
+        case Prism():
+            return extruded((part.points,), part.z0, part.z1)
+        case Moulding():
+            front = [(-z, y) for y, z in part.profile]
+            section = ((-part.z0, front[0][1]), *front, (-part.z0, front[-1][1]))
+            return extruded((section,), part.x0, part.x1).transform(_ALONG_X)
+        case Turned():
+            low, high = part.profile[0][0], part.profile[-1][0]
+            half, scale = _section((((0.0, low), *((r, y) for y, r in part.profile), (0.0, high)),))
+            body = half.revolve(SEGMENTS).scale((scale, scale, scale)).rotate((-90.0, 0.0, 0.0))
+            return body.translate((part.cx, 0.0, part.cz))
+        case Loft():
+            loops = np.array(part.loops)
+            low = loops.min(axis=(0, 1))
+            size = np.maximum(loops.max(axis=(0, 1)) - low, 1e-300)
+            loops = (loops - low) / size  # what is thin for its length has a hull in a cube
+            body = reduce(add, (Manifold.hull_points(np.concatenate(pair)) for pair in pairwise(loops)))
+            return body.scale(size).translate(low)
+        case Polyhedron():
+            faces = [(face[0], *side) for face in part.faces for side in pairwise(face[1:])]
+            return Manifold(Mesh64(np.array(part.points, np.float64), np.array(faces, np.uint64)))
 
 
-def arc(cx: float, cy: float, rx: float, ry: float, steps: int = 20) -> tuple[Point, ...]:
-    """Half an ellipse from its right end over the top to its left end."""
-    return tuple((cx + rx * cos(pi * i / steps), cy + ry * sin(pi * i / steps)) for i in range(steps + 1))
+def extruded(outlines: Sequence[Sequence[Point]], z0: float, z1: float) -> Any:
+    """Outlines, the holes in them clockwise, from one depth to another, as a `manifold3d.Manifold`."""
+    section, scale = _section(outlines)
+    return section.extrude(1.0).scale((scale, scale, z1 - z0)).translate((0.0, 0.0, z0))
 
 
-def moved(parts: Iterable[Part], x: float, y: float, z: float) -> Iterator[Part]:
-    """Parts moved by so many metres."""
-    for part in parts:
-        match part:
-            case Block() | Ring():
-                yield replace(
-                    part, x0=part.x0 + x, y0=part.y0 + y, x1=part.x1 + x, y1=part.y1 + y,
-                    z0=part.z0 + z, z1=part.z1 + z,
-                )  # fmt: skip
-            case Prism():
-                points = tuple((px + x, py + y) for px, py in part.points)
-                yield replace(part, points=points, z0=part.z0 + z, z1=part.z1 + z)
-            case Moulding():
-                profile = tuple((py + y, pz + z) for py, pz in part.profile)
-                yield replace(part, x0=part.x0 + x, x1=part.x1 + x, profile=profile, z0=part.z0 + z)
-            case Turned():
-                profile = tuple((py + y, r) for py, r in part.profile)
-                yield replace(part, cx=part.cx + x, cz=part.cz + z, profile=profile)
-            case Polyhedron():
-                yield replace(part, points=tuple((px + x, py + y, pz + z) for px, py, pz in part.points))
+def _section(outlines: Sequence[Sequence[Point]]) -> tuple[Any, float]:
+    """The region within outlines, large enough for Clipper's decimals, and what to multiply it by."""
+    from manifold3d import CrossSection, FillRule
+
+    points = [np.array(outline, np.float64) for outline in outlines]
+    scale = 2.0 ** (frexp(max(float(np.abs(own).max()) for own in points))[1] - _FINE)
+    return CrossSection([own / scale for own in points], FillRule.NonZero), scale

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from math import cos, pi, sin
 from types import MappingProxyType
 from typing import Any
 
@@ -51,18 +52,13 @@ def column(w: float, h: float, d: float) -> tuple[Part, ...]:
     radius = 0.39 * w  # of the shaft at its foot
     torus, neck = 0.55 * plinth, 0.8 * abacus
     foot, head = plinth + torus, h - abacus - 2.2 * neck
-    base = [
-        (plinth, radius * 1.02),
-        (plinth + 0.15 * torus, radius * 1.18),
-        (plinth + 0.5 * torus, radius * 1.22),
-        (plinth + 0.85 * torus, radius * 1.1),
-    ]
+    base = [(plinth + torus * (0.5 + y), radius * (1.02 + 0.4 * x)) for x, y in _HALF_ROUND]
     shaft = [  # entasis: the upper two thirds draw in along a curve
         (foot + t * (head - foot), radius * (1 - 0.16 * max(0.0, (t - 0.3) / 0.7) ** 1.6)) for t in _STEPS
     ]
     top = shaft[-1][1]
     capital = [
-        (head + 0.15 * neck, top * 1.1),
+        (head, top * 1.1),
         (head + 0.4 * neck, top * 1.1),
         (head + 0.5 * neck, top * 1.02),
         (head + 1.2 * neck, top * 1.04),
@@ -77,6 +73,7 @@ def column(w: float, h: float, d: float) -> tuple[Part, ...]:
     )
 
 
+_HALF_ROUND = tuple((0.5 * cos(pi * i / 6), 0.5 * sin(pi * i / 6)) for i in range(-3, 4))
 _STEPS = tuple(i / 10 for i in range(11))
 
 

@@ -8,7 +8,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from .materials import DEFAULT_MATERIAL, Material, mix
-from .parts import Block, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned, front, outline
+from .parts import Block, Loft, Moulding, Part, Point, Polyhedron, Prism, Ring, Turned, front, outline
 from .ruled import is_rule, material_of, rule_fault, rule_png
 from .scene import Solid
 from .silhouette import covered, shade_on, silhouette
@@ -211,8 +211,8 @@ class _Pen:
         if isinstance(first, Moulding):
             return "".join(self._moulding(part, material) for part in parts if isinstance(part, Moulding))
         modelled = self.solid.geometry.modelled
-        if isinstance(first, Polyhedron) and self.solid.geometry.name not in _SLOPES:
-            return self._facets([part for part in parts if isinstance(part, Polyhedron)], material)
+        if isinstance(first, Loft | Polyhedron) and self.solid.geometry.name not in _SLOPES:
+            return self._facets([part for part in parts if isinstance(part, Loft | Polyhedron)], material)
         merged = modelled and isinstance(first, Prism) and first.slot in ("body", "trim") and len(parts) > 1
         d = self._shapes(covered(parts)) if merged else "".join(self._outline(part) for part in parts)
         fill = self._surface(material) if self._wide(parts) else self.style.tone(material.fill)
@@ -225,7 +225,7 @@ class _Pen:
             text += self._under_the_verge(parts)
         if modelled and first.slot in _SHADED:
             text += self._shade(parts)
-        if isinstance(first, Polyhedron):
+        if isinstance(first, Loft | Polyhedron):
             text += f'<path d="{d}" stroke="{self.style.ink}" stroke-width="{MEDIUM}" fill="none"/>'
         if self.solid.geometry.name == "roof" and isinstance(first, Prism) and first.z1 > 0.1:
             text += self._verge(parts, tiled=first.slot == "body")
@@ -247,7 +247,7 @@ class _Pen:
             return self.defs.ruled(self.solid, (self.x0, self.y0))
         return self.defs.paint(material)
 
-    def _facets(self, parts: Sequence[Polyhedron], material: Material) -> str:
+    def _facets(self, parts: Sequence[Loft | Polyhedron], material: Material) -> str:
         """Bodies with plane faces: each face toned by how it lies to the light."""
         fill, line = self.style.tone(material.fill), self.style.tone(material.line)
         text = ""
@@ -274,7 +274,7 @@ class _Pen:
                     text += self._path(d, tone, line)
         return text
 
-    def _carving(self, part: Polyhedron, material: Material) -> str:
+    def _carving(self, part: Loft | Polyhedron, material: Material) -> str:
         """A body of many faces, far ones first: tones by how they lie to the light, lines along its sharp edges."""
         fill, line = self.style.tone(material.fill), self.style.tone(material.line)
         normals = [_normal([part.points[i] for i in face]) for face in part.faces]
@@ -361,7 +361,7 @@ class _Pen:
                 return self._rect(part.x0, part.y0, part.x1, part.y1) + inner
             case Prism():
                 return polygon_path([self.at(x, y) for x, y in part.points])
-            case Polyhedron():
+            case Loft() | Polyhedron():
                 return "".join(
                     polygon_path([self.at(*part.points[i][:2]) for i in face])
                     for face in part.faces

@@ -13,7 +13,7 @@ from ..solver.model.layout import Layout
 from .apart import apart
 from .baked import baked, drawable, face_places, face_size
 from .materials import find_material, rgb
-from .meshing import Mesh, corner_normals, corner_places
+from .meshing import Mesh
 from .scene import Scene, Solid, build_scene
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def to_trimesh(scene: Scene) -> trimesh.Scene:
         local = alike.get((solid.parts, solid.cuts))
         if local is None:
             local = alike[solid.parts, solid.cuts] = apart(solid.body())
-        normals, places = corner_normals(local), corner_places(local)
+        normals, places = local.normals, local.places
         place = np.eye(4)
         place[:3, 3] = (solid.rect[0], solid.rect[1], solid.face)
         for k, slot in enumerate(local.names):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import cos, pi, sin
 
-from .bodies import arc
+from .lofts import arc
 from .parts import Block, Part, Prism, Ring
 
 __all__ = ["arched_window", "archway", "casement", "door", "french_window", "reveal", "shop", "window"]

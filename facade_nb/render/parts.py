@@ -7,25 +7,30 @@ agree. `slot` says which of the shape's materials a part has (see `geometry`).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 
 __all__ = [
     "Block",
+    "Loft",
     "Moulding",
     "Part",
     "Point",
     "Polyhedron",
     "Prism",
     "Ring",
+    "Spot",
     "Turned",
     "back",
     "flip",
     "front",
+    "moved",
     "outline",
 ]
 
 Point = tuple[float, float]
+Spot = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,15 +92,52 @@ class Turned:
 
 
 @dataclass(frozen=True, slots=True)
+class Loft:
+    """The body between convex loops of equally many corners (x, y, z), from each to the next; its ends are plane.
+
+    A `round` one stands for a body with curved sides, and is shaded so.
+    """
+
+    loops: tuple[tuple[Spot, ...], ...]
+    slot: str = "body"
+    round: bool = False
+
+    @property
+    def points(self) -> tuple[Spot, ...]:
+        """The corners of all loops."""
+        return tuple(chain.from_iterable(self.loops))
+
+    @property
+    def faces(self) -> tuple[tuple[int, ...], ...]:
+        """Its ends and sides, as those of a polyhedron: a side whose corners lie in no plane counts as one."""
+        n, last = len(self.loops[0]), (len(self.loops) - 1) * len(self.loops[0])
+        found = [tuple(reversed(range(n))), tuple(range(last, last + n))]
+        for k in range(0, last, n):
+            found += [(k + i, k + (i + 1) % n, k + n + (i + 1) % n, k + n + i) for i in range(n)]
+        return tuple(found) if self._rises() else tuple(face[::-1] for face in found)
+
+    def _rises(self) -> bool:
+        """Whether the first loop runs counter-clockwise as seen from the last."""
+        first, last = self.loops[0], self.loops[-1]
+        ahead = [sum(p[k] for p in last) - sum(p[k] for p in first) for k in range(3)]
+        (a, b), total = first[:2], 0.0
+        for c in first[2:]:
+            u, v = ([q[k] - a[k] for k in range(3)] for q in (b, c))
+            total += sum(ahead[k] * (u[k - 2] * v[k - 1] - u[k - 1] * v[k - 2]) for k in range(3))
+            b = c
+        return total > 0
+
+
+@dataclass(frozen=True, slots=True)
 class Polyhedron:
     """Any closed body with plane faces: `faces` index `points` (x, y, z), counter-clockwise seen from outside."""
 
-    points: tuple[tuple[float, float, float], ...]
+    points: tuple[Spot, ...]
     faces: tuple[tuple[int, ...], ...]
     slot: str = "body"
 
 
-Part = Block | Ring | Prism | Moulding | Turned | Polyhedron
+Part = Block | Ring | Prism | Moulding | Turned | Loft | Polyhedron
 
 
 def front(part: Part) -> float:
@@ -105,7 +147,7 @@ def front(part: Part) -> float:
             return max(z for _, z in part.profile)
         case Turned():
             return part.cz + max(radius for _, radius in part.profile)
-        case Polyhedron():
+        case Loft() | Polyhedron():
             return max(z for _, _, z in part.points)
         case _:
             return part.z1
@@ -116,7 +158,7 @@ def back(part: Part) -> float:
     match part:
         case Turned():
             return part.cz - max(radius for _, radius in part.profile)
-        case Polyhedron():
+        case Loft() | Polyhedron():
             return min(z for _, _, z in part.points)
         case _:
             return part.z0
@@ -134,7 +176,7 @@ def outline(part: Part) -> tuple[Point, ...]:
         case Moulding():
             ys = [y for y, _ in part.profile]
             x0, y0, x1, y1 = part.x0, min(ys), part.x1, max(ys)
-        case Polyhedron():
+        case Loft() | Polyhedron():
             xs, heights = [x for x, _, _ in part.points], [y for _, y, _ in part.points]
             x0, y0, x1, y1 = min(xs), min(heights), max(xs), max(heights)
         case _:
@@ -173,8 +215,36 @@ def _flipped(parts: tuple[Part, ...], w: float, h: float, mirrored: tuple[bool, 
             case Turned():
                 profile = tuple((h - y, r) for y, r in reversed(part.profile)) if down else part.profile
                 yield replace(part, cx=w - part.cx if across else part.cx, profile=profile)
+            case Loft():
+                loops = tuple(tuple((*at(x, y), z) for x, y, z in loop) for loop in part.loops)
+                yield replace(part, loops=loops)
             case Polyhedron():
                 points = tuple((*at(x, y), z) for x, y, z in part.points)
                 yield replace(
                     part, points=points, faces=tuple(f[::-1] for f in part.faces) if odd else part.faces
                 )
+
+
+def moved(parts: Iterable[Part], x: float, y: float, z: float) -> Iterator[Part]:
+    """Parts moved by so many metres."""
+    for part in parts:
+        match part:
+            case Block() | Ring():
+                yield replace(
+                    part, x0=part.x0 + x, y0=part.y0 + y, x1=part.x1 + x, y1=part.y1 + y,
+                    z0=part.z0 + z, z1=part.z1 + z,
+                )  # fmt: skip
+            case Prism():
+                points = tuple((px + x, py + y) for px, py in part.points)
+                yield replace(part, points=points, z0=part.z0 + z, z1=part.z1 + z)
+            case Moulding():
+                profile = tuple((py + y, pz + z) for py, pz in part.profile)
+                yield replace(part, x0=part.x0 + x, x1=part.x1 + x, profile=profile, z0=part.z0 + z)
+            case Turned():
+                profile = tuple((py + y, r) for py, r in part.profile)
+                yield replace(part, cx=part.cx + x, cz=part.cz + z, profile=profile)
+            case Loft():
+                loops = tuple(tuple((px + x, py + y, pz + z) for px, py, pz in loop) for loop in part.loops)
+                yield replace(part, loops=loops)
+            case Polyhedron():
+                yield replace(part, points=tuple((px + x, py + y, pz + z) for px, py, pz in part.points))

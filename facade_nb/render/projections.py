@@ -5,10 +5,10 @@ from __future__ import annotations
 from itertools import pairwise
 from math import pi, sin
 
-from .bodies import arc, beam, inset, lofted, moved, upright
 from .lettering import lettered
+from .lofts import arc, beam, inset, lofted, upright
 from .openings import casement
-from .parts import Block, Part, Point, Prism, Ring
+from .parts import Block, Part, Point, Prism, Ring, moved
 
 __all__ = ["awning", "balcony", "bay", "dormer", "loggia", "railing", "sign"]
 

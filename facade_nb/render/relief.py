@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from ..solver.model.layout import Rect
 from .ink import clip, hull
-from .meshing import triangulate
-from .parts import Block, Moulding, Point, Polyhedron, Prism, Turned, front, outline
+from .parts import Block, Loft, Moulding, Point, Polyhedron, Prism, Turned, front, outline
 from .polygons import clip_all
 from .scene import Scene, Solid
 from .silhouette import pieces
@@ -311,7 +310,7 @@ def _of_parts(solid: Solid) -> Iterable[_Caster]:
                 continue
             case Prism() if solid.geometry.modelled and part.slot in ("trim", "coping", "stripe", "roof"):
                 z0, z1, points = part.z0, part.z1, tuple(hull(part.points))
-            case Polyhedron() if solid.geometry.modelled and not full and not solid.geometry.roof:
+            case Loft() | Polyhedron() if solid.geometry.modelled and not full and not solid.geometry.roof:
                 spots = tuple((x, y, z + solid.face) for x, y, z in part.points)
                 zs = [z for _, _, z in spots]
                 if len(part.faces) > _MANY:  # a body that may have hollows and holes
@@ -359,7 +358,9 @@ def _convex(points: Sequence[Point]) -> Iterable[Sequence[Point]]:
     """A polygon as convex pieces: itself, or its triangles."""
     if len(hull(points)) == len(points):
         return [points]
-    return [[points[i] for i in corners] for corners in triangulate(points)]
+    from manifold3d import triangulate
+
+    return [[points[i] for i in corners] for corners in triangulate([np.array(points)]).tolist()]
 
 
 def _merged(values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import cos, hypot, pi, sin
 
-from .bodies import beam, upright
-from .parts import Block, Part, Point, Polyhedron, Prism
+from .lofts import beam, upright
+from .parts import Block, Part, Point, Prism
 
 __all__ = ["gable", "hip", "hipped", "mansard", "pitched"]
 
@@ -118,11 +118,8 @@ def _slope(w: float, h: float, d: float, draw: float, eave: float) -> tuple[Part
     near = -min(run / 2, 1.2 * h)  # on a deep house the slope stays as steep and the top is flat
     far = -run - near - 0.001
     e = min(eave, 0.06 * w)
-    points = (
-        (-e, 0.0, front), (w + e, 0.0, front), (w + e, 0.0, back), (-e, 0.0, back),
-        (draw, h, near), (w - draw, h, near), (w - draw, h, far), (draw, h, far),
-    )  # fmt: skip
-    faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7), (3, 2, 1, 0), (4, 5, 6, 7))
+    low = ((-e, front), (w + e, front), (w + e, back), (-e, back))
+    high = ((draw, near), (w - draw, near), (w - draw, far), (draw, far))
     ridge_cap = Block(draw, h - 0.06, w - draw, h, near - 0.06, near + 0.06)
     gutter = Block(-e, -0.1, w + e, 0.0, -0.1, front + 0.06, "gutter")
-    return (Polyhedron(points, faces), ridge_cap, gutter)
+    return (upright(low, 0.0, h, top=high), ridge_cap, gutter)

@@ -60,6 +60,8 @@ class Triangles:
         (t, 3) uint8, sRGB.
     materials
         (t,) int64: index into `material_names`.
+    round
+        (t,) bool: of a body that stands for a round one, as columns do.
     shapes
         (t,) int64: which shape of the layout a triangle belongs to, for picking.
     material_names, library
@@ -70,6 +72,7 @@ class Triangles:
     normals: NDArray[np.float32]
     colours: NDArray[np.uint8]
     materials: NDArray[np.int64]
+    round: NDArray[np.bool_]
     shapes: NDArray[np.int64]
     material_names: tuple[str, ...]
     library: str = ""
@@ -112,23 +115,23 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]], library:
     """The triangles of meshes, each with its shape's index and the materials of its slots; rules are of `library`."""
     import numpy as np
 
-    from .meshing import corner_normals, have_area
+    from .meshing import have_area
 
     names: dict[str, int] = {}
-    positions, normals, materials, shapes = [], [], [], []
+    positions, normals, materials, curved, shapes = [], [], [], [], []
     for index, mesh, slots in bodies:
         if not len(mesh.faces):
             continue
         lookup = np.array([names.setdefault(slots[slot], len(names)) for slot in mesh.names])
         positions.append(mesh.vertices[mesh.faces])
-        normals.append(corner_normals(mesh))
+        normals.append(mesh.normals)
         materials.append(lookup[mesh.slots])
+        curved.append(mesh.round)
         shapes.append(np.full(len(mesh.faces), index))
     if not positions:
         empty = np.zeros((0, 3, 3), np.float32)
-        return Triangles(
-            empty, empty, np.zeros((0, 3), np.uint8), np.zeros(0, int), np.zeros(0, int), (), library
-        )
+        none = np.zeros(0, int)
+        return Triangles(empty, empty, np.zeros((0, 3), np.uint8), none, none.astype(bool), none, (), library)
     palette = np.array([rgb(material_of(library, name).base) for name in names], np.uint8)
     corners = np.concatenate(positions)
     kept = have_area(corners)  # far from the origin single precision tells less
@@ -138,6 +141,7 @@ def triangles_of(bodies: Sequence[tuple[int, Mesh, Mapping[str, str]]], library:
         np.concatenate(normals)[kept].astype(np.float32),
         palette[material],
         material,
+        np.concatenate(curved)[kept],
         np.concatenate(shapes)[kept],
         tuple(names),
         library,

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import Any
 
-from .parts import Block, Part, Point, Polyhedron, Ring, front, outline
+from .parts import Block, Loft, Part, Point, Polyhedron, Ring, front, outline
 
 __all__ = ["covered", "pieces", "polygon_of", "shade_on", "silhouette"]
 
@@ -27,7 +27,7 @@ def polygon_of(part: Part) -> Any:
             hole = ((part.x0 + t, part.y0 + t), (part.x1 - t, part.y0 + t),
                     (part.x1 - t, part.y1 - t), (part.x0 + t, part.y1 - t))  # fmt: skip
             return shapely.Polygon(outline(part), [hole])
-        case Polyhedron():
+        case Loft() | Polyhedron():
             faces = [shapely.Polygon([part.points[i][:2] for i in face]) for face in part.faces]
             return shapely.union_all([face for face in faces if face.area > 0], grid_size=_GRID)
         case _:
@@ -98,7 +98,7 @@ def shade_on(
     for part in parts:
         if front(part) < level + 0.03 or (isinstance(part, Block) and _slight(part)):
             continue
-        if isinstance(part, Polyhedron):
+        if isinstance(part, Loft | Polyhedron):
             spots = [(x, y, max(z - level, 0.0)) for x, y, z in part.points]
             swept = shapely.MultiPoint(
                 [(x + t * light[0], y - t * light[1]) for x, y, t in spots]

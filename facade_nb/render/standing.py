@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
@@ -69,21 +69,22 @@ class Solid:
 
     def body(self) -> Mesh:
         """Its triangles, in its own frame, with openings cut."""
-        from .meshing import mesh_parts
-
-        if not self.cuts:
-            return mesh_parts(self.parts)
-        from .carving import carved
-
-        return carved(self.parts, self.cuts)
+        return _body(self.parts, self.cuts)
 
     def mesh(self) -> Mesh:
         """Its triangles, in the scene's frame."""
         from numpy import array
 
-        local = self.body()
-        corner = array([self.rect[0], self.rect[1], self.face])
-        return replace(local, vertices=local.vertices + corner)
+        return self.body().moved(array([self.rect[0], self.rect[1], self.face]))
+
+
+@lru_cache(maxsize=256)
+def _body(parts: tuple[Part, ...], cuts: tuple[Cut, ...]) -> Mesh:
+    """Alike shapes share their mesh."""
+    from .carving import carved
+    from .meshing import assembled
+
+    return assembled(carved(parts, cuts))
 
 
 def place_of(shape: PlacedShape) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from math import atan2, ceil, cos, pi, sin
 
-from .bodies import arc, lofted, stone
+from .lofts import arc, lofted, stone
 from .parts import Block, Moulding, Part, Point, Prism, Turned
 
 __all__ = ["arcade", "gable", "pediment", "quoin", "stair", "stair_stand", "statue"]
@@ -256,7 +256,7 @@ def _limb(*joints: tuple[tuple[float, float, float], float]) -> Part:
     loops = [
         [(x + r * cos(pi * k / 4), y, z + r * sin(pi * k / 4)) for k in range(8)] for (x, y, z), r in joints
     ]
-    return lofted(*loops)
+    return lofted(*loops, round=True)
 
 
 def stair(w: float, h: float, d: float, *, risers: int = 0, cheeks: str = "yes") -> tuple[Part, ...]:

@@ -13,7 +13,7 @@ from shapely import Polygon
 
 from facade_nb import Building
 from facade_nb.__main__ import main
-from facade_nb.building import Roof
+from facade_nb.building import Roof, load
 from facade_nb.building.bodies import Frame, bodies_of, deepest
 from facade_nb.building.developed import GAP
 from facade_nb.building.mesh import parts_of
@@ -170,14 +170,34 @@ def test_no_dimension_measures_what_lies_between_walls(building, lengths):
         rows[int(dimension.dxf.angle)].append(dimension.get_measurement())
     assert sorted(rows[0]) == pytest.approx(sorted(lengths), abs=1e-3)
     assert sum(rows[90]) == pytest.approx(2 * max(rows[90]), abs=1e-3)  # the parts, and their sum
-    text = pypdf.PdfReader(io.BytesIO(layout.to_pdf())).pages[0].extract_text().splitlines()
+    pages = pypdf.PdfReader(io.BytesIO(layout.to_pdf())).pages
+    text = [line for page in pages for line in page.extract_text().splitlines()]
     assert {f"{length:.2f}" for length in lengths} <= set(text)
-    assert f"{sum(lengths):.2f} × {layout.developed.canvas.height:.2f} m" in text
+    sizes = [re.fullmatch(r"(\d+\.\d\d) × (\d+\.\d\d) m", line) for line in text]
+    found = [(float(size[1]), float(size[2])) for size in sizes if size]
+    assert sum(width for width, _ in found) == pytest.approx(sum(lengths), abs=0.02)
+    assert {height for _, height in found} == {round(layout.developed.canvas.height, 2)}
     written = {
         float(n) for n in re.findall(r">(\d+\.\d\d)</text>", elevation_svg(layout.developed, dimensions=True))
     }
     assert {round(length, 2) for length in lengths} <= written
     assert max(written) <= max(*lengths, layout.developed.canvas.height) and GAP not in written
+
+
+def test_a_row_of_houses_stands_on_several_sheets_of_one_scale():
+    """Ten walls would stand on one sheet at 1:500. Each has its name; a mark means the same on all sheets."""
+    import pypdf
+
+    layout = load("row-of-houses").solve()
+    pages = [page.extract_text() for page in pypdf.PdfReader(io.BytesIO(layout.to_pdf())).pages]
+    assert [re.findall(r"1:\d+ \(A3\)", page) for page in pages] == [["1:100 (A3)"]] * 3
+    assert [int(n) for page in pages for n in re.findall(r"^wall (\d+)$", page, re.M)] == [*range(1, 11)]
+    assert all(f"sheet {n} of 3" in page for n, page in enumerate(pages, 1))
+    rows = {}
+    for page in pages:
+        for mark, *told in re.findall(r"^([WD]\d+)\n(window|door)\n(.+)\n(.+)\n(.+)\n(.+)$", page, re.M):
+            assert rows.setdefault(mark, told) == told
+    assert len(rows) == 9
 
 
 def test_the_command_line_solves_a_building(tmp_path, capsys):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -14,9 +15,11 @@ import trimesh
 from facade_nb.design.errors import DesignError
 from facade_nb.design.model import Canvas
 from facade_nb.render import GEOMETRIES, MATERIALS, build_scene, write_glb
+from facade_nb.render.lofts import arc
 from facade_nb.render.materials import find_material, mix
-from facade_nb.render.meshing import mesh_part, mesh_parts, triangulate
-from facade_nb.render.parts import front, outline
+from facade_nb.render.meshing import mesh_part, mesh_parts
+from facade_nb.render.parts import Block, Prism, front, outline
+from facade_nb.render.surfaces import corner_normals, corner_places
 from facade_nb.solver.model.layout import Layout, PlacedShape
 
 from .houses import apartment, house
@@ -52,7 +55,7 @@ OVERHANG = {  # metres beyond the rectangle: left and right, below; and beyond t
 @pytest.mark.parametrize("size", SIZES, ids=str)
 def test_parts_are_closed_and_face_outwards(name: str, size: tuple[float, float, float]) -> None:
     for part in GEOMETRIES[name].parts(*size):
-        vertices, faces, _ = mesh_part(part)
+        vertices, faces = mesh_part(part)
         body = trimesh.Trimesh(vertices, faces, process=True, merge_norm=True, merge_tex=True)
         assert body.is_watertight, part
         assert body.is_winding_consistent, part
@@ -86,7 +89,7 @@ def test_full_geometries_leave_no_gap(name: str) -> None:
 def test_the_drawn_outline_is_the_outline_of_the_mesh() -> None:
     for name, geometry in GEOMETRIES.items():
         for part in geometry.parts(1.3, 1.9, 0.25):
-            vertices, _, _ = mesh_part(part)
+            vertices, _ = mesh_part(part)
             drawn = np.array(outline(part))
             assert drawn.min(axis=0) == pytest.approx(vertices[:, :2].min(axis=0), abs=1e-9), name
             assert drawn.max(axis=0) == pytest.approx(vertices[:, :2].max(axis=0), abs=1e-9), name
@@ -200,16 +203,39 @@ def test_glb_of_a_faulty_layout_leaves_no_file(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_ears_are_cut_from_concave_polygons() -> None:
-    polygon = [(0, 0), (4, 0), (4, 3), (2, 1), (0, 3)]
-    triangles = triangulate(polygon)
-    points = np.array(polygon, float)
-    a, b, c = (points[triangles[:, i]] for i in range(3))
-    areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
-    assert (areas > 0).all()
-    assert areas.sum() == pytest.approx(8.0)
-    with pytest.raises(ValueError, match="counter-clockwise"):
-        triangulate(polygon[::-1])
+def test_a_bow_is_smooth_and_its_edge_crisp() -> None:
+    """Normals of the barrel of an arched roof are those of a circle; those of its ends look straight ahead."""
+    barrel = Prism(arc(0, 0, 1, 1, 20), -2, 0)
+    mesh = mesh_parts((barrel,))
+    normals, corners = corner_normals(mesh), mesh.vertices[mesh.faces]
+    own = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    own /= np.linalg.norm(own, axis=1, keepdims=True)
+    bow = (np.abs(own[:, 2]) < 0.5) & (own[:, 1] > 0)
+    inner = bow[:, None] & (corners[:, :, 1] > 0.01)  # at the foot is an edge
+    assert inner.sum() > 80
+    assert np.allclose(normals[inner], corners[inner] * (1, 1, 0), atol=1e-9)
+    assert np.allclose(normals[~bow], own[~bow][:, None])
+    # Its texture is unrolled: corners that lie on one line along the barrel have one place across it.
+    places = corner_places(mesh)[bow].reshape(-1, 2)
+    angle = np.arctan2(*corners[bow].reshape(-1, 3).T[1::-1])
+    apart = [2 * np.sin(np.pi / 40) * k for k in range(21)]  # so many chords
+    for axis in (0, 1):
+        if np.ptp(places[:, axis]) > 2.5:
+            along = np.abs(places[:, axis] - places[np.argmin(angle), axis])
+            assert np.allclose(np.sort(np.unique(along.round(6))), np.round(apart, 6))
+            break
+    else:
+        raise AssertionError("nothing is unrolled")
+
+
+def test_stones_along_a_curve_are_one_body() -> None:
+    """Prisms of one slot and depth have no seams between them; others stay apart."""
+    stones = [Prism(((x, 0), (x + 1, 0), (x + 1, 1), (x, 1)), 0, 1, "coping") for x in (0, 1, 2)]
+    mesh = mesh_parts((*stones, replace(stones[0], slot="body"), Block(5, 0, 6, 1, 0, 1)))
+    assert set(mesh.bodies) == {0, 1, 2}
+    row = mesh.vertices[mesh.faces[mesh.bodies == 0]]
+    ends = row[np.ptp(row[:, :, 0], axis=1) < 1e-9][:, 0, 0]  # faces across it
+    assert sorted(ends) == pytest.approx([0, 0, 3, 3])
 
 
 def test_every_material_has_sound_numbers() -> None:

@@ -62,7 +62,7 @@ def test_parameters_at_their_ends_are_sound(name: str) -> None:
     for w, h, d in SIZES:
         parts = find_geometry(name).parts(w, h, d)
         for part in parts:
-            vertices, faces, _ = mesh_part(part)
+            vertices, faces = mesh_part(part)
             body = trimesh.Trimesh(vertices, faces, process=False)
             assert body.is_watertight and body.is_winding_consistent and body.volume > 0, (w, h, d, part)
         mesh = mesh_parts(parts)

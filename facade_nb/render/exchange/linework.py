@@ -145,7 +145,7 @@ def _facets(mesh: Mesh) -> Iterator[_Facet]:
     normal = across / np.where(size > 0, size, 1)[:, None]
     groups: dict[tuple[object, ...], list[int]] = defaultdict(list)
     for k in np.flatnonzero(normal[:, 2] > _FACING).tolist():
-        if mesh.smooth[k]:
+        if mesh.round[k]:
             groups[int(mesh.slots[k]), "curved", round(1.5 * float(normal[k, 1]))].append(k)
         else:
             away = float(normal[k] @ corners[k, 0])

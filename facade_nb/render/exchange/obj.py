@@ -181,8 +181,6 @@ def _bodies(
 ) -> Iterator[str]:
     import numpy as np
 
-    from ..meshing import corner_normals, corner_places
-
     points = directions = places = 0
     for piece in pieces:
         mesh = piece.mesh
@@ -191,10 +189,10 @@ def _bodies(
         if not len(mesh.faces):  # wholly covered, or too small to be told from nothing
             continue
         vertices, corner = np.unique(mesh.vertices.round(6), axis=0, return_inverse=True)
-        normals, turn = np.unique(corner_normals(mesh).reshape(-1, 3).round(4), axis=0, return_inverse=True)
+        normals, turn = np.unique(mesh.normals.reshape(-1, 3).round(4), axis=0, return_inverse=True)
         own = piece.library or library
         coats: dict[int, _Paint] = {}
-        coordinates = corner_places(mesh)
+        coordinates = mesh.places
         for slot, name in enumerate(mesh.names):
             material = piece.materials[name]
             coats[slot] = _Paint(material, None, own if is_rule(material) else "")

@@ -5,6 +5,8 @@ What a rule of the design's grammar draws is a picture within them.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from io import BytesIO
 from itertools import product
@@ -21,18 +23,21 @@ from ..ruled import library_of, material_of, rule_pixels
 from ..scene import Scene, build_scene, without
 from .chains import FIRST, PITCH, TEXT, Units, chains, check_units, label, levels, offset
 from .linework import WEIGHTS, Drawn, Linework, linework
-from .schedule import Item, items
+from .schedule import Item, items, items_on
 from .sheet import MARGIN, PAPER, ROW, TITLE, Sheet, Table, lay_out
 
 if TYPE_CHECKING:
     from reportlab.lib.utils import ImageReader
     from reportlab.pdfgen.canvas import Canvas
 
-__all__ = ["to_pdf", "write_pdf"]
+__all__ = ["Page", "largest_scale", "sheets_pdf", "to_pdf", "write_pdf"]
 
 _MM = 72 / 25.4
 _SMALL = 1.7
 """Height of the schedule's text, millimetres."""
+
+_NAME, _NAMES = 2.4, 5.0
+"""Heights of a name's capitals and of all names below a drawing, millimetres."""
 
 _CAP = 0.72
 """Height of a capital as a share of a font's size, which is what `TEXT` and `_SMALL` mean: about so in Helvetica."""
@@ -73,30 +78,63 @@ def to_pdf(layout: Layout, units: str = "m") -> bytes:
     ValueError
         For other units.
     """
+    return sheets_pdf(layout, [Page(layout)], check_units(units))
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """What is drawn on one sheet, and the names of what stands there side by side: each from where to where, metres."""
+
+    layout: Layout
+    names: tuple[tuple[str, float, float], ...] = ()
+
+    @property
+    def foot(self) -> float:
+        """Millimetres that names take below the dimensions."""
+        return _NAMES if self.names else 0.0
+
+
+def largest_scale(page: Page, units: Units) -> int:
+    """The largest scale at which a page fits on its sheet, with its schedule: 50 for 1:50."""
+    import numpy as np
+
+    rows = _cells(items(page.layout), units)
+    widths = _widths([(*_HEADINGS, _AREAS[units][0]), *rows])
+    spots = [solid.mesh().vertices[:, :2] for solid in build_scene(page.layout).solids] + [np.zeros((1, 2))]
+    (left, bottom), (right, top) = (ends(np.concatenate(spots), axis=0).tolist() for ends in (np.min, np.max))
+    return lay_out(page.layout, (left, bottom, right, top), len(rows), sum(widths), foot=page.foot).scale
+
+
+def sheets_pdf(whole: Layout, pages: Sequence[Page], units: Units, largest: int = 1) -> bytes:
+    """Pages of one drawing, a sheet each. Marks are those of the whole; no scale is larger than `largest`."""
     from reportlab.pdfgen.canvas import Canvas
 
-    known = check_units(units)
-    scene = build_scene(layout)
-    lines = linework(scene)
-    rows = items(layout)
-    table = _cells(rows, known)
-    headings = (*_HEADINGS, _AREAS[known][0])
-    widths = _widths([headings, *table])
-    sheet = lay_out(layout, lines, len(rows), sum(widths))
     data = BytesIO()
     canvas = Canvas(data, pagesize=(PAPER[0] * _MM, PAPER[1] * _MM), pageCompression=1, invariant=1)
-    canvas.setTitle(f"{layout.name}, elevation 1:{sheet.scale}")
     canvas.setCreator("facade_nb")
-    canvas.scale(_MM, _MM)  # millimetres from here on
-    pen = _Pen(canvas, sheet)
-    pen.elevation(layout, lines)
-    pen.marks(scene, rows)
-    for axis in ("x", "y"):
-        pen.chains(layout, lines, "x" if axis == "x" else "y", known)
-    pen.frame()
-    pen.title(layout, known)
-    pen.table(headings, table, widths)
-    canvas.showPage()
+    headings = (*_HEADINGS, _AREAS[units][0])
+    for number, page in enumerate(pages, 1):
+        layout = page.layout
+        scene = build_scene(layout)
+        lines = linework(scene)
+        rows = items_on(layout, whole)
+        table = _cells(rows, units)
+        widths = _widths([headings, *table])
+        sheet = lay_out(layout, lines.bounds, len(rows), sum(widths), foot=page.foot, largest=largest)
+        canvas.setTitle(f"{whole.name}, elevation 1:{sheet.scale}")
+        canvas.scale(_MM, _MM)  # millimetres from here on
+        pen = _Pen(canvas, sheet)
+        pen.elevation(layout, lines)
+        pen.marks(scene, rows)
+        for axis in ("x", "y"):
+            pen.chains(layout, lines, "x" if axis == "x" else "y", units)
+        pen.names(page, lines)
+        pen.frame()
+        pen.title(
+            layout, units, f"Elevation, sheet {number} of {len(pages)}" if len(pages) > 1 else "Elevation"
+        )
+        pen.table(headings, table, widths)
+        canvas.showPage()
     canvas.save()
     return data.getvalue()
 
@@ -234,13 +272,23 @@ class _Pen:
                 canvas.restoreState()
             line -= PITCH
 
+    def names(self, page: Page, lines: Linework) -> None:
+        """The name of each thing under its dimensions."""
+        _, bottom, _, _ = lines.bounds or (0.0, 0.0, 0.0, 0.0)
+        count = len(chains(page.layout, "x"))
+        y = self.at(0.0, min(bottom, 0.0))[1] - FIRST - PITCH * (count - 1) - 3.0 - page.foot
+        for name, start, end in page.names:
+            (left, _), (right, _) = self.at(start, 0.0), self.at(end, 0.0)
+            text = self._fit(name, _NAME, right - left)
+            self._text((left + right) / 2, y + 1.5, text, _NAME, "middle", bold=True)
+
     def frame(self) -> None:
         """The frame of the sheet."""
         self.canvas.setLineWidth(0.5)
         self.canvas.rect(MARGIN - 3, MARGIN - 3, PAPER[0] - 2 * MARGIN + 6, PAPER[1] - 2 * MARGIN + 6)
 
-    def title(self, layout: Layout, units: Units) -> None:
-        """The title block: name, scale, size, units, and a date that is left to whoever signs."""
+    def title(self, layout: Layout, units: Units, told: str) -> None:
+        """The title block: what it is, name, scale, size, units, and a date that is left to whoever signs."""
         canvas = self.canvas
         wide, tall = TITLE
         left, bottom = PAPER[0] - MARGIN - wide, MARGIN
@@ -250,10 +298,10 @@ class _Pen:
         canvas.line(left, bottom + 11, left + wide, bottom + 11)
         canvas.setLineWidth(0.18)
         size = (sum(b - a for a, b in ranges(layout, "x")), layout.canvas.height)
-        told = " × ".join(label(length, units) for length in size) + (" m" if units == "m" else "")
+        measures = " × ".join(label(length, units) for length in size) + (" m" if units == "m" else "")
         fields = (
             ("Scale", f"1:{self.sheet.scale} (A3)", 24.0),
-            ("Size", told, 36.0),
+            ("Size", measures, 36.0),
             ("Dimensions in", "metres" if units == "m" else "feet and inches", 28.0),
             ("Date", "", 30.0),
         )
@@ -264,7 +312,7 @@ class _Pen:
             self._text(x + 1.5, bottom + 7.8, name, 1.3, colour="#555555")
             self._text(x + 1.5, bottom + 2.8, self._fit(value, 2.1, column - 3), 2.1)
             x += column
-        self._text(left + 1.5, bottom + tall - 3.6, "Elevation", 1.3, colour="#555555")
+        self._text(left + 1.5, bottom + tall - 3.6, told, 1.3, colour="#555555")
         self._text(left + 1.5, bottom + 14.2, self._fit(layout.name or "-", 3.6, wide - 3), 3.6)
 
     def table(self, headings: tuple[str, ...], cells: list[tuple[str, ...]], widths: list[float]) -> None:

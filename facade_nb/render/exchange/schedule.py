@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from ...solver.model.layout import Layout, PlacedShape
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["COLUMNS", "OTHER", "Item", "items", "schedule", "to_schedule", "write_schedule"]
+__all__ = ["COLUMNS", "OTHER", "Item", "items", "items_on", "schedule", "to_schedule", "write_schedule"]
 
 COLUMNS = ("mark", "kind", "geometry", "material", "width_m", "height_m", "count", "area_m2", "layers")
 """The header."""
@@ -51,6 +51,12 @@ class Item:
     shapes: tuple[int, ...]
     area: float
     layers: tuple[str, ...]
+
+
+def items_on(sheet: Layout, whole: Layout) -> tuple[Item, ...]:
+    """The rows of one sheet of several, with the marks that they have on all."""
+    marks = {_key(whole.shapes[item.shapes[0]]): item.mark for item in items(whole)}
+    return tuple(replace(item, mark=marks[_key(sheet.shapes[item.shapes[0]])]) for item in items(sheet))
 
 
 def items(layout: Layout) -> tuple[Item, ...]:

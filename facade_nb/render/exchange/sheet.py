@@ -23,6 +23,8 @@ TITLE = (118.0, 26.0)
 ROW = 3.3
 """Height of a row of the schedule."""
 
+Bounds = tuple[float, float, float, float] | None
+
 _GAP = 4.0
 _HEAD = 2
 """Rows of the schedule that its heading takes."""
@@ -58,28 +60,41 @@ def scale_of(layout: Layout, lines: Linework) -> int:
     """The largest scale at which the drawing with its dimensions fits on the sheet, were there nothing else."""
     inner = PAPER[0] - 2 * MARGIN, PAPER[1] - 2 * MARGIN
     for scale in scales():
-        width, height = _extent(layout, lines, scale)
+        width, height = _extent(layout, lines.bounds, scale)
         if width <= inner[0] and height <= inner[1]:
             return scale
     return scales()[-1]
 
 
-def lay_out(layout: Layout, lines: Linework, rows: int, wide: float) -> Sheet:
+def lay_out(
+    layout: Layout, bounds: Bounds, rows: int, wide: float, *, foot: float = 0.0, largest: int = 1
+) -> Sheet:
     """The largest scale at which all fits, the schedule of `rows` rows, each `wide`, on the right or below.
 
     The common scales are tried first, then 1:500, 1:1000 and so on. A schedule too long for any place is cut.
+
+    Parameters
+    ----------
+    bounds
+        Of the drawing: left, bottom, right, top, metres; None: there is nothing.
+    foot
+        What is written below the dimensions, millimetres.
+    largest
+        No larger scale is taken: 100 for 1:100.
     """
     inner = PAPER[0] - 2 * MARGIN, PAPER[1] - 2 * MARGIN
     for scale in scales():
-        size = _extent(layout, lines, scale)
+        if scale < largest:
+            continue
+        size = _extent(layout, bounds, scale, foot)
         found = _beside(inner, size, rows, wide) or _below(inner, size, rows, wide)
         if found is None and size[0] <= inner[0] / 2 and size[1] <= inner[1]:
             found = _cut(inner, rows, wide)
         if found is not None:
-            table, (room_width, room_height), foot = found
-            left, bottom = _reach(layout, lines, scale)
+            table, (room_width, room_height), below = found
+            left, bottom = _reach(layout, bounds, scale, foot)
             x = MARGIN + (room_width - size[0]) / 2 + left
-            y = MARGIN + foot + (room_height - size[1]) / 2 + bottom
+            y = MARGIN + below + (room_height - size[1]) / 2 + bottom
             return Sheet(scale, (x, y), table)
     raise AssertionError("scales without an end")
 
@@ -122,20 +137,20 @@ def _cut(inner: tuple[float, float], rows: int, wide: float) -> _Found:
     return table, (inner[0] / 2, inner[1]), 0.0
 
 
-def _reach(layout: Layout, lines: Linework, scale: int) -> tuple[float, float]:
+def _reach(layout: Layout, bounds: Bounds, scale: int, foot: float) -> tuple[float, float]:
     """Millimetres from the left end and the foot of the drawing, with its dimensions, to the façade's corner."""
-    left, bottom, _, _ = lines.bounds or (0.0, 0.0, 0.0, 0.0)
+    left, bottom, _, _ = bounds or (0.0, 0.0, 0.0, 0.0)
     found = []
     for axis, low in (("x", bottom), ("y", left)):
         count = len(chains(layout, "x" if axis == "x" else "y"))
         found.append(-min(low, 0.0) * 1000 / scale + FIRST + PITCH * (count - 1) + 3.0)
-    return found[1], found[0]
+    return found[1], found[0] + foot
 
 
-def _extent(layout: Layout, lines: Linework, scale: int) -> tuple[float, float]:
+def _extent(layout: Layout, bounds: Bounds, scale: int, foot: float = 0.0) -> tuple[float, float]:
     """Width and height of the drawing with its dimensions, millimetres on paper."""
-    _, _, right, top = lines.bounds or (0.0, 0.0, 0.0, 0.0)
-    left, bottom = _reach(layout, lines, scale)
+    _, _, right, top = bounds or (0.0, 0.0, 0.0, 0.0)
+    left, bottom = _reach(layout, bounds, scale, foot)
     canvas = layout.canvas
     return (
         left + max(right, canvas.width) * 1000 / scale + 1.5,

@@ -7,22 +7,22 @@ has no pattern is plain paint with a little weather.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from math import cos, pi, sin
+from math import asin, cos, pi, sin
 
 import numpy as np
 
+from ..bodies import SEGMENTS
 from ..materials import RULE, Material, find_material, rgb
-from ..meshing import SEGMENTS
 from ..ruled import is_rule, material_of, rule_fault
 from ..texture.grammar import Grammar
 from ..texture.shape_rules import needed, parts
 from ..tiles import CATALOGUE
 from .street import PAVING
 
-__all__ = ["GROUND", "PANE", "Finishes", "finishes"]
+__all__ = ["BOWED", "GROUND", "PANE", "Finishes", "finishes"]
 
 PANE, GROUND = "Behind", "Ground"
 """The rules of panes, with the room behind them, and of the ground."""
@@ -32,6 +32,9 @@ _STRIPS = 8
 
 _BENT = pi / SEGMENTS
 """By how much the surface of a round body turns from the middle of a side to its edges."""
+
+BOWED, _ROWS = 0.75, 30
+"""Sine of what it leans up and down at most from what a side does, where its profile is bowed; in so many strips."""
 
 _STAINED = {
     "brick": "brick",
@@ -66,9 +69,10 @@ class Finishes:
     Attributes
     ----------
     grammar
-        Its first rules are those of the materials: a flat one and a round one for each.
-    flat, round
-        For each material, the place of its rule in the grammar's texture (m, 2).
+        Its first rules are those of the materials: a flat one and round ones for each.
+    flat, round, bulging, hollow
+        For each material, the place of its rule in the grammar's texture (m, 2). A bulging one leans from `BOWED` down
+        at its foot to as much up at its head; a hollow one the other way.
     pane, ground
         Places of the rules of panes and of the ground.
     glass
@@ -82,6 +86,8 @@ class Finishes:
     grammar: Grammar
     flat: np.ndarray
     round: np.ndarray
+    bulging: np.ndarray
+    hollow: np.ndarray
     pane: tuple[int, int]
     ground: tuple[int, int]
     glass: np.ndarray
@@ -123,6 +129,8 @@ def finishes(materials: tuple[str, ...], library: str = "") -> Finishes:
         grammar,
         each("Flat"),
         each("Round"),
+        each("Bulging"),
+        each("Hollow"),
         places[prefix + PANE],
         places[prefix + GROUND],
         np.array([own.pattern == "glass" for own in found], bool),
@@ -186,7 +194,8 @@ def _rules(number: int, material: Material) -> Iterator[str]:
     if not layers:
         layers = [f"Plain{number}", "Weather", f"Shine{number}"]
     yield f"Flat{number} -> Layer({', '.join(layers)})"
-    yield f"Round{number} -> Layer(Plain{number}, Bent, Shine{number})"
+    for name, bent in (("Round", "Bent"), ("Bulging", "Bulge"), ("Hollow", "Scoop")):
+        yield f"{name}{number} -> Layer(Plain{number}, {bent}, Shine{number})"
 
 
 def _shine(material: Material) -> str:
@@ -197,9 +206,20 @@ def _shine(material: Material) -> str:
     return _numbers(strength * (1 + 2 * material.metallic) * tint)
 
 
-def _bends() -> Iterable[str]:
-    """Normals across a side of a round body, as if it were round."""
-    for k in range(_STRIPS):
-        angle = _BENT * ((2 * k + 1) / _STRIPS - 1)
-        yield f"Bent{k} -> Mat(Normal, 0, {0.5 + 0.5 * sin(angle):.4g}, 0.5, {0.5 + 0.5 * cos(angle):.4g}, 1)"
-    yield f"Bent -> SplitX({', '.join(f'Rel, 1, Bent{k}' for k in range(_STRIPS))})"
+def _bends() -> Iterator[str]:
+    """Normals of a side of a round body, as if it were round: across it, and up it where its profile is bowed."""
+    across = [_BENT * ((2 * k + 1) / _STRIPS - 1) for k in range(_STRIPS)]
+    up = [asin(BOWED * ((2 * k + 1) / _ROWS - 1)) for k in range(_ROWS)]
+    for k, a in enumerate(across):
+        yield f"Bent{k} -> {_normal(a, 0.0)}"
+        yield from (f"Bent{k}At{j} -> {_normal(a, b)}" for j, b in enumerate(up))
+        rows = [f"Rel, 1, Bent{k}At{j}" for j in range(_ROWS)]
+        yield f"Bulge{k} -> SplitY({', '.join(rows)})"
+        yield f"Scoop{k} -> SplitY({', '.join(reversed(rows))})"
+    for name in ("Bent", "Bulge", "Scoop"):
+        yield f"{name} -> SplitX({', '.join(f'Rel, 1, {name}{k}' for k in range(_STRIPS))})"
+
+
+def _normal(across: float, up: float) -> str:
+    x, y, z = sin(across) * cos(up), sin(up), cos(across) * cos(up)
+    return f"Mat(Normal, 0, {0.5 + 0.5 * x:.4g}, {0.5 + 0.5 * y:.4g}, {0.5 + 0.5 * z:.4g}, 1)"

@@ -6,18 +6,18 @@ with the room behind it. The pipeline sees no difference (docs/pipeline.md).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...solver.model.layout import Layout
-from ..meshing import surface_axes
 from ..scene import Triangles
+from ..surfaces import surface_axes
 from ..surroundings import building
 from ..texture.grammar import Grammar
-from .finishes import Finishes, finishes
+from .finishes import BOWED, Finishes, finishes
 from .scene import CHUNK, Scene
 from .vertices import VERTEX
 
@@ -30,7 +30,10 @@ _FAR = 1500.0
 """How far the ground reaches, metres."""
 
 _ROUND = 1e-3
-"""A triangle is a round body's where the normals of its corners are so far from its own."""
+"""A triangle is a side of a round body where the normals of its corners are so far from its own."""
+
+_HIGHEST = 100.0
+"""Metres: what would need a higher façade is hardly bowed."""
 
 Floats = NDArray[np.float64]
 Rect = tuple[float, float, float, float]
@@ -148,7 +151,7 @@ def _rounded(
 ) -> None:
     """Sides of round bodies: each is a façade, across which its normal turns."""
     turned = triangles.normals.astype(np.float64) - axes[:, None, 2]
-    own = np.flatnonzero((np.abs(turned).max(axis=2) > _ROUND).all(axis=1))
+    own = np.flatnonzero(triangles.round & (np.abs(turned).max(axis=2) > _ROUND).all(axis=1))
     if not len(own):
         return
     # Its middle is where the normal is its own: between the corners to the left and those to the right.
@@ -156,12 +159,34 @@ def _rounded(
     x = local[own][:, :, 0]
     middle = _middle(x, bent)
     wide = 2 * np.abs(x - middle[:, None]).max(axis=1)
-    low = local[own][:, :, 1].min(axis=1)
-    place = np.stack([x - middle[:, None] + wide[:, None] / 2, local[own][:, :, 1] - low[:, None]], axis=2)
+    y = local[own][:, :, 1]
+    place = np.stack([x - middle[:, None] + wide[:, None] / 2, y - y.min(axis=1)[:, None]], axis=2)
+    tall, start = place[:, :, 1].max(axis=1), coats.round[triangles.materials[own]]
+    for rules, (lift, height) in zip(
+        (coats.bulging, coats.hollow), _bowed(y, turned[own], axes[own]), strict=True
+    ):
+        some = np.isfinite(height)
+        place[some, :, 1] = (y + lift[:, None])[some]
+        tall[some], start[some] = height[some], rules[triangles.materials[own[some]]]
     vertices["place"][own] = place
-    tall = place[:, :, 1].max(axis=1)
     vertices["size"][own] = np.stack([wide, tall], axis=1)[:, None]
-    vertices["start"][own] = coats.round[triangles.materials[own]][:, None]
+    vertices["start"][own] = start[:, None]
+
+
+def _bowed(y: Floats, turned: Floats, axes: Floats) -> Iterator[tuple[Floats, Floats]]:
+    """How a bulging façade, then a hollow one, lies on sides whose normals lean from their own as one goes up.
+
+    Of each side what is added to its `y` (n, 3), and how high the façade is on which it then lies; not finite where
+    the side does not lean so.
+    """
+    lean = (turned * axes[:, None, 1]).sum(axis=2)
+    rows, low, high = np.arange(len(y)), y.argmin(axis=1), y.argmax(axis=1)
+    rise = (lean[rows, high] - lean[rows, low]) / np.maximum(y[rows, high] - y[rows, low], 1e-9)
+    level = lean[rows, low] - rise * y[rows, low]
+    for sign in (1.0, -1.0):
+        bowed = (sign * rise > 2 * BOWED / _HIGHEST) & (np.abs(lean).max(axis=1) < BOWED)
+        steep = np.where(bowed, sign * rise, np.nan)
+        yield (BOWED + sign * level) / steep, 2 * BOWED / steep
 
 
 def _middle(x: Floats, bent: Floats) -> Floats:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...render import Scene
 from ...render.baked import baked, drawable, face_places, face_size
-from ...render.meshing import corner_normals, have_area
+from ...render.meshing import have_area
 
 __all__ = ["Pictured", "Ruled", "close_geometry", "pictured_triangles"]
 
@@ -39,7 +39,7 @@ def pictured_triangles(scene: Scene) -> dict[_Key, Pictured]:
         if not slots:
             continue
         size, local, mesh = face_size(solid.rect), solid.body(), solid.mesh()
-        corners, normals, places = mesh.vertices[mesh.faces], corner_normals(mesh), face_places(local, size)
+        corners, normals, places = mesh.vertices[mesh.faces], mesh.normals, face_places(local, size)
         for k, slot in enumerate(mesh.names):
             chosen = (mesh.slots == k) & have_area(corners)
             if slot in slots and chosen.any():

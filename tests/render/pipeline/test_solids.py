@@ -11,6 +11,7 @@ from facade_nb.render.materials import MATERIALS, rgb
 from facade_nb.render.pipeline.finishes import finishes
 from facade_nb.render.pipeline.solids import BODY, GROUND, Solids, solids_of
 from facade_nb.render.scene import build_scene
+from facade_nb.render.surroundings import building
 from facade_nb.solver.model.layout import Layout, PlacedShape
 
 from ..houses import house
@@ -104,6 +105,26 @@ def test_columns_are_round(solids: Solids) -> None:
     lean = solids.scene.grammar.evaluate(spots, (1, 1), start="Round0").normal[:, 0]
     assert lean[0] < 0.5 < lean[1]
     assert lean[0] + lean[1] == pytest.approx(1, abs=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["Bulging", "Hollow"])
+def test_bowed_profiles_are_round_too(kind: str) -> None:
+    """At the corners of each side of a column, torus to capital, the normal leans up as that of the mesh does."""
+    own = PlacedShape("l", "A", "P", (0, 0, 0.5, 2), geometry="column")
+    layout = Layout("Column", Canvas(0.5, 2), shapes=(own,))
+    made, triangles = solids_of(layout, ground=False), building(layout)
+    some = np.flatnonzero(np.char.startswith(rules(made).astype(str), kind))
+    assert len(some) > 60
+    found, wanted = [], []
+    for k in some[:: max(1, len(some) // 40)].tolist():
+        corners = made.scene.vertices[3 * k : 3 * k + 3]
+        up = np.cross(corners["normal"][0], corners["tangent"][0])
+        wanted += (triangles.normals[k] @ up).tolist()
+        for spot, size in zip(corners["place"], corners["size"], strict=True):
+            at = np.clip(spot, 1e-4, size - 1e-4)
+            found.append(made.scene.grammar.evaluate([at], size, start=rules(made)[k]).normal[0, 1] * 2 - 1)
+    assert np.abs(wanted).max() > 0.2
+    assert np.abs(np.array(found) - wanted).max() < 0.75 / 30 + 0.01  # half a strip, and rounding
 
 
 def test_every_material_is_a_rule() -> None:
