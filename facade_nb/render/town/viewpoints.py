@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from ..pipeline.viewpoint import Viewpoint
+from .overview import from_afar
 from .plan import STREET, Plan
 from .roads import HALF, LANE
 from .things import PERSON
@@ -44,9 +45,7 @@ def viewpoint(plan: Plan, view: View) -> Viewpoint:
         raise ValueError("there is no building to be looked at")
     spot, reach = _densest(plan)
     if view == "distance":
-        away = max(reach, 90.0)
-        eye = (spot[0] - 0.75 * away, 12.0 + 0.42 * away, -spot[1] + 0.95 * away)
-        return Viewpoint.towards(eye, (float(spot[0]), 0.0, float(-spot[1]) - 0.15 * away), 52.0)
+        return from_afar(plan, spot, max(reach, 90.0))
     if view == "street" and (found := _on_road(plan, spot)) is not None:
         return found
     corner, along, out, free, across = _street(plan, spot)
