@@ -25,8 +25,8 @@ _WALL, _ROAD = 0.7, 0.9
 """Between a crown and a wall, and between a trunk and what is paved, metres."""
 
 _CLUMPS, _CLOSE, _GARDEN = 0.05, 0.006, 6.5
-"""How much trees like to stand in groups, and how little each metre nearer to a house or further than so many, as parts of
-chance."""
+"""How much trees like to stand in groups, and each metre nearer to where they like best to be, so far from a house, as
+parts of chance."""
 
 _CLOSER = 3
 """So many times as many places are looked at closely."""
@@ -124,11 +124,11 @@ def _cells_near(corners: Floats, low: Floats, columns: int, rows: int) -> Ints:
 
 
 def _first_open(sites: Sites, ground: Ground) -> Ints:
-    """The first places that are on grass or in a yard, as many as there are trees at the most.
+    """The first places that are on grass or a field, or in a yard, as many as there are trees at the most.
 
     Where a step away something else is, none stands: there is ground everywhere.
     """
-    soft = [ground.names.index(name) for name in ("grass", "court")]
+    soft = [ground.names.index(name) for name in ("grass", "court", "field")]
     hard = ground.triangles[~np.isin(ground.kind[ground.triangles[:, 0]], soft)]
     paved = shapely.STRtree(shapely.polygons(ground.corners[hard]))
     found: list[Ints] = [np.zeros(0, np.int64)]
