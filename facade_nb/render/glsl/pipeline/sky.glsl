@@ -22,11 +22,10 @@ vec3 clear_sky(vec3 to) {
 // A direction that does not point below the horizon.
 vec3 level(vec3 ray) { return normalize(vec3(ray.x, max(ray.y, 0.02 * length(ray)), ray.z)); }
 
-// What the air itself shows: the horizon's colour towards the sun, more of the sky's with the sun behind.
-vec3 mist_along(vec3 ray) {
-  vec3 to = level(ray);
+// What the air itself shows: the sky low above the horizon (`clear`) towards the sun, more of its light with the sun behind.
+vec3 mist_along(vec3 to, vec3 clear) {
   float ahead = 0.5 + 0.5 * dot(normalize(to.xz + vec2(1e-6)), normalize(towards.xz + vec2(1e-6)));
-  return mix(0.75 * sky + 0.25 * horizon, clear_sky(to), mix(0.35, 1.0, ahead * ahead));
+  return mix(0.75 * sky + 0.25 * horizon, clear, mix(0.35, 1.0, ahead * ahead));
 }
 
 float grain(ivec2 cell) {
