@@ -54,7 +54,7 @@ def from_afar(plan: Plan, middle: Floats, reach: float) -> Viewpoint:
     `middle`: of that part; `reach`: how far the town reaches around it, metres; from so far one looks at the most.
     """
     built, low = _built(plan)
-    cells = low + (np.stack(np.indices(built.shape), axis=2).reshape(-1, 2) + 0.5) * _CELL
+    cells = low + (np.indices(built.shape).reshape(2, -1).T + 0.5) * _CELL
     near = np.abs(cells - middle).max(axis=1) < _AROUND
     best = np.argsort(-np.where(near, np.round(built, 6).ravel(), 0.0), kind="stable")[:_SPOTS]
     spots = cells[best]
