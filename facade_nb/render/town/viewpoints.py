@@ -13,7 +13,7 @@ from ..pipeline.viewpoint import Viewpoint
 from .overview import from_afar
 from .plan import STREET, Plan
 from .roads import HALF, LANE
-from .things import PERSON
+from .things import LAMP, PERSON
 
 __all__ = ["VIEWS", "View", "viewpoint"]
 
@@ -76,9 +76,10 @@ def _clear(
     along: np.ndarray,
     way: np.ndarray,
 ) -> tuple[float, float]:
-    """How far out of a wall and along it one stands: the first of a choice with no one in the way, else the freest."""
+    """How far out of a wall and along it one stands: the first of a choice with nobody in the way, else the freest."""
     best = -1.0, choice[0]
-    others = [(plan.cars.at, 0.0), (plan.things.at[plan.things.kind >= PERSON], 1.5)]
+    kind = plan.things.kind
+    others = [(plan.cars.at, 0.0), (plan.things.at[kind >= PERSON], 1.5), (plan.things.at[kind == LAMP], 2.8)]
     for far, side in choice:
         eye = start + out * far + along * side
         line = shapely.LineString([eye, eye + way])
