@@ -57,6 +57,8 @@ class Daytime:
         The sky as it is seen, linear.
     exposure
         Of the picture.
+    afterglow
+        What a low sun, or one that has just set, adds to the sky on its side, at the horizon; linear.
     """
 
     hour: float
@@ -69,6 +71,7 @@ class Daytime:
     zenith: Colour
     horizon: Colour
     exposure: float
+    afterglow: Colour = (0.0, 0.0, 0.0)
 
     @classmethod
     def at(cls, hour: float) -> Daytime:
@@ -93,8 +96,8 @@ class Daytime:
         sun = _mix((2.9, 1.45, 0.62), (3.0, 2.74, 2.36), warm)
         sky = _mix((0.62, 0.52, 0.58), (0.50, 0.66, 0.92), warm)
         sky = _mix(_mix(sky, (0.52, 0.50, 0.62), 1 - up), (0.045, 0.068, 0.135), night)
-        zenith = _mix(_mix((0.10, 0.21, 0.56), (0.27, 0.56, 1.20), warm), (0.0045, 0.011, 0.035), night)
-        horizon = _mix(_mix((1.05, 0.62, 0.42), (1.02, 1.28, 1.52), warm), (0.030, 0.040, 0.075), night)
+        zenith = _mix(_mix((0.11, 0.23, 0.56), (0.27, 0.56, 1.20), warm), (0.0045, 0.011, 0.035), night)
+        horizon = _mix(_mix((0.60, 0.60, 0.74), (1.02, 1.28, 1.52), warm), (0.030, 0.040, 0.075), night)
         return cls(
             hour,
             towards,
@@ -106,6 +109,9 @@ class Daytime:
             zenith,
             horizon,
             0.62 + 0.9 * night + 0.26 * (1 - warm) * up,
+            _scaled(
+                _mix((0.62, 0.17, 0.09), (0.85, 0.36, 0.02), up), (1 - warm) * _step(-0.42, 0.02, height)
+            ),
         )
 
     def uniforms(self) -> dict[str, float | tuple[float, ...]]:
@@ -120,6 +126,7 @@ class Daytime:
             "zenith": self.zenith,
             "horizon": self.horizon,
             "exposure": self.exposure,
+            "afterglow": self.afterglow,
         }
 
     def backdrop(self, rays: Floats) -> Floats:
@@ -128,8 +135,11 @@ class Daytime:
         rise = np.clip(rays[:, 1] / length, 0, 1)[:, None] ** 0.7
         low, high = floats(self.horizon), floats(self.zenith)
         seen = low + (high - low) * rise
-        glow = np.clip(rays @ floats(self.towards) / length, 0, 1)[:, None] ** 24
-        return (seen + 0.16 * glow * floats(self.sun)).astype(np.float32)
+        ahead = (rays @ floats(self.towards) / length)[:, None]
+        glow = np.clip(ahead, 0, 1) ** 24
+        low_down = np.clip(1 - 2.2 * rays[:, 1:2] / length[:, None], 0, 1)
+        side = (0.5 + 0.5 * ahead) * low_down
+        return (seen + side**3 * floats(self.afterglow) + 0.16 * glow * floats(self.sun)).astype(np.float32)
 
 
 _PART = 1 << 14

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .canvas import Canvas
+import numpy as np
+
+from .canvas import Canvas, Floats, paint
 
 __all__ = ["FIGURES", "people", "wheel"]
 
@@ -19,46 +21,86 @@ FIGURES: Sequence[Figure] = (
 
 
 def people(canvas: Canvas, seed: int) -> None:
-    """Four figures side by side, walking, seen from in front, flat and without faces, as architects draw them."""
+    """Four figures side by side, walking, seen from in front, lit from above."""
     wide = canvas.width / len(FIGURES)
     canvas.colour[...] = 0.25
+    folds = canvas.noise((0.05, 0.16), seed, 2)
     for number, figure in enumerate(FIGURES):
-        _figure(canvas, (number + 0.5) * wide, figure, -1.0 if number % 2 else 1.0)
+        _figure(canvas, (number + 0.5) * wide, figure, -1.0 if number % 2 else 1.0, folds)
 
 
-def _figure(canvas: Canvas, x: float, figure: Figure, side: float) -> None:
+def _figure(canvas: Canvas, x: float, figure: Figure, side: float, folds: Floats) -> None:
     coat, trousers, shoes, hair, skin, part, long = figure
     h = 0.985 * canvas.tall * part
 
     def at(*points: tuple[float, float]) -> list[tuple[float, float]]:
         return [(x + side * a * h, b * h) for a, b in points]
 
-    def limb(points: list[tuple[float, float]], width: float, colour: str) -> None:
-        canvas.lay(canvas.cover(canvas.line_distance(points, width * h)), colour, gloss=0.05)
+    def lay(distance: Floats, round_: float, colour: str, cloth: float = 1.0) -> None:
+        """Something round, whose surface turns away over so many metres from its outline; cloth has folds."""
+        across = 1 - np.clip(-distance / round_, 0, 1)
+        shade = 0.42 + 0.64 * np.sqrt(1 - across * across) + 0.09 * cloth * folds
+        colours = np.clip(paint(colour) * shade[..., None], 0, 1)
+        canvas.lay(canvas.cover(distance), colours, gloss=0.05)
+
+    def limb(points: list[tuple[float, float]], width: float, colour: str, cloth: float = 1.0) -> None:
+        lay(canvas.line_distance(points, width * h), 0.5 * width * h, colour, cloth)
+
+    def dot(a: float, b: float, radius: float, colour: str, alpha: float = 1.0) -> None:
+        spot = canvas.cover(canvas.disc_distance(x + side * a * h, b * h, radius * h))
+        canvas.lay(spot * np.float32(alpha), colour)
+
+    def line(points: list[tuple[float, float]], width: float, colour: str, alpha: float = 1.0) -> None:
+        canvas.lay(canvas.cover(canvas.line_distance(points, width * h)) * np.float32(alpha), colour)
 
     # The leg behind is lifted; feet point to whoever looks.
-    limb(at((0.035, 0.47), (0.042, 0.27), (0.04, 0.11)), 0.062, trousers)
-    limb(at((0.038, 0.085), (0.052, 0.07)), 0.05, shoes)
-    limb(at((-0.03, 0.47), (-0.035, 0.26), (-0.038, 0.06)), 0.068, trousers)
-    limb(at((-0.04, 0.028), (-0.052, 0.022)), 0.05, shoes)
-    limb(at((0.105, 0.76), (0.125, 0.62), (0.115, 0.5)), 0.05, coat)
-    limb(at((0.114, 0.475), (0.112, 0.465)), 0.04, skin)
-    hem = 0.36 if long else 0.47
+    limb(at((0.035, 0.47), (0.042, 0.27), (0.04, 0.11)), 0.064, trousers)
+    limb(at((0.038, 0.085), (0.052, 0.07)), 0.05, shoes, 0)
+    limb(at((-0.03, 0.47), (-0.035, 0.26), (-0.038, 0.06)), 0.07, trousers)
+    limb(at((-0.04, 0.028), (-0.052, 0.022)), 0.05, shoes, 0)
+    limb(at((0.114, 0.475), (0.112, 0.465)), 0.04, skin, 0)
+    limb(at((0.09, 0.765), (0.124, 0.62), (0.115, 0.5)), 0.052, coat)
+    if long:  # hair down to the shoulders, behind the neck
+        limb(at((-0.03, 0.9), (-0.035, 0.83)), 0.06, hair)
+        limb(at((0.03, 0.9), (0.035, 0.83)), 0.06, hair)
+    limb(at((0.0, 0.81), (0.0, 0.87)), 0.052, skin, 0)
+    line(at((-0.018, 0.848), (0.018, 0.848)), 0.022, "#000000", 0.3)  # the chin's shadow
+    hem = 0.36 if long else 0.455
+    flare = 0.085 if long else 0.07
     body = at(
-        (-0.075, hem), (0.075, hem), (0.072, 0.6), (0.115, 0.79), (0.06, 0.825), (-0.06, 0.825), (-0.115, 0.79),
-        (-0.072, 0.6),
+        (-flare, hem), (flare, hem), (0.066, 0.6), (0.088, 0.74), (0.105, 0.785), (0.045, 0.83), (0.0, 0.79),
+        (-0.045, 0.83), (-0.105, 0.785), (-0.088, 0.74), (-0.066, 0.6),
     )  # fmt: skip
-    canvas.lay(canvas.cover(canvas.polygon_distance(body)), coat, gloss=0.05)
-    canvas.lay(canvas.cover(canvas.line_distance(at((0.0, hem), (0.0, 0.8)), 0.006 * h)), "#1c1b1b")
-    limb(at((-0.108, 0.77), (-0.13, 0.63), (-0.11, 0.51)), 0.054, coat)
-    limb(at((-0.108, 0.485), (-0.105, 0.475)), 0.042, skin)
-    limb(at((0.0, 0.82), (0.0, 0.87)), 0.055, skin)
-    canvas.lay(canvas.cover(canvas.disc_distance(x, 0.925 * h, 0.07 * h)), hair, gloss=0.1)
-    face = canvas.cover(canvas.disc_distance(x + side * 0.004 * h, 0.908 * h, 0.052 * h))
-    canvas.lay(face, skin, gloss=0.08)
-    if long:  # hair down to the shoulders
-        for out in (-0.055, 0.055):
-            limb(at((out, 0.93), (out * 1.1, 0.85)), 0.035, hair)
+    lay(canvas.polygon_distance(body), 0.05 * h, coat)
+    line(at((0.0, hem), (0.0, 0.79)), 0.005, "#000000", 0.45)
+    line(at((-0.045, 0.826), (0.0, 0.785), (0.045, 0.826)), 0.012, "#000000", 0.3)  # a collar
+    line(at((-0.055, 0.56), (-0.025, 0.555)), 0.006, "#000000", 0.35)
+    line(at((0.055, 0.56), (0.025, 0.555)), 0.006, "#000000", 0.35)
+    limb(at((-0.108, 0.485), (-0.105, 0.475)), 0.042, skin, 0)
+    limb(at((-0.088, 0.768), (-0.126, 0.63), (-0.11, 0.51)), 0.054, coat)
+    # The head: an egg, hair around its upper half.
+    lay(canvas.line_distance(at((0.0, 0.926), (0.0, 0.93)), 0.108 * h), 0.05 * h, hair)
+    for a in (-0.044, 0.044):
+        dot(a, 0.906, 0.009, skin)
+    egg = canvas.line_distance(at((0.0, 0.893), (0.0, 0.918)), 0.084 * h)
+    lay(egg, 0.05 * h, skin, 0)
+    for a in (-0.016, 0.016):
+        dot(a, 0.913, 0.0065, "#ded6cc", 0.5)
+        dot(a, 0.913, 0.0045, "#2a211c")
+        line(at((a - 0.008, 0.9255), (a, 0.927), (a + 0.008, 0.9255)), 0.0035, hair, 0.6)
+    line(at((0.001, 0.912), (0.003, 0.898)), 0.006, "#000000", 0.16)
+    line(at((-0.005, 0.896), (0.006, 0.896)), 0.005, "#3a1f18", 0.35)
+    line(at((-0.011, 0.881), (0.011, 0.881)), 0.005, "#7a3b33", 0.75)
+    fringe = at(
+        (-0.046, 0.915),
+        (-0.04, 0.965),
+        (0.0, 0.985),
+        (0.04, 0.965),
+        (0.046, 0.915),
+        (0.03, 0.945),
+        (-0.012, 0.951),
+    )
+    lay(canvas.polygon_distance(fringe), 0.02 * h, hair)
 
 
 def wheel(canvas: Canvas, seed: int) -> None:

@@ -24,6 +24,10 @@ _REACH = 34.0
 _WALL, _ROAD = 0.7, 0.9
 """Between a crown and a wall, and between a trunk and what is paved, metres."""
 
+_CLUMPS, _CLOSE, _GARDEN = 0.05, 0.006, 6.5
+"""How much trees like to stand in groups, and each metre nearer to where they like best to be, so far from a house, as
+parts of chance."""
+
 _CLOSER = 3
 """So many times as many places are looked at closely."""
 
@@ -78,10 +82,13 @@ def sites_of(corners: Floats, houses: NDArray[np.object_], seed: int, each: floa
     clump = field(at, seed + 61, 130.0)[:, 0]
     most = int(each * len(houses)) + 40
     # The best of them are looked at more closely, some more than there will be.
-    wish = np.round(wish - 0.6 - 0.25 * clump, 6)
+    wish = np.round(wish - 0.6 - _CLUMPS * clump, 6)
     best = np.lexsort((np.arange(len(wish)), wish))[: _CLOSER * most]
-    chances = np.vstack([random.random((2, len(best))), field(at[best], seed + 62, 260.0)[:, 1]])
     free = near_houses(shapely.STRtree(houses), at[best])
+    # Most stand in the gardens of houses.
+    order = np.lexsort((best, np.round(wish[best] + _CLOSE * np.abs(free - _GARDEN), 6)))
+    best, free = best[order], free[order]
+    chances = np.vstack([random.random((2, len(best))), field(at[best], seed + 62, 260.0)[:, 1]])
     good = (wish[best] < 0) & (free > 2.2) & (free < _REACH)
     best = best[good]
     return Sites(at[best], free[good], clump[best], chances[:, good], most)
@@ -117,11 +124,11 @@ def _cells_near(corners: Floats, low: Floats, columns: int, rows: int) -> Ints:
 
 
 def _first_open(sites: Sites, ground: Ground) -> Ints:
-    """The first places that are on grass or in a yard, as many as there are trees at the most.
+    """The first places that are on grass or a field, or in a yard, as many as there are trees at the most.
 
     Where a step away something else is, none stands: there is ground everywhere.
     """
-    soft = [ground.names.index(name) for name in ("grass", "court")]
+    soft = [ground.names.index(name) for name in ("grass", "court", "field")]
     hard = ground.triangles[~np.isin(ground.kind[ground.triangles[:, 0]], soft)]
     paved = shapely.STRtree(shapely.polygons(ground.corners[hard]))
     found: list[Ints] = [np.zeros(0, np.int64)]

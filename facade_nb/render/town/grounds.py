@@ -14,9 +14,9 @@ from .rings import Ints, after, ring_numbers, take_rings
 from .roofing import triangulated
 from .streets import AVENUE, WALKS, WIDTHS, Cells
 
-__all__ = ["ASPHALT", "COURT", "GRASS", "PAVEMENT", "Pieces", "ground_of"]
+__all__ = ["ASPHALT", "COURT", "FIELD", "GRASS", "PAVEMENT", "Pieces", "ground_of"]
 
-ASPHALT, PAVEMENT, COURT, GRASS, LINE = range(5)
+ASPHALT, PAVEMENT, COURT, GRASS, LINE, FIELD = range(6)
 
 _LINE = 0.07
 """Half the width of the line in the middle of a street, metres."""
@@ -123,11 +123,11 @@ def _fields(pieces: Pieces, cells: Cells, others: Ints) -> None:
     quad = np.stack([outer[i], outer[j], kerb[j], kerb[i]], axis=1).reshape(-1, 2)
     corner = 4 * np.arange(len(i))[:, None]
     triangles = np.concatenate([corner + np.array([0, 1, 2]), corner + np.array([0, 2, 3])])
-    kind = np.repeat(np.where(street[index[i]], ASPHALT, GRASS), 4)
+    kind = np.repeat(np.where(street[index[i]], ASPHALT, FIELD), 4)
     pieces.add(quad, triangles, kind, np.arange(len(quad)) // 4)
     inner = np.where(good[:, None], kerb, outer)
     triangles = triangulated(inner, offsets, np.arange(len(others)))
-    pieces.add(inner, triangles, np.full(len(inner), GRASS), number)
+    pieces.add(inner, triangles, np.full(len(inner), FIELD), number)
     # Edges that no cell has the other way are the rim. It lies around the market, so that it can be drawn apart.
     rim = np.flatnonzero(~np.isin(start * len(start) + end, end * len(start) + start))
     here, there = cells.corners[rim], cells.corners[after(cells.offsets)[rim]]
@@ -138,4 +138,4 @@ def _fields(pieces: Pieces, cells: Cells, others: Ints) -> None:
     )
     corner = 4 * np.arange(len(rim))[:, None]
     triangles = np.concatenate([corner + np.array([0, 1, 2]), corner + np.array([0, 2, 3])])
-    pieces.add(quad, triangles, np.full(len(quad), GRASS), np.arange(len(quad)) // 4)
+    pieces.add(quad, triangles, np.full(len(quad), FIELD), np.arange(len(quad)) // 4)

@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from .chance import Floats, millimetres
-from .grounds import ASPHALT, COURT, GRASS, PAVEMENT, Pieces
+from .grounds import ASPHALT, COURT, FIELD, GRASS, PAVEMENT, Pieces
 from .linking import groups_of
 from .plan import Ground
 from .rings import Ints, line_offsets, offsets_of, ring_numbers
@@ -119,7 +119,7 @@ def plain_of(
     for parts, kind in zip(covers, (ASPHALT, PAVEMENT, COURT, GRASS), strict=True):
         _triangles(pieces, shapely.get_parts(parts), kind)
     for parts in (np.delete(tiles, built), _frame(asphalt.x, asphalt.y)):
-        _triangles(pieces, parts, GRASS)
+        _triangles(pieces, parts, FIELD)
     return pieces.ground()
 
 

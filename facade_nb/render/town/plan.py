@@ -68,7 +68,7 @@ class Ground:
         (v,) whether a piece is a strip of four corners that lies along a street: it begins with the edge on the
         street's side.
     names
-        Asphalt, pavement, court, grass, the line in the middle of a street.
+        Asphalt, pavement, court, grass, the line in the middle of a street, fields around.
     """
 
     corners: Floats
@@ -76,7 +76,7 @@ class Ground:
     kind: NDArray[np.uint8]
     piece: Ints
     along: NDArray[np.bool_]
-    names: tuple[str, ...] = ("asphalt", "pavement", "court", "grass", "line")
+    names: tuple[str, ...] = ("asphalt", "pavement", "court", "grass", "line", "field")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

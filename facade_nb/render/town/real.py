@@ -32,7 +32,7 @@ from .workers import Workers
 
 __all__ = ["real_houses"]
 
-_TREES = 1.4
+_TREES = 2.6
 """Trees for each house, at the most."""
 
 _SHED = 45.0

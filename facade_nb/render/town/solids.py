@@ -25,8 +25,9 @@ _ROUND = 0.17
 _WHEEL, _AXLE = 0.66, 0.14
 """How wide a wheel is, metres; which part of a side that wheels leave free lies before the first (``car.WheelRow``)."""
 
-_TREAD, _GROUND = (0.3, 0.18), 0.005
-"""Half the width of what shows of a wheel below the sill, above and below, and its lower edge (``car.Tread``)."""
+_TREAD, _GROUND = ((0.3, _SILL), (0.19, 0.06)), 0.005
+"""Half the width of what shows of a wheel below the sill, and at which height, metres; and its lowest point
+(``car.Tread``)."""
 
 _SHAPES = (
     # From the tail: where the rear window begins (metres) and ends, where the roof is highest, where the windscreen
@@ -40,7 +41,7 @@ _SHAPES = (
 RULES = (
     *(
         f"car.{name}"
-        for name in ("Side", "Cabin", "Screen", "Paint", "Front", "Back", "Nose", "Stern", "Tread")
+        for name in ("Side", "Cabin", "Screen", "Paint", "Corner", "Front", "Back", "Nose", "Stern", "Tread")
     ),
     *(f"car.{name}" for name in ("Lamp", "Tail", "NoseLit", "SternLit", "LampLit", "TailLit")),
     "hedge.Leaves",
@@ -97,15 +98,15 @@ def add_cars(faces: Faces, cars: Cars, places: Places, first: int) -> None:
             return [at(ahead, side * _HALF, up) for ahead, up in spots]
 
         wheels = [axle, long - axle]
-        below = [(own + sign * _TREAD[0], _SILL) for own in wheels for sign in (-1.0, 1.0)]
+        below = [(own + sign * _TREAD[0][0], _SILL) for own in wheels for sign in (-1.0, 1.0)]
         body = wall([
             (_ROUND, _SILL), *below, (nose, _SILL), (nose, _FRONT), (nose, nose_up), (cowl * long, belt), (tail, belt),
             (_ROUND, belt), (_ROUND, _BACK),
         ])  # fmt: skip
         add(body[turned], "x", -side, "car.Side")
-        for k, own in enumerate(wheels):
-            low = [(own - _TREAD[1], _GROUND), (own + _TREAD[1], _GROUND)]
-            add(wall([*low, *below[2 * k : 2 * k + 2][::-1]])[turned], "x", -side, "car.Tread")
+        for own in wheels:
+            left, right = ([(own + sign * aside, up) for aside, up in _TREAD] for sign in (-1.0, 1.0))
+            add(wall([*left, (own, _GROUND), *right[::-1]])[turned], "x", -side, "car.Tread")
         cabin = [
             at(ahead, side * half(up), up)
             for ahead, up in (
@@ -116,11 +117,11 @@ def add_cars(faces: Faces, cars: Cars, places: Places, first: int) -> None:
         add(cabin[turned], "x", -side, "car.Cabin")
         tip, edge = at(long, side * _END, _FRONT), at(nose, side * _HALF, _FRONT)
         low_tip, low_edge = at(long, side * _END, _SILL), at(nose, side * _HALF, _SILL)
-        add([low_edge, low_tip, tip, edge][turned], "y", 1.0, "car.Paint")
+        add([low_edge, low_tip, tip, edge][turned], "y", 1.0, "car.Corner")
         add([edge, tip, at(nose, side * _HALF, nose_up)][turned], "y", 1.0, lamps)
         tip, edge = at(0.0, side * _END, _BACK), at(_ROUND, side * _HALF, _BACK)
         low_tip, low_edge = at(0.0, side * _END, _SILL), at(_ROUND, side * _HALF, _SILL)
-        add([low_tip, low_edge, edge, tip][turned], "y", -1.0, "car.Paint")
+        add([low_tip, low_edge, edge, tip][turned], "y", -1.0, "car.Corner")
         add([tip, edge, at(_ROUND, side * _HALF, belt)][turned], "y", -1.0, tails)
     roof = [(own * long, half(up), up) for own, up in ((front, front_up), (mid, mid_up), (back, back_up))]
     window, screen, hood = (tail, _HALF, belt), (cowl * long, _HALF, belt), (nose, _HALF, nose_up)

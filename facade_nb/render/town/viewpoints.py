@@ -10,9 +10,10 @@ import numpy as np
 import shapely
 
 from ..pipeline.viewpoint import Viewpoint
+from .overview import from_afar
 from .plan import STREET, Plan
 from .roads import HALF, LANE
-from .things import PERSON
+from .things import LAMP, PERSON
 
 __all__ = ["VIEWS", "View", "viewpoint"]
 
@@ -44,9 +45,7 @@ def viewpoint(plan: Plan, view: View) -> Viewpoint:
         raise ValueError("there is no building to be looked at")
     spot, reach = _densest(plan)
     if view == "distance":
-        away = max(reach, 90.0)
-        eye = (spot[0] - 0.75 * away, 12.0 + 0.42 * away, -spot[1] + 0.95 * away)
-        return Viewpoint.towards(eye, (float(spot[0]), 0.0, float(-spot[1]) - 0.15 * away), 52.0)
+        return from_afar(plan, spot, max(reach, 90.0))
     if view == "street" and (found := _on_road(plan, spot)) is not None:
         return found
     corner, along, out, free, across = _street(plan, spot)
@@ -77,9 +76,10 @@ def _clear(
     along: np.ndarray,
     way: np.ndarray,
 ) -> tuple[float, float]:
-    """How far out of a wall and along it one stands: the first of a choice with no one in the way, else the freest."""
+    """How far out of a wall and along it one stands: the first of a choice with nobody in the way, else the freest."""
     best = -1.0, choice[0]
-    others = [(plan.cars.at, 0.0), (plan.things.at[plan.things.kind >= PERSON], 1.5)]
+    kind = plan.things.kind
+    others = [(plan.cars.at, 0.0), (plan.things.at[kind >= PERSON], 1.5), (plan.things.at[kind == LAMP], 2.8)]
     for far, side in choice:
         eye = start + out * far + along * side
         line = shapely.LineString([eye, eye + way])

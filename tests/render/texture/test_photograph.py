@@ -61,9 +61,18 @@ def test_the_light_of_an_hour_is_light(hour: float) -> None:
         daytime.indoors,
         daytime.zenith,
         daytime.horizon,
+        daytime.afterglow,
     ):
         assert min(colour) >= 0
     assert 0 <= daytime.lamps <= 1
+
+
+def test_a_sun_that_has_set_leaves_light_on_its_side_of_the_sky() -> None:
+    dusk = Daytime.at(20.75)
+    side = np.array([dusk.towards[0], 0.0, dusk.towards[2]], np.float32)
+    to, opposite, above = dusk.backdrop(np.array([side, -side, (0, 1, 0)], np.float32))
+    assert to[0] > 2 * to[2] > 2 * opposite[2] and opposite[2] > opposite[0] and above[2] > 1.5 * above[0]
+    assert sum(Daytime.at(24).afterglow) == 0 == sum(Daytime.at(13).afterglow)
 
 
 def test_the_day_goes_as_days_go() -> None:

@@ -135,7 +135,16 @@ def test_lamps_are_lit_of_cars_on_their_way_and_of_no_others(town: Town) -> None
         )
         assert near.max() < 2.6
     treads, _ = triangles_that_begin(town, "car.Tread")
-    assert len(treads) == 2 * wheels * len(cars) and treads[..., 1].min() < 0.01
+    assert len(treads) == 3 * wheels * len(cars) and treads[..., 1].min() < 0.01
+
+
+def test_wheels_are_round_below_the_sill(town: Town) -> None:
+    treads, _ = triangles_that_begin(town, "car.Tread")
+    own = treads.reshape(len(treads) // 3, 9, 3) if len(treads) % 3 == 0 else treads
+    middle = (own.min(axis=1) + own.max(axis=1)) / 2
+    for corners, at in zip(own[:40], middle[:40], strict=True):
+        out = np.hypot(np.hypot(*(corners - at)[:, [0, 2]].T), corners[:, 1] - 0.33)
+        assert out.max() < 0.335 and corners[:, 1].min() < 0.01
 
 
 def test_cornices_are_closed_and_end_at_walls(town: Town) -> None:
@@ -164,4 +173,4 @@ def test_what_it_takes(town: Town) -> None:
     )
     bare = build_mesh(plan, town.styles, town.grammar)
     more = town.vertices.nbytes + town.indices.nbytes - bare.vertices.nbytes - bare.indices.nbytes
-    assert 200 < more / len(plan) < 1050
+    assert 200 < more / len(plan) < 1100

@@ -21,7 +21,9 @@ void main() {
   out_air = vec4(seen.rgb + (1.0 - clamp(seen.a, 0.0, 1.0)) * clear_sky(normalize(ray)), 1.0);
 #else
   float clear = haze > 0.0 ? exp(-pow(depth * length(ray) / haze, 1.4)) : 1.0;
-  vec3 mist = mix(clear_sky(level(ray)), mist_along(ray), clear);  // furthest out it is the horizon itself
+  vec3 to = level(ray);
+  vec3 beyond_all = clear_sky(to);
+  vec3 mist = mix(beyond_all, mist_along(to, beyond_all), clear);  // furthest out it is the horizon itself
 #ifdef THROUGH
   float whole = clamp(seen.a, 0.0, 1.0);  // the rest is sky, after all that is seen through
   vec3 beyond = whole < 1.0 ? (1.0 - whole) * sky_along(ray) : vec3(0.0);

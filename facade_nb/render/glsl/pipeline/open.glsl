@@ -25,8 +25,8 @@ int painted(inout ivec2 rule) {
   return 0;
 }
 
-// `covers`: how much of the quad a pixel covers, metres.
-bool open(ivec2 rule, vec2 place, vec2 size, float covers) {
+// `covers`: how much of the quad a pixel covers, metres. `least`: what is less opaque is open.
+bool open(ivec2 rule, vec2 place, vec2 size, float covers, float least) {
   int tile = painted(rule);
   if (tile == 0) return false;
   vec4 shown = texelFetch(grammar, rule + ivec2(1, 0), 0);
@@ -39,5 +39,5 @@ bool open(ivec2 rule, vec2 place, vec2 size, float covers) {
   vec2 part = at - floor(at);
   float under = mix(alpha_at(box, low), alpha_at(box, low + ivec2(1, 0)), part.x);
   float over = mix(alpha_at(box, low + ivec2(0, 1)), alpha_at(box, low + ivec2(1, 1)), part.x);
-  return mix(under, over, part.y) < 0.5;
+  return mix(under, over, part.y) < least;
 }

@@ -19,7 +19,7 @@ layout(location = 3) out highp vec4 out_along;
 
 void main() {
   vec2 covers = fwidth(mesh_place);
-  if (mesh_turns == 1 && open(ivec2(mesh_rule.xy), mesh_place, mesh_size, max(covers.x, covers.y))) discard;
+  if (mesh_turns == 1 && open(ivec2(mesh_rule.xy), mesh_place, mesh_size, max(covers.x, covers.y), 0.5)) discard;
   out_place = vec4(mesh_place, mesh_size);
   out_rule = mesh_rule;
   out_facing = vec4(mesh_normal, dot(from_eye, forward));  // 0: there is nothing

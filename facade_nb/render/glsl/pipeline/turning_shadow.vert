@@ -19,7 +19,8 @@ flat out int mesh_turns;
 void main() {
   Standing own = standing(position, place - 0.5 * size, normal, tangent, towards, vec3(1.0, 0.0, 0.0));
   // What stands upright does not shade itself: it would, on one side, with teeth, for the camera sees it turned otherwise.
-  vec3 behind = tangent.y > 0.5 ? 0.5 * size.x * towards : vec3(0.0);
+  // What is slim is narrower than its quad: it stands nearer, so that its shadow begins at its feet.
+  vec3 behind = tangent.y > 0.5 ? (size.x < 1.2 ? 0.3 : 0.5) * size.x * towards : vec3(0.0);
   gl_Position = from_world * vec4(own.position - behind, 1.0);
   mesh_place = place;
   mesh_size = size;
