@@ -10,6 +10,7 @@ import pytest
 
 from facade_nb import solve
 from facade_nb.solver.resized import resized
+from facade_nb.solver.solution import forget
 from facade_nb.widgets import FacadeModel
 from facade_nb.widgets.shared.collecting import hold, release
 from facade_nb.widgets.studio.background import LatestSolver
@@ -47,6 +48,7 @@ def test_an_edit_keeps_it_back_and_lets_it_go(monkeypatch: pytest.MonkeyPatch) -
         told(self, outcome)  # type: ignore[arg-type]
 
     monkeypatch.setattr(LatestSolver, "_tell", tell)
+    forget()  # what is known to its end is not shown before
 
     async def session() -> None:
         model = FacadeModel(house(), solve=lambda design, **_: solve(design), quick=-1.0, known=resized)

@@ -146,6 +146,7 @@ def test_an_edit_is_shown_with_the_structure_that_there_was_before_it_is_searche
 @pytest.mark.parametrize("name", ["residential-house", "figure-7", "apartment-house"])
 def test_the_last_picture_is_that_of_the_layout_drawn_afresh(name: str) -> None:
     """Whatever came before it: the structure that there was, a picture that is kept, a search that was passed over."""
+    forget()
     design, draw = gallery.load(name), random.Random(name)
     sized = [symbol.name for symbol in design.symbols.values() if symbol.size is not None]
     shown: list[Layout] = []
