@@ -1,5 +1,6 @@
 // The player as it is seen: buttons, the stages, a track to scrub on, and a sentence for the event.
 
+import { copy } from "../shared/clipboard.ts";
 import { h, mark, setText } from "../shared/dom.ts";
 import { type IconName, icon, setIcon } from "../shared/icons.ts";
 import type { Asking } from "./asking.ts";
@@ -88,8 +89,9 @@ export function playbar(session: Session, player: Player, asking: Asking, signal
   unit.addEventListener("change", () => player.setUnit(unit.value as Unit));
   const link = control("Copy a link to this moment", "link", () => {
     const fragment = fragmentOf({ moment: timeline.momentOf(player.position), design: timeline.data.name });
-    void navigator.clipboard?.writeText(location.href.replace(/#.*$/, "") + fragment);
-    setText(count, "Link copied");
+    void copy(location.href.replace(/#.*$/, "") + fragment).then((done) =>
+      setText(count, done ? "Link copied" : "The browser does not let the link be copied"),
+    );
   });
   const count = h("span", { class: "fnb-play-count" });
 

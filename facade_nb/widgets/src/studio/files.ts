@@ -1,4 +1,4 @@
-// Files that the browser writes, and text for its clipboard.
+// Files that the browser writes.
 
 import { h } from "../shared/dom.ts";
 
@@ -16,16 +16,6 @@ export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
   const bytes = new Uint8Array(letters.length);
   for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
   return bytes;
-}
-
-/** Put text on the clipboard; whether the browser let us. */
-export async function copy(text: string): Promise<boolean> {
-  try {
-    await navigator.clipboard.writeText(text);
-    return true;
-  } catch {
-    return false;
-  }
 }
 
 /** A name that every file system takes. */

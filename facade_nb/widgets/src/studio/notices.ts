@@ -1,9 +1,10 @@
+import { copy } from "../shared/clipboard.ts";
 import { h, setText } from "../shared/dom.ts";
 import { button, faultLine } from "../shared/fields.ts";
 import type { Keeping } from "../shared/stage.ts";
 import type { Store } from "../shared/store.ts";
 import type { Fault, Reply } from "../shared/types.ts";
-import { copy, download } from "./files.ts";
+import { download } from "./files.ts";
 
 const BRIEFLY = 6000;
 /** Long enough to read it and to change one's mind. */

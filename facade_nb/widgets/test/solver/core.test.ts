@@ -131,6 +131,24 @@ describe("the bar of the player", () => {
     asking.set(bar, null);
     expect(caption?.textContent).toMatch(/^Horizontally/);
     expect(marks()).toBe(timeline.data.marks.length);
+    // A link is said to be copied where it was.
+    const told: string[] = [];
+    const kept = (writeText?: (text: string) => Promise<void>) =>
+      vi.stubGlobal("navigator", { clipboard: writeText && { writeText } });
+    const said = (expected: string) => {
+      bar.querySelector<HTMLElement>("[aria-label='Copy a link to this moment']")?.click();
+      return eventually(() => expect(bar.querySelector(".fnb-play-count")?.textContent).toBe(expected));
+    };
+    kept(async (text) => void told.push(text));
+    await said("Link copied");
+    expect(told[0]).toMatch(/#.+/);
+    for (const refused of [() => Promise.reject(new DOMException("denied", "NotAllowedError")), undefined]) {
+      kept(refused);
+      player.step(1);
+      player.step(-1);
+      await said("The browser does not let the link be copied");
+    }
+    vi.unstubAllGlobals();
     const track = bar.querySelector(".fnb-play-track");
     expect(track?.getAttribute("aria-valuenow")).toBe("1");
     track?.dispatchEvent(new KeyboardEvent("keydown", { key: "End" }));

@@ -114,6 +114,7 @@ class CandidatesView implements View {
   readonly controls: HTMLElement[];
   readonly quiz: Quiz;
   private readonly told: Record<Axis, Candidate[]>;
+  private readonly asked: Partial<Record<Axis, ReadonlyMap<string, Truth>>> = {};
   private readonly choice: AxisChoice;
   private readonly list: Rows<Candidate>;
   private readonly head = h("div", { role: "row", class: "fnb-candidate fnb-candidate-head" });
@@ -424,9 +425,14 @@ class CandidatesView implements View {
     return cell;
   }
 
+  /** Of all candidates of the axis: each row asks for it, and it never changes. */
   private truths(): ReadonlyMap<string, Truth> {
     const axis = this.choice.at(this.context.player.position);
-    const own = this.told[axis];
+    this.asked[axis] ??= this.truthsOf(this.told[axis]);
+    return this.asked[axis];
+  }
+
+  private truthsOf(own: readonly Candidate[]): ReadonlyMap<string, Truth> {
     const best = own.find((each) => each.fate === "best");
     const least = best?.cost ?? null;
     if (least === null) return new Map();

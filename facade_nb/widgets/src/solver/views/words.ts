@@ -67,6 +67,12 @@ export const words: ViewKind = {
   make: (context) => new WordsView(context),
 };
 
+interface Asked {
+  by: string;
+  truths: ReadonlyMap<string, Truth>;
+  hint: string;
+}
+
 class WordsView implements View {
   readonly el = h("div", { class: "fnb-words" });
   readonly controls: HTMLElement[];
@@ -96,6 +102,7 @@ class WordsView implements View {
   private axis: Axis | null = null;
   private judged = new Map<string, Judged>();
   private judgedBy = "";
+  private askedOf: Asked | null = null;
   private picked = "";
   private tuplesBy: string | null = null;
 
@@ -131,7 +138,7 @@ class WordsView implements View {
     const prompt = "Which words fit? Tick them; the shaded band is canvas ± μ.";
     this.quiz = new Quiz(() => {
       const from = context.timeline.begins("words", this.choice.at(context.player.position));
-      return [{ prompt, hint: this.hint(), truths: () => this.truths(), from }];
+      return [{ prompt, hint: this.asked().hint, truths: () => this.asked().truths, from }];
     });
   }
 
@@ -256,6 +263,13 @@ class WordsView implements View {
     }
     const { tuples, more } = combined(all, TUPLES);
     this.tuples.replaceChildren(tupleTable([...this.judged.keys()], tuples, more, axis));
+  }
+
+  /** What the question is of; each row asks for it, and it stays until words are judged anew. */
+  private asked(): Asked {
+    if (this.askedOf?.by !== this.judgedBy)
+      this.askedOf = { by: this.judgedBy, truths: this.truths(), hint: this.hint() };
+    return this.askedOf;
   }
 
   private truths(): ReadonlyMap<string, Truth> {
