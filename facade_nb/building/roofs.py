@@ -103,7 +103,14 @@ def roofing(layout: BuildingLayout) -> Roofing:
     triangles = np.concatenate(made.triangles)
     positions = vertices["position"][triangles].astype(np.float64)
     parts = vertices["start"][triangles[:, 0], 0].astype(np.int64)
-    return Roofing(positions, parts)
+    whole = _apart(positions)
+    return Roofing(positions[whole], parts[whole])
+
+
+def _apart(triangles: Floats) -> NDArray[np.bool_]:
+    """Which triangles (n, 3, 3) have three corners: where an eave shrinks to a point, the one beside it has two."""
+    sides = np.linalg.norm(triangles[:, [1, 2, 0]] - triangles, axis=2)
+    return np.asarray(sides.min(axis=1) > 1e-6)
 
 
 def _along(ring: Floats, front: NDArray[np.integer]) -> float:

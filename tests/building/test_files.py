@@ -18,6 +18,7 @@ from facade_nb.building.bodies import Frame, bodies_of, deepest
 from facade_nb.building.developed import GAP
 from facade_nb.building.mesh import parts_of
 from facade_nb.building.roofs import roofing
+from facade_nb.building.treatments import chamfer
 from facade_nb.render import elevation_svg
 from tests.building.houses import FRONT, SIDE, corner_house
 
@@ -213,3 +214,15 @@ def test_the_command_line_solves_a_building(tmp_path, capsys):
     source.write_text('{"format": "facade-nb/building/1", "height": 3}')
     assert main(["solve", str(source)]) == 2
     assert "plan: this field is missing" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", ["flat", "gable", "hip", "mansard"])
+def test_no_part_has_triangles_without_an_area(kind: str) -> None:
+    """Beside a corner that is cut, an eave of the roof shrinks to a point: no triangle is left of it."""
+    plan = Building.rectangle(
+        14, 9, SIDE, height=10, corners={0: ("chamfer", chamfer(ground=3.2, storey=2.9))}, roof=Roof(kind)
+    )
+    for part in parts_of(plan.solve()):
+        sides = np.diff(part.mesh.vertices[part.mesh.faces], axis=1)
+        assert np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1).min() > 1e-8
+        assert np.linalg.norm(part.mesh.normals, axis=-1) == pytest.approx(1)
