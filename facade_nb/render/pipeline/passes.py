@@ -134,7 +134,7 @@ class Pass:
 SHADOW = 1728
 """Texels of each side of a map of shadows."""
 
-LAMPS = 768
+LAMPS = 640
 """Texels of each side of the map of street lamps."""
 
 BUFFERS: tuple[Buffer, ...] = (
