@@ -29,7 +29,7 @@ def main(folder: Path) -> None:
     across = np.full((SIZE[1], GAP, 3), 255, np.uint8)
     rows = [np.concatenate([pictures[k], across, pictures[k + 1]], axis=1) for k in (0, 2)]
     between = np.full((GAP, rows[0].shape[1], 3), 255, np.uint8)
-    save_picture(np.concatenate([rows[0], between, rows[1]]), folder / "town.jpg")
+    save_picture(np.concatenate([rows[0], between, rows[1]]), folder / "town.jpg", quality=95)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Locator, expect
 
-from facade_nb.render.pipeline.passes import BUFFERS, PLAIN
+from facade_nb.render.pipeline.passes import BUFFERS, OUTDOORS
 
 from .conftest import Visit
 from .jupyter import Notebook
@@ -365,7 +365,7 @@ def test_the_pipeline_is_shown_live(town: Shown, out: Path) -> None:
     lab.shown()
     large = ".fnb-pipe .fnb-town-canvas"
     before = town.picture(large)
-    names = [own.name for own in BUFFERS if any(own.name in one.writes for one in PLAIN)]
+    names = [own.name for own in BUFFERS if any(own.name in one.writes for one in OUTDOORS)]
     thumbs = page.locator(".fnb-pipe-thumb")
     assert thumbs.evaluate_all("all => all.map(own => own.dataset.buffer)") == names
     for name in names:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..texture.daytime import Daytime
 from .scene import Scene
-from .sunlight import skylight, sunlight
+from .sunlight import from_above, skylight, sunlight
 from .viewpoint import Frustum
 
 __all__ = ["Frame", "Looks", "in_view", "runs_of", "visible"]
@@ -75,7 +75,7 @@ class Frame:
         if when == "shadow":
             return self.looks.shadow and any(self.daytime.sun)
         if when == "lamps":
-            return self.daytime.lamps > 0 and self.looks.lit
+            return self.daytime.lamps > 0 and self.looks.lit and self.scene.has_lamps
         return bool(not when or getattr(self.looks, when))
 
     def uniforms(self) -> dict[str, Any]:
@@ -95,6 +95,7 @@ class Frame:
             "sun_near": sun.near,
             "sun_far": sun.far,
             "sun_texel": sun.texels,
+            "above": from_above(frustum),
             "eye": tuple(map(float, frustum.eye)),
             "across": tuple(map(float, frustum.right)),
             "upward": tuple(map(float, frustum.up)),

@@ -134,9 +134,13 @@ class Pass:
 SHADOW = 1728
 """Texels of each side of a map of shadows."""
 
+LAMPS = 640
+"""Texels of each side of the map of street lamps."""
+
 BUFFERS: tuple[Buffer, ...] = (
     Buffer("shadow_near", 1, "depth", "How far the sun sees, around the camera.", SHADOW),
     Buffer("shadow_far", 1, "depth", "How far the sun sees, all over the scene.", SHADOW),
+    Buffer("lamp_map", 1, "depth", "How far the nearest street lamp is, seen from above.", LAMPS),
     Buffer("place", 4, "f4", "Where on its façade a pixel lies, and how large that is, metres."),
     Buffer("rule", 4, "f4", "With which rule its façade begins, and with which seed."),
     Buffer("facing", 4, "f4", "Which way its façade looks, and how deep it lies before the camera, metres."),
@@ -165,6 +169,8 @@ PASSES: tuple[Pass, ...] = (
          "turning_shadow.vert", "mesh", "sun_near", turning=True, adds=True, both=True, when="shadow"),
     Pass("leaves far", "turning_shadow.frag", (), ("shadow_far",), "Adds them to the other map.",
          "turning_shadow.vert", "mesh", "sun_far", turning=True, adds=True, both=True, when="shadow"),
+    Pass("lamp map", "lamp_map.frag", (), ("lamp_map",), "Notes how far the nearest street lamp is.",
+         "lamp_map.vert", "mesh", "above", turning=True, both=True, when="lamps"),
     Pass("G-buffer", "gbuffer.frag", (), (*_MESH, "depth"), "Draws the mesh, and notes what the grammar will ask.",
          "mesh.vert", "mesh", "camera"),
     Pass("leaves", "turning.frag", (), (*_MESH, "depth"), "Adds what turns to the camera, but where it is open.",
@@ -178,8 +184,8 @@ PASSES: tuple[Pass, ...] = (
     Pass("overhang", "overhang.frag", ("specular", "facing"), ("overhang",),
          "Looks what stands out of a wall before the sun.", when="relief"),
     Pass("light", "light.frag",
-         ("color", "normal", "specular", "facing", "softened", "overhang", "shadow_near", "shadow_far"), ("light",),
-         "Adds up sun, sky, ground and lamps.", options=("relief",), seen="depth"),
+         ("color", "normal", "specular", "facing", "softened", "overhang", "shadow_near", "shadow_far", "lamp_map"),
+         ("light",), "Adds up sun, sky, ground and lamps.", options=("relief", "lamps"), seen="depth"),
     Pass("pools", "pools.frag", ("color", "normal", "facing"), ("light",), "Adds pools of light around street lamps.",
          "pools.vert", "mesh", "camera", turning=True, adds=True, sums=True, when="lamps"),
     Pass("air", "air.frag", ("light", "facing"), ("air",), "Lets haze take what is far.", seen="depth"),
@@ -190,8 +196,13 @@ PASSES: tuple[Pass, ...] = (
 )  # fmt: skip
 """The pipeline."""
 
-PLAIN: tuple[Pass, ...] = tuple(own for own in PASSES if own.when != "relief")
-"""The same for who never draws relief: a page."""
+PLAIN: tuple[Pass, ...] = tuple(own for own in PASSES if own.when not in ("relief", "lamps"))
+"""The same for who never draws relief, nor street lamps: a building on a page."""
+
+OUTDOORS: tuple[Pass, ...] = tuple(
+    replace(own, defines=("LAMPS",)) if own.name == "light" else own for own in PASSES if own.when != "relief"
+)
+"""The same for a town on a page."""
 
 
 def arranged(passes: Sequence[Pass] = PASSES, buffers: Sequence[Buffer] = BUFFERS) -> tuple[Pass, ...]:

@@ -180,8 +180,8 @@ class Renderer:
             return {name: self._read(name) for name in wanted if name in written}
 
     def _unchanged(self, own: Pass, uniforms: dict[str, Any]) -> bool:
-        """Whether a map of shadows is still that of the last picture: it depends on its matrix alone."""
-        if own.draws != "mesh" or not own.through.startswith("sun"):
+        """Whether a map of shadows or lamps is still that of the last picture: it depends on its matrix alone."""
+        if own.draws != "mesh" or not own.through.startswith(("sun", "above")):
             return False
         matrix = uniforms[own.through].tobytes()
         same = self._maps.get(own.name) == matrix

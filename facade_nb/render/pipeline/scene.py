@@ -15,7 +15,7 @@ from ..texture.joining import joined
 from ..texture.noise import Seed
 from ..texture.question import Question
 from ..texture.uploads import Upload, seeds_upload
-from .vertices import VERTEX, turning
+from .vertices import LAMP, VERTEX, turning
 
 __all__ = ["CHUNK", "Scene"]
 
@@ -83,6 +83,14 @@ class Scene:
             return np.zeros(0, bool)
         first = self.indices[self.chunks["first"]]
         return turning(self.vertices[first])
+
+    @cached_property
+    def has_lamps(self) -> bool:
+        """Whether there are street lamps in it."""
+        if not self.turning.any():
+            return False
+        alike = (np.abs(self.vertices["size"] - LAMP) < 1e-3).all(axis=1)
+        return bool(turning(self.vertices[alike]).any())
 
     @cached_property
     def box(self) -> NDArray[np.float64]:

@@ -70,7 +70,7 @@ def still(
         drawn = renderer.draw(Frame(renderer.scene, part, daytime, size, looks), (name,))[name]
         edge = rim * samples
         inner = drawn[edge : edge + tall * samples, edge : edge + wide * samples, : found.shape[2]]
-        found[top : top + tall, left : left + wide] = _mean(inner, samples)
+        found[top : top + tall, left : left + wide] = _mean(inner, samples, (left, top))
         if tell is not None:
             tell((number + 1) / len(pieces))
     return found
@@ -93,8 +93,12 @@ def _pieces(pixels: tuple[int, int], samples: int, rim: int) -> Iterator[tuple[i
             yield left, top, min(side, width - left), min(side, height - top), rim
 
 
-def _mean(pixels: NDArray[np.uint8], samples: int) -> NDArray[np.uint8]:
-    """Means of `samples` × `samples` pixels; colours count as much as their alpha, where there is one."""
+def _mean(pixels: NDArray[np.uint8], samples: int, first: tuple[int, int]) -> NDArray[np.uint8]:
+    """Means of `samples` × `samples` pixels; colours count as much as their alpha, where there is one.
+
+    Without alpha, what is left of a mean is rounded by a grain, as in ``tone.frag``: else bands in a sky that its grain
+    has dissolved would come back. `first`: column and row in the whole picture.
+    """
     if samples == 1:
         return pixels
     height, width, channels = pixels.shape[0] // samples, pixels.shape[1] // samples, pixels.shape[2]
@@ -105,7 +109,12 @@ def _mean(pixels: NDArray[np.uint8], samples: int) -> NDArray[np.uint8]:
 
     count = samples * samples
     if channels == 3:
-        return ((2 * sums(pixels) + count) // (2 * count)).astype(np.uint8)
+        column, row = (
+            np.arange(own, own + size, dtype=np.uint32)
+            for own, size in zip(first, (width, height), strict=True)
+        )
+        grain = (column * np.uint32(3242174889) + (row * np.uint32(2447445414))[:, None]) >> np.uint32(24)
+        return ((256 * sums(pixels) + count * grain[..., None]) // (256 * count)).astype(np.uint8)
     alpha = sums(pixels[..., 3:])
     colour = sums(pixels[..., :3].astype(np.uint32) * pixels[..., 3:])
     mean = (2 * colour + alpha) // np.maximum(2 * alpha, 1)
@@ -175,6 +184,7 @@ LOOK_AT: Mapping[str, Callable[[Values, Frame], Values]] = MappingProxyType(
     {
         "shadow_near": lambda values, _: _grey(values[..., 0]),
         "shadow_far": lambda values, _: _grey(values[..., 0]),
+        "lamp_map": lambda values, _: _grey(1 - values[..., 0]),
         "depth": lambda values, _: _grey(np.clip((1 - values[..., 0]) * 40, 0, 1)),
         "place": _place,
         "rule": _hashed,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from .passes import SHADOW
 from .viewpoint import Frustum
 
-__all__ = ["MAPS", "Sunlight", "skylight", "sunlight"]
+__all__ = ["MAPS", "Sunlight", "from_above", "skylight", "sunlight"]
 
 _NEAR, _RISE, _MOST = 60.0, 1.6, 700.0
 """Half the side of the fine map, metres: for an eye on the ground, more for each metre above that, at most."""
@@ -24,10 +24,16 @@ _STANDS = 2.0
 _FAR, _WIDER = 3000.0, 10.0
 """Half the side of the coarse map, metres, at most; and so many times that of the fine one it is."""
 
+_ABOVE, _EACH = 2048.0, 256.0
+"""Half the side of the map of street lamps, and by how much it moves with the eye, metres: whole texels."""
+
 _PAD = 0.1
 """Metres around what a view of all of it shows."""
 
-MAPS = {"near": _NEAR, "rise": _RISE, "stands": _STANDS, "most": _MOST, "far": _FAR, "wider": _WIDER}
+MAPS = {
+    "near": _NEAR, "rise": _RISE, "stands": _STANDS, "most": _MOST, "far": _FAR, "wider": _WIDER, "above": _ABOVE,
+    "each": _EACH,
+}  # fmt: skip
 """The same, for who draws the maps elsewhere."""
 
 
@@ -82,6 +88,16 @@ def _stepped(wanted: float) -> float:
     while half < min(wanted, _MOST):
         half *= sqrt(2.0)
     return half
+
+
+def from_above(frustum: Frustum) -> NDArray[np.float64]:
+    """The view (4, 4) of street lamps around the eye: east is right, north up. What it shows has no depth."""
+    x, z = (np.round(float(frustum.eye[k]) / _EACH) * _EACH / _ABOVE for k in (0, 2))
+    matrix = np.zeros((4, 4))
+    matrix[0, 0], matrix[0, 3] = 1 / _ABOVE, -x
+    matrix[1, 2], matrix[1, 3] = -1 / _ABOVE, z
+    matrix[3, 3] = 1.0
+    return matrix
 
 
 def skylight(towards: tuple[float, float, float], box: NDArray[np.float64], rays: int) -> dict[str, Any]:

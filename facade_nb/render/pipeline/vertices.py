@@ -44,6 +44,9 @@ tangent
 Triangles are counter-clockwise where their front is seen.
 """
 
+LAMP = np.array((0.8, 4.4), np.float32)
+"""Width and height of a street lamp, metres: nothing else that turns has them."""
+
 SEEDS = 1 << 20
 """A seed is below so many steps of 1/64 m."""
 

@@ -124,8 +124,13 @@ def flat(
     return (image[..., :3] * alpha + np.float32(245) * (1 - alpha) + np.float32(0.5)).astype(np.uint8)
 
 
-def save_picture(pixels: NDArray[np.uint8], path: str | Path) -> None:
+def save_picture(pixels: NDArray[np.uint8], path: str | Path, quality: int = 88) -> None:
     """Write pixels (h, w, 3) as a picture, atomically: JPEG where the name ends in ``.jpg``, else PNG.
+
+    Parameters
+    ----------
+    quality
+        Of a JPEG. A smooth sky has bands, as wide as JPEG's blocks, below 95.
 
     Raises
     ------
@@ -136,7 +141,7 @@ def save_picture(pixels: NDArray[np.uint8], path: str | Path) -> None:
 
     stream = BytesIO()
     if str(path).lower().endswith((".jpg", ".jpeg")):
-        Image.fromarray(pixels).save(stream, "JPEG", quality=88, optimize=True, progressive=True)
+        Image.fromarray(pixels).save(stream, "JPEG", quality=quality, optimize=True, progressive=True)
     else:
         Image.fromarray(pixels).save(stream, "PNG")
     write_atomically(path, stream.getvalue())

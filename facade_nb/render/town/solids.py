@@ -29,6 +29,9 @@ _TREAD, _GROUND = ((0.3, _SILL), (0.19, 0.06)), 0.005
 """Half the width of what shows of a wheel below the sill, and at which height, metres; and its lowest point
 (``car.Tread``)."""
 
+_UNDER, _ENDS, _SIDES = 0.012, 0.15, 0.06
+"""How high above the ground lies what is dark below a car, and how far within its ends and sides, metres."""
+
 _SHAPES = (
     # From the tail: where the rear window begins (metres) and ends, where the roof is highest, where the windscreen
     # ends and begins, as parts of the length; heights of the roof there, of the bonnet's end, and below the windows.
@@ -41,7 +44,19 @@ _SHAPES = (
 RULES = (
     *(
         f"car.{name}"
-        for name in ("Side", "Cabin", "Screen", "Paint", "Corner", "Front", "Back", "Nose", "Stern", "Tread")
+        for name in (
+            "Side",
+            "Cabin",
+            "Screen",
+            "Paint",
+            "Corner",
+            "Front",
+            "Back",
+            "Nose",
+            "Stern",
+            "Tread",
+            "Under",
+        )
     ),
     *(f"car.{name}" for name in ("Lamp", "Tail", "NoseLit", "SternLit", "LampLit", "TailLit")),
     "hedge.Leaves",
@@ -135,6 +150,8 @@ def add_cars(faces: Faces, cars: Cars, places: Places, first: int) -> None:
     add(across((_ROUND, _HALF, belt), window)[::-1], "y", -1.0, "car.Paint")
     add(across((0.0, _END, _BACK), (_ROUND, _HALF, belt))[::-1], "y", -1.0, ("car.Stern", "car.SternLit"))
     add(across((0.0, _END, _SILL), (0.0, _END, _BACK))[::-1], "y", -1.0, "car.Back")
+    wide = _HALF - _SIDES
+    add(across((long - _ENDS, wide, _UNDER), (_ENDS, wide, _UNDER)), "y", 1.0, "car.Under")
 
 
 def add_hedges(faces: Faces, hedges: Hedges, places: Places, first: int) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...render.pipeline.frame import Looks
-from ...render.pipeline.passes import BUFFERS, PLAIN, SHADOW
+from ...render.pipeline.passes import BUFFERS, OUTDOORS, SHADOW
 from ...render.pipeline.sunlight import MAPS
 from ...render.pipeline.vertices import VERTEX
 from ...render.pipeline.viewpoint import Viewpoint
@@ -95,7 +95,7 @@ def head_piece(model: TownModel, blobs: dict[str, Blob]) -> bytes:
     chunks, scene = model.source.chunks, model.scene
     offsets, numbers = needs_of(model)
     head: dict[str, Any] = {
-        "passes": passes_of(PLAIN),
+        "passes": passes_of(OUTDOORS),
         "buffers": [asdict(own) for own in BUFFERS],
         "shaders": _shaders(model),
         "hours": hours(),
@@ -178,7 +178,7 @@ def _shaders(model: TownModel) -> dict[str, str]:
     question = question_of(model.grammar)
     frames, seeds = map(room, question.stacks)
     rooms = rooms_for(question.rooms)
-    return shaders_of(PLAIN, frames=frames, seeds=seeds, rooms=rooms, bits=model.grammar.encoding.bits)
+    return shaders_of(OUTDOORS, frames=frames, seeds=seeds, rooms=rooms, bits=model.grammar.encoding.bits)
 
 
 def _textures(model: TownModel) -> dict[str, Any]:

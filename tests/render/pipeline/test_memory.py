@@ -13,6 +13,7 @@ from facade_nb.render.pipeline.device import choose_device
 from facade_nb.render.pipeline.frame import Frame
 from facade_nb.render.pipeline.passes import (
     BUFFERS,
+    LAMPS,
     PASSES,
     SHADOW,
     Buffer,
@@ -94,7 +95,7 @@ def test_a_picture_is_the_same_whatever_else_is_read() -> None:
 
 
 def test_bytes_of_a_pixel() -> None:
-    maps = 2 * SHADOW * SHADOW * 4
+    maps = 2 * SHADOW * SHADOW * 4 + LAMPS * LAMPS * 4
     assert image_bytes(PIXELS) == maps + 94 * 1024 * 768
     assert image_bytes(PIXELS, whole=ALL) == maps + 111 * 1024 * 768
 

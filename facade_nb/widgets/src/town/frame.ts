@@ -119,6 +119,12 @@ function parallel(
   ]);
 }
 
+/** The view of street lamps around the eye: east is right, north up. */
+function fromAbove([x, , z]: Vector, { above, each }: Head["sunlight"]): Matrix {
+  const [east, south] = [x, z].map((value) => (even(value / each) * each) / above) as [number, number];
+  return new Float64Array([1 / above, 0, 0, -east, 0, 0, -1 / above, south, 0, 0, 0, 0, 0, 0, 0, 1]);
+}
+
 /** The light of an hour, between those that Python has told. */
 export function daylight(hours: Light[], hour: number): Light {
   const light = lightAt(hours, hour);
@@ -147,6 +153,7 @@ export function uniformsOf(
     sun_near: sun.near,
     sun_far: sun.far,
     sun_texel: sun.texels,
+    above: fromAbove(frustum.eye, head.sunlight),
     haze: head.looks.haze,
     reach: head.looks.reach,
     shades: [Number(looks.shadow && isDay(light)), Number(looks.occlusion)],

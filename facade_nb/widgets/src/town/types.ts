@@ -45,7 +45,7 @@ export interface Head {
   /** Sources by pass: `grammar:fragment`. */
   shaders: Record<string, string>;
   hours: Light[];
-  sunlight: Record<"near" | "rise" | "stands" | "most" | "far" | "wider" | "side", number>;
+  sunlight: Record<"near" | "rise" | "stands" | "most" | "far" | "wider" | "side" | "above" | "each", number>;
   looks: { haze: number; reach: number };
   stride: number;
   attributes: Record<string, [count: number, offset: number]>;
