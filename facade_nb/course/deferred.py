@@ -25,7 +25,7 @@ def _order(answer: object) -> str:
     if sorted(map(str, answer)) != sorted(STEPS):
         return f"Expected each of {', '.join(STEPS)} once; found {answer!r}."
     by_name = {own.name: own for own in PASSES}
-    written = {"softened", "overhang", "shadow_near", "shadow_far"}
+    written = {"softened", "overhang", "shadow_near", "shadow_far", "lamp_map"}
     for name in answer:
         own = by_name[name]
         if missing := [buffer for buffer in own.reads if buffer not in written]:
