@@ -42,6 +42,12 @@ describe("a question", () => {
     }
   });
 
+  it.each(["words", "candidates"])("is worked out once, not for each row: %s", async (kind) => {
+    const { quiz } = await asked(kind, "residential-house");
+    expect(quiz.truths.size).toBeGreaterThan(1);
+    expect(quiz.truths).toBe(quiz.truths);
+  });
+
   it("about words is of all words, wherever one stands in time", async () => {
     const { quiz } = await asked("words", "residential-house");
     const all = quiz.truths.size;
