@@ -169,6 +169,17 @@ class LatestSolver:
             return self._condition.wait_for(lambda: self._thread is None, timeout)
 
     def _work(self) -> None:
+        try:
+            self._serve()
+        except BaseException:  # who is told has failed: a later submission begins anew
+            with self._condition:
+                release(self)
+                self._thread = None
+                self._condition.notify_all()
+            raise
+
+    def _serve(self) -> None:
+        """Solve what is submitted until nothing waits."""
         while True:
             with self._condition:
                 if self._next is None:

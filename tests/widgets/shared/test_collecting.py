@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import threading
 from collections.abc import Iterator
 
 import pytest
@@ -13,7 +14,7 @@ from facade_nb.solver.resized import resized
 from facade_nb.solver.solution import forget
 from facade_nb.widgets import FacadeModel
 from facade_nb.widgets.shared.collecting import hold, release
-from facade_nb.widgets.studio.background import LatestSolver
+from facade_nb.widgets.studio.background import LatestSolver, Outcome
 
 from ..houses import house
 
@@ -63,3 +64,21 @@ def test_an_edit_keeps_it_back_and_lets_it_go(monkeypatch: pytest.MonkeyPatch) -
     asyncio.run(session())
     assert during == [False, True]  # at once, and after the search
     assert gc.isenabled()
+
+
+def test_it_goes_on_where_nobody_can_be_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The thread ends with what its listener raised; the collector is let go, and the next submission is solved."""
+    monkeypatch.setattr(threading, "excepthook", lambda _: None)
+    told: list[int] = []
+
+    def deliver(outcome: Outcome) -> None:
+        told.append(outcome.revision)
+        if outcome.revision == 1:
+            raise RuntimeError("the loop is closed")
+
+    solver = LatestSolver(deliver, lambda design, **_: solve(design))
+    solver.submit(1, house(), first=1.0)
+    assert solver.join() and gc.isenabled()
+    solver.submit(2, house(), first=1.0)
+    assert solver.join() and gc.isenabled()
+    assert told == [1, 2]
