@@ -321,7 +321,7 @@ class _Pen:
         opening = None
         if self.solid.geometry.cuts and not self.solid.geometry.full:
             opening = max(silhouette(self.solid.parts), key=len) if self._lies_back() else None
-        shade = self._shapes(shade_on(parts, self.solid.parts, LIGHT, opening))
+        shade = self._shapes(shade_on(tuple(parts), self.solid.parts, LIGHT, opening))
         if not shade:
             return ""
         opacity = min(1.3 * self.style.shade, 0.6)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from ..design.errors import Fault
 from ..solver.model.layout import PlacedShape
+from .parts import Part
 from .seating import FOOT, LEAST, Slope, room_up, seat
 from .standing import Solid, parts_of, place_of, size_of, solid_of
 
@@ -116,16 +118,22 @@ def _outline(shape: PlacedShape, width: float, height: float) -> NDArray[np.floa
     """The places of the façade that a shape takes if it is so high."""
     import numpy as np
 
-    from .meshing import mesh_parts
-
     left, bottom = shape.rect[:2]
     corners = np.array([(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)])
     if shape.geometry.startswith("dormer"):
         parts = parts_of(shape.geometry, round(width, 6), round(height, 6), 1.0, shape.mirrored)
-        points = mesh_parts(parts).vertices[:, :2] if parts else corners
+        points = _places(parts) if parts else corners
     else:
         points = corners
     return np.maximum(points, (-np.inf, 0.0)) + np.array([left, bottom])
+
+
+@lru_cache(maxsize=64)
+def _places(parts: tuple[Part, ...]) -> NDArray[np.float64]:
+    """Where the corners of parts are seen, (n, 2): dormers of one size share them."""
+    from .meshing import mesh_parts
+
+    return mesh_parts(parts).vertices[:, :2]
 
 
 def _in_slope(solid: Solid, shape: PlacedShape, slope: Slope) -> Solid:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from itertools import pairwise
+from math import atan2
 from typing import Any
 
 from .parts import Block, Loft, Part, Point, Polyhedron, Ring, front, outline
@@ -38,7 +40,8 @@ def covered(parts: Iterable[Part]) -> Any:
     """All that parts cover, as one shapely geometry."""
     import shapely
 
-    return shapely.union_all([polygon_of(part) for part in parts], grid_size=_GRID)
+    found = [polygon_of(part) for part in parts]
+    return found[0] if len(found) == 1 else shapely.union_all(found, grid_size=_GRID)
 
 
 def silhouette(parts: Iterable[Part]) -> tuple[tuple[Point, ...], ...]:
@@ -68,8 +71,12 @@ def pieces(parts: Iterable[Part]) -> list[tuple[Point, ...]]:
     return found
 
 
+@lru_cache(maxsize=256)
 def shade_on(
-    receivers: Sequence[Part], parts: Iterable[Part], light: Point, opening: Sequence[Point] | None = None
+    receivers: tuple[Part, ...],
+    parts: tuple[Part, ...],
+    light: Point,
+    opening: tuple[Point, ...] | None = None,
 ) -> Any:
     """What of parts of one depth lies in the shadow of those in front of them.
 
@@ -89,32 +96,35 @@ def shade_on(
     shapely geometry
         In the frame of the shape.
     """
+    import numpy as np
     import shapely
     from shapely.affinity import translate
 
     level = front(receivers[0])
     field = covered(receivers)
-    shadows = []
+    shadows: list[Any] = []
+    spots: list[list[Point]] = []  # of convex parts, which pass over no more than lies between their corners
     for part in parts:
         if front(part) < level + 0.03 or (isinstance(part, Block) and _slight(part)):
             continue
-        if isinstance(part, Loft | Polyhedron):
-            spots = [(x, y, max(z - level, 0.0)) for x, y, z in part.points]
-            swept = shapely.MultiPoint(
-                [(x + t * light[0], y - t * light[1]) for x, y, t in spots]
-            ).convex_hull
-            shadows.append(swept)
-            continue
-        near = max(getattr(part, "z0", level) - level, 0.0)
-        shadows.append(_swept(polygon_of(part), near, front(part) - level, light))
+        match part:
+            case Loft() | Polyhedron():
+                corners = [(x, y, max(z - level, 0.0)) for x, y, z in part.points]
+            case _:
+                near, far = max(getattr(part, "z0", level) - level, 0.0), front(part) - level
+                if isinstance(part, Ring) or not _convex(outline(part)):
+                    shadows.append(_swept(polygon_of(part), near, far, light))
+                    continue
+                corners = [(x, y, t) for x, y in outline(part) for t in (near, far)]
+        spots.append([(x + t * light[0], y - t * light[1]) for x, y, t in corners])
+    if spots:
+        owners = np.repeat(np.arange(len(spots)), [len(own) for own in spots])
+        points = shapely.points(np.array([spot for own in spots for spot in own]))
+        shadows.extend(shapely.convex_hull(shapely.multipoints(points, indices=owners)))
     if opening is not None and level < 0:
         lit = translate(shapely.Polygon(opening), -level * light[0], level * light[1])
         shadows.append(field.difference(lit))
-    return (
-        shapely.union_all([shadow.intersection(field) for shadow in shadows])
-        if shadows
-        else shapely.Polygon()
-    )
+    return shapely.union_all(shapely.intersection(shadows, field)) if shadows else shapely.Polygon()
 
 
 def _slight(part: Block) -> bool:
@@ -127,10 +137,26 @@ def _swept(shape: Any, near: float, far: float, light: Point) -> Any:
     from shapely.affinity import translate
 
     (ax, ay), (bx, by) = ((t * light[0], -t * light[1]) for t in (near, far))
-    pieces = [translate(shape, ax, ay), translate(shape, bx, by)]
-    for polygon in shapely.get_parts(shape):
-        for ring in (polygon.exterior, *polygon.interiors):
-            for (px, py), (qx, qy) in pairwise(ring.coords):
-                corners = [(px + ax, py + ay), (qx + ax, qy + ay), (qx + bx, qy + by), (px + bx, py + by)]
-                pieces.append(shapely.MultiPoint(corners).convex_hull)
-    return shapely.union_all([piece for piece in pieces if piece.area > 0])
+    ends = [translate(shape, ax, ay), translate(shape, bx, by)]
+    sides = [
+        ((px + ax, py + ay), (qx + ax, qy + ay), (qx + bx, qy + by), (px + bx, py + by))
+        for polygon in shapely.get_parts(shape)
+        for ring in (polygon.exterior, *polygon.interiors)
+        for (px, py), (qx, qy) in pairwise(ring.coords)
+    ]
+    swept = shapely.polygons(sides)
+    return shapely.union_all([*ends, *swept[shapely.area(swept) > 0]])
+
+
+def _convex(points: Sequence[Point]) -> bool:
+    """Whether an outline turns to one side only, and goes around once."""
+    turns, around = set(), 0.0
+    for (px, py), (qx, qy), (rx, ry) in zip(
+        points, (*points[1:], points[0]), (*points[2:], *points[:2]), strict=True
+    ):
+        cross = (qx - px) * (ry - qy) - (qy - py) * (rx - qx)
+        along = (qx - px) * (rx - qx) + (qy - py) * (ry - qy)
+        around += atan2(cross, along)
+        if abs(cross) > _GRID**2:
+            turns.add(cross > 0)
+    return len(turns) == 1 and abs(around) < 7.0
