@@ -120,6 +120,25 @@ def test_ground_far_from_lamps_is_dark() -> None:
     assert abs(light.sum(axis=2).mean() / found[15.0] - 1) < 0.1
 
 
+def test_light_far_away_does_not_jump_where_the_map_moves() -> None:
+    """The map moves by 256 m where the eye passes 128 m: lamps 1.6 to 1.8 km away are as bright as before."""
+    looks = Looks(haze=0.0, occlusion=False, smooth=False, shadow=False)
+    daytime = replace(Daytime.at(23.0), sky=(0.0, 0.0, 0.0))
+    for far in (1600.0, 1700.0, 1800.0):
+        own = scene((0.8, 4.4), east=far + 10)
+        own.vertices["position"][:4] += np.float32((far, 0, 0))
+        own.chunks["low"][0, 0] += far
+        own.chunks["high"][0, 0] += far
+        found = []
+        with renderer_of(own, choose_device()) as renderer:
+            for x in (127.9, 128.1):
+                frustum = Viewpoint.towards((x, 400.0, 0.1), (far, 0.0, 0.0), 2.0).frustum(PIXELS)
+                drawn = renderer.draw(Frame(own, frustum, daytime, PIXELS, looks), ["light"])["light"]
+                found.append(float(drawn[PIXELS[1] // 2, PIXELS[0] // 2, :3].sum()))
+        assert found[0] > 0
+        assert found[1] == pytest.approx(found[0], rel=0.01)
+
+
 def test_an_evenings_sky_has_no_bands() -> None:
     """Over any 8 × 8 pixels the mean is what was drawn, not the nearest of 256 steps."""
     own = scene((0.7, 4.4))

@@ -86,7 +86,7 @@ void main() {
   tint.rgb /= max(covers, 1e-6);
 #endif
 #ifdef LAMPS
-  float lamps_near = lamps.y > 0.0 ? lamp_share(point) : 0.0;
+  float lamps_near = lamps.y > 0.0 ? lamp_share(point, length(point.xz - eye.xz)) : 0.0;
 #else
   float lamps_near = 1.0;  // no lamp is known
 #endif
